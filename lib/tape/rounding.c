@@ -1,6 +1,7 @@
 /* rounding.c -- running error analysis of a tape; factors that make its errors visible. */
 #include "tape/rounding.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -101,20 +102,53 @@ slope_times(double slope, double by)
     return by == 0 ? 0 : slope * by;
 }
 
-/* The error of a result, from those of the operands. */
-static double
-result_error(const qdot_instruction *i, const results *r, int result, const double *errors)
+static bool
+adds_only(uint32_t op)
 {
-    const double *slope = r->slope[result], sum = own(i->op) * unit * r->value[result],
-                 product = unit * r->product;
-    double square = sum * sum + product * product;
+    return op == QDOT_OP_ADD || op == QDOT_OP_SUB;
+}
 
-    for (int k = 0; k < qdot_operations[i->op].operands; k++) {
-        const double by = slope_times(slope[k], errors[operand_place(i, k)]);
+/* What a result loses, or the product within it, where it is below the least normal double. A sum of two doubles is
+ * exact there, and a zero of an operand that is 0 is one. */
+static double
+underflow_of(const qdot_instruction *i, const results *r, int result, const double *work)
+{
+    const double small = adds_product(i->op) ? r->product : r->value[result];
+    const int factors = adds_product(i->op) ? 2 : qdot_operations[i->op].operands;
 
-        square += by * by;
+    if (!(fabs(small) < DBL_MIN) || adds_only(i->op) || own(i->op) == 0)
+        return 0;
+    for (int k = 0; k < factors; k++)
+        if (work[operand_place(i, k)] == 0)
+            return 0;
+    return DBL_TRUE_MIN;
+}
+
+/* The error of a result that is rounded by so much of it and has lost so much, from those of the operands: the root of
+ * the sum of squares, which might underflow. */
+static double
+result_error(const qdot_instruction *i, const results *r, int result, double rounding, double lost,
+             const double *errors)
+{
+    enum { OWN, PRODUCT, LOST, FROM_OPERANDS };
+    const int operands = qdot_operations[i->op].operands;
+    double by[FROM_OPERANDS + OPERANDS] = {0}, most = 0, square = 0;
+
+    by[OWN] = own(i->op) * rounding * r->value[result];
+    by[PRODUCT] = rounding * r->product;
+    by[LOST] = lost;
+    for (int k = 0; k < operands; k++)
+        by[FROM_OPERANDS + k] = slope_times(r->slope[result][k], errors[operand_place(i, k)]);
+    for (int k = 0; k < FROM_OPERANDS + operands; k++) {
+        if (isnan(by[k]))
+            return by[k];
+        most = fmax(most, fabs(by[k]));
     }
-    return sqrt(square);
+    if (most == 0 || isinf(most))
+        return most;
+    for (int k = 0; k < FROM_OPERANDS + operands; k++)
+        square += by[k] / most * (by[k] / most);
+    return most * sqrt(square);
 }
 
 static void
@@ -126,25 +160,19 @@ rounding_load(const qdot_tape *tape, const double *in, double *work)
         memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
 }
 
-void
-qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_in, double *bounds,
-                     double *work)
+/* The errors of all results behind their values in work. */
+static void
+rounding_carry_out(const qdot_tape *tape, double rounding, double *work)
 {
     double *errors = work + tape->places;
     results r = {0};
 
-    rounding_load(tape, in, work);
-    memset(errors, 0, tape->places * sizeof *errors);
-    if (of_in)
-        memcpy(errors, of_in, tape->inputs * sizeof *errors);
-    for (size_t k = 0; k < tape->constants; k++)
-        errors[tape->inputs + k] = fabs(tape->low[k]);
     for (const qdot_instruction *i = tape->code; i < tape->code + tape->length; i++) {
         double e[2];
 
         instruction_look(i, work, &r);
         for (int k = 0; k < 2; k++)
-            e[k] = result_error(i, &r, k, errors);
+            e[k] = result_error(i, &r, k, rounding, underflow_of(i, &r, k, work), errors);
         work[i->to] = r.value[0];
         errors[i->to] = e[0];
         if (i->op == QDOT_OP_SINCOS) {
@@ -152,11 +180,38 @@ qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_i
             errors[i->y] = e[1];
         }
     }
+}
+
+void
+qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_in, double *bounds,
+                     double *work)
+{
+    double *errors = work + tape->places;
+
+    rounding_load(tape, in, work);
+    memset(errors, 0, tape->places * sizeof *errors);
+    if (of_in)
+        memcpy(errors, of_in, tape->inputs * sizeof *errors);
+    for (size_t k = 0; k < tape->constants; k++)
+        errors[tape->inputs + k] = fabs(tape->low[k]);
+    rounding_carry_out(tape, unit, work);
     for (size_t k = 0; k < tape->outputs; k++) {
         const double e = errors[tape->output[k]];
 
         bounds[k] = 2 * fmax(isfinite(e) ? e : 0, unit * fabs(work[tape->output[k]]));
     }
+}
+
+void
+qdot_rounding_underflows(const qdot_tape *tape, const double *in, double *bounds, double *work)
+{
+    double *errors = work + tape->places;
+
+    rounding_load(tape, in, work);
+    memset(errors, 0, tape->places * sizeof *errors);
+    rounding_carry_out(tape, 0, work);
+    for (size_t k = 0; k < tape->outputs; k++)
+        bounds[k] = errors[tape->output[k]];
 }
 
 /* --- where it is not shown ----------------------------------------------------------- */
@@ -239,7 +294,7 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
         signed char *side = m->sides + OPERANDS * at + k;
         const int way = slope[k] * m->work[x] > 0 ? 1 : -1;
 
-        if (fabs(slope_times(slope[k], m->errors[x])) < counts * error || !isfinite(units))
+        if (m->errors[x] == 0 || fabs(slope_times(slope[k], m->errors[x])) < counts * error || !isfinite(units))
             continue;
         if (up == 0) /* downwards, where the factor may be nearer to 1 */
             up = -way;
@@ -289,13 +344,13 @@ marking_carry_out(marking *m, size_t at)
         const double *slope = r.slope[k];
 
         marking_show_result(m, i, slope, by[k]);
-        error[k] = result_error(i, &r, k, m->errors);
+        error[k] = result_error(i, &r, k, unit, 0, m->errors);
         if (is_hidden(error[k], r.value[k], by[k]))
             mark(m, at, slope, error[k], by[k][FACTORS]);
     }
     for (int k = 0; k < 2; k++) {
         marking_show_result(m, i, r.slope[k], by[k]);
-        error[k] = result_error(i, &r, k, m->errors);
+        error[k] = result_error(i, &r, k, unit, 0, m->errors);
     }
     for (int k = 0; k < (i->op == QDOT_OP_SINCOS ? 2 : 1); k++) {
         const uint32_t to = k ? i->y : i->to;

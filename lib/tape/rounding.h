@@ -5,7 +5,7 @@
  *     e_d^2 = sum_k (dd/da_k e_k)^2 + (w u d)^2,   u = 2^-53,
  *
  * w = 0 if it is exact, as a sign is, 2 of hyperbolic functions and some others, else 1; a product within an
- * operation, as of a b + c, adds u a b. e of a constant is known, inputs have none. Errors of different operations count as independent of each other.
+ * operation, as of a b + c, adds u a b; one that is below the least normal double adds 2^-1074. e of a constant is known, inputs have none. Errors of different operations count as independent of each other.
  *
  * Two runs from starts a rounding apart do not show that error where the operands hardly know of
  * the inputs: cos(x) - 1 at x = 1e-5 is off by 1e-16 in both. Such a result is one with
@@ -27,6 +27,10 @@
  * that is not finite; work [2 qdot_tape_work]. of_in [inputs]: e of these; NULL: none. */
 void qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_in, double *bounds,
                           double *work);
+
+/* What underflow alone makes of the outputs: bounds [outputs] = e_d for u = 0, which may be infinite or a NaN; work
+ * [2 qdot_tape_work]. */
+void qdot_rounding_underflows(const qdot_tape *tape, const double *in, double *bounds, double *work);
 
 /* Multiply operands as above, wherever a result is such at one of some states: all inputs small,
  * all large, some of them small. What the tape evaluates to stays the same. Errors: QDOT_ENOMEM. */

@@ -138,6 +138,40 @@ products_within_operations_count(void **state)
     qdot_pool_free(pool);
 }
 
+/* What underflows counts where it is multiplied by much; a product with 0 loses nothing. */
+static void
+underflow_counts(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    const qdot_expr x = coordinate(pool, "x", 0);
+    const qdot_expr much = qdot_pow_int(pool, qdot_expr_int(pool, 10), 200);
+    const qdot_expr square = qdot_mul(pool, x, x);
+    const qdot_expr e[] = {
+        qdot_mul(pool, much, square),
+        qdot_sub(pool, qdot_mul(pool, much, square), qdot_mul(pool, much, x)),
+        qdot_mul(pool, much, qdot_fun1(pool, QDOT_EXP, qdot_div(pool, qdot_expr_int(pool, -1), x))),
+    };
+    const double small[] = {3e-165, 0x1p-545, 0x1.37p-10};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof e / sizeof *e; i++) {
+        qdot_tape *tape = lowered(pool, 1, &x, 1, e + i);
+        double *work = malloc((2 * qdot_tape_work(tape) + 1) * sizeof *work), lost;
+        const long double exact = small[i];
+        const double off =
+            (double)fabsl((long double)evaluate(tape, &small[i]) - reference(pool, e[i], 1, &x, &exact).v);
+
+        assert_true(off > 0 && off <= bound(tape, &small[i]));
+        qdot_rounding_underflows(tape, &small[i], &lost, work);
+        assert_true(lost > 0 && lost <= 1e-100);
+        qdot_rounding_underflows(tape, (const double[]){1}, &lost, work);
+        assert_true(lost == 0);
+        free(work);
+        qdot_tape_free(tape);
+    }
+    qdot_pool_free(pool);
+}
+
 /* What moving the inputs shows has no factors: products, forces of a spring and of a mass. */
 static void
 other_sums_stay_as_they_are(void **state)
@@ -219,6 +253,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cancelling_terms_are_shaken),
         cmocka_unit_test(products_within_operations_count),
+        cmocka_unit_test(underflow_counts),
         cmocka_unit_test(other_sums_stay_as_they_are),
         cmocka_unit_test(bounds_hold_and_values_stay),
     };

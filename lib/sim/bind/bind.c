@@ -181,9 +181,9 @@ sum_roundings(const qdot_plan_block *block, const double *of, const double *a, d
     return M;
 }
 
-qdot_status
-qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, const double *a,
-                    double *e)
+/* What the rounding of the equations, or their underflow alone, makes of q''. */
+static qdot_status
+find_roundings(const qdot_ode_system *system, double t, const double *y, const double *a, bool underflows, double *e)
 {
     qdot_bind *b = system->user;
     const qdot_plan *p = b->plan;
@@ -198,7 +198,10 @@ qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, co
     if (!of)
         return QDOT_ENOMEM;
     qdot_bind_load(b, t, y);
-    qdot_rounding_bounds(tape, b->in, NULL, of, of + qdot_tape_outputs(tape));
+    if (underflows)
+        qdot_rounding_underflows(tape, b->in, of, of + qdot_tape_outputs(tape));
+    else
+        qdot_rounding_bounds(tape, b->in, NULL, of, of + qdot_tape_outputs(tape));
     at = of;
     for (size_t k = 0; k < p->structure.blocks; k++) {
         const qdot_plan_block *block = p->blocks + k;
@@ -212,6 +215,18 @@ qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, co
     }
     qdot_free(of);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, const double *a, double *e)
+{
+    return find_roundings(system, t, y, a, false, e);
+}
+
+qdot_status
+qdot_bind_underflows(const qdot_ode_system *system, double t, const double *y, const double *a, double *e)
+{
+    return find_roundings(system, t, y, a, true, e);
 }
 
 static qdot_status

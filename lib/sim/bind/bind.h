@@ -44,6 +44,9 @@ QDOT_MUST_CHECK qdot_status qdot_bind_accelerations(const qdot_ode_system *syste
  * 0 under constraints, and of a plan without M. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_bind_roundings(const qdot_ode_system *system, double t,
                                                 const double *y, const double *a, double *e);
+/* The same of what operations lose below the least normal double alone; it may be infinite or a NaN. */
+QDOT_MUST_CHECK qdot_status qdot_bind_underflows(const qdot_ode_system *system, double t, const double *y,
+                                                 const double *a, double *e);
 
 /* Whether M is regular (and, unless a Lagrangian was stated, positive) at a state:
  * QDOT_ESINGULAR names the coordinate. With constraints y + low must also keep them, and its last

@@ -64,66 +64,80 @@ find_corner(qdot_run *run)
 /* Terms of a series are so many times smaller than its first, with which a step is at its end as large as they count. */
 static const double of_series = 0x1p80;
 
-/* Whether the run is so long that what an acceleration loses near the least double would move a coordinate by more than
- * its rounding: x = 1 in a span of 1e142. */
+/* Whether an acceleration that is off by so much all along the run may move coordinate i, of so many, by more than its
+ * rounding. */
+static bool
+acceleration_moves(const qdot_trajectory *tr, size_t i, double off)
+{
+    const double size = fmax(fabs(tr->y[i]), fabs(tr->y[(tr->count - 1) * tr->n + i])),
+                 length = fabs(tr->t[tr->count - 1] - tr->t[0]);
+
+    return off != 0 && !(off * length * length <= (size > 0 ? DBL_EPSILON * size : 1));
+}
+
+/* Whether the run is so long that what a series of accelerations loses near the least double would move a coordinate:
+ * x = 1 in a span of 1e142. */
 static bool
 least_acceleration_moves(const qdot_trajectory *tr)
 {
-    const double *first = tr->y, *last = tr->y + (tr->count - 1) * tr->n,
-                 length = fabs(tr->t[tr->count - 1] - tr->t[0]), way = of_series * 0x1p-1074 * length * length;
     bool moves = false;
 
-    for (size_t i = 0; i < tr->n / 2; i++) {
-        const double size = fmax(fabs(first[i]), fabs(last[i]));
-
-        moves = moves || way > (size > 0 ? DBL_EPSILON * size : 1);
-    }
+    for (size_t i = 0; i < tr->n / 2; i++)
+        moves = moves || acceleration_moves(tr, i, of_series * DBL_TRUE_MIN);
     return moves;
 }
 
-/* Whether at a point of the run a number of the equations underflows, or an acceleration is so small that its series
- * does. */
+/* Whether at this point of the run a number of the equations underflows in a way that moves a coordinate, or, beside a
+ * run so `long_` that any such loss does, underflows at all or has an acceleration so small that its series does.
+ *   a [n]  room for q'' and for what it loses */
 static qdot_status
-underflows(const qdot_course *course, bool *found)
+point_underflows(const qdot_course *course, const qdot_ode_system *system, size_t k, bool is_long, double *a, bool *found)
 {
-    const double least = of_series * DBL_MIN;
-    const qdot_error before = *qdot_last_error();
     const qdot_trajectory *tr = &course->tr;
-    double *slope = qdot_malloc(tr->n * sizeof *slope);
+    const size_t n = tr->n / 2;
+    const double *y = tr->y + k * tr->n, least = of_series * DBL_MIN;
 
-    if (slope == NULL)
-        return QDOT_ENOMEM;
-    *found = false;
     (void)feclearexcept(FE_UNDERFLOW);
-    for (size_t k = 0; k < tr->pieces.n; k++) {
-        const qdot_ode_system *system = qdot_course_systems(course) + tr->pieces.at[k].mode;
-        const size_t end = k + 1 < tr->pieces.n ? tr->pieces.at[k + 1].first : tr->count;
-
-        for (size_t i = tr->pieces.at[k].first; i < end; i++) {
-            if (system->rhs(tr->t[i], tr->y + i * tr->n, slope, system->user) != QDOT_OK)
-                continue;
-            for (size_t j = tr->n / 2; j < tr->n; j++)
-                *found = *found || (slope[j] != 0 && fabs(slope[j]) < least);
-        }
-    }
-    *found = *found || fetestexcept(FE_UNDERFLOW) != 0;
-    qdot_free(slope);
-    qdot_fail_again(&before);
+    if (qdot_bind_accelerations(system, tr->t[k], y, a) != QDOT_OK)
+        return QDOT_OK;
+    for (size_t j = 0; j < n && is_long; j++)
+        *found = *found || (a[j] != 0 && fabs(a[j]) < least);
+    if (fetestexcept(FE_UNDERFLOW) == 0 || *found)
+        return QDOT_OK;
+    *found = is_long;
+    QDOT_TRY(qdot_bind_underflows(system, tr->t[k], y, a, a + n));
+    for (size_t j = 0; j < n; j++)
+        *found = *found || acceleration_moves(tr, j, a[n + j]);
     return QDOT_OK;
 }
 
-/* If forces too small for a double would matter in so long a run, the error is unknown. */
+/* If forces too small for a double would matter in the run, the error is unknown. */
 static qdot_status
 find_underflow(qdot_run *run)
 {
-    bool found;
+    enum { PLACES = 32 };
+    const qdot_course *course = &run->course;
+    const qdot_trajectory *tr = &course->tr;
+    const qdot_error before = *qdot_last_error();
+    const bool is_long = tr->count > 0 && least_acceleration_moves(tr);
+    const size_t step = is_long || tr->count < PLACES ? 1 : tr->count / PLACES;
+    double *a;
+    qdot_status status = QDOT_OK;
+    bool found = false;
 
-    if (run->hidden || run->course.tr.count == 0 || !least_acceleration_moves(&run->course.tr))
+    if (run->hidden || tr->count == 0 || (!is_long && (!run->plan->tape || run->plan->constraints)))
         return QDOT_OK;
-    QDOT_TRY(underflows(&run->course, &found));
-    return found ? lose(run, "forces are near the least double or below it, and what is lost of them counts in so long a "
-                             "run: other units, or `digits 20`")
-                 : QDOT_OK;
+    a = qdot_calloc(tr->n + (run->plan->constraints ? run->plan->constraints->m : 0) + 1, sizeof *a);
+    if (a == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < tr->count && !found && status == QDOT_OK; k += step)
+        status = point_underflows(course, qdot_course_systems(course) + tr->pieces.at[qdot_trajectory_piece_of(tr, k)].mode, k, is_long, a, &found);
+    qdot_free(a);
+    qdot_fail_again(&before);
+    return status == QDOT_OK && found
+               ? lose(run, "forces are near the least double or below it, and what is lost of them counts in this run: "
+                           "other units, or `digits 20`")
+               : status;
 }
 
 qdot_status
