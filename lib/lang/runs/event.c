@@ -226,6 +226,28 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
+/* "NAME  from t = A on its sides are equal within their errors: whether it occurs there is not known" */
+static void
+faded_print(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
+{
+    if (faded->touched) {
+        const double half = fabs(faded->to - faded->from) / 2;
+
+        qdot_text_format(text, "%s  at t = ", faded->event);
+        qdot_number_text_known(text, faded->from + (faded->to - faded->from) / 2, half);
+        qdot_text_add(text, " ± ");
+        qdot_number_text_bound(text, half);
+        qdot_text_add(text, " its sides touch but for rounding: whether it occurs there is not known");
+        return;
+    }
+    qdot_text_format(text, "%s  from t = %.4g ", faded->event, faded->from);
+    if (faded->to == qdot_run_get_report(run)->t1)
+        qdot_text_add(text, "on");
+    else
+        qdot_text_format(text, "to %.4g", faded->to);
+    qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known");
+}
+
 /* JSON: a notice for each stretch of time in which it is not known whether an event occurs, faded [n]. */
 static qdot_status
 tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
@@ -233,7 +255,7 @@ tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *fad
     for (size_t i = 0; i < n; i++) {
         qdot_text text = {0};
 
-        qdot_event_print_faded(run, &faded[i], &text);
+        faded_print(run, &faded[i], &text);
         QDOT_TRY(qdot_answer_notice_text(session, QDOT_OK, &text));
     }
     return QDOT_OK;
@@ -248,7 +270,7 @@ add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
     bool undecided;
 
     for (size_t k = 0; k < n; k++) {
-        qdot_event_print_faded(run, &faded[k], text);
+        faded_print(run, &faded[k], text);
         qdot_text_char(text, '\n');
     }
     for (size_t k = 0; name; k++) {

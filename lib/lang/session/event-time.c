@@ -1,6 +1,7 @@
 /* event-time.c -- when the events of a run occurred. */
 #include "lang/session/event-time.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "lang/session/measured.h"
@@ -24,17 +25,6 @@ qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o)
     return o->exact == QDOT_NIL ? 0 : qdot_run_get_report(run)->digits;
 }
 
-void
-qdot_event_print_faded(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
-{
-    qdot_text_format(text, "%s  from t = %.4g ", faded->event, faded->from);
-    if (faded->to == qdot_run_get_report(run)->t1)
-        qdot_text_add(text, "on");
-    else
-        qdot_text_format(text, "to %.4g", faded->to);
-    qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known");
-}
-
 /* The error that occurrence k is not among the n that are known, and since when it is open whether the event occurs. */
 static qdot_status
 unknown(const qdot_named_run *named, const char *name, long k, size_t n)
@@ -45,12 +35,18 @@ unknown(const qdot_named_run *named, const char *name, long k, size_t n)
     QDOT_TRY(qdot_run_faded_events(named->run, &list, &count));
     (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name, k, n, n == 1 ? "" : "s",
                     named->name);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(list[i].event, name) == 0)
-            (void)qdot_fail(QDOT_EDOMAIN,
-                            "%s[%ld]: %zu occurrence%s of the event %s known in %s: from t = %.4g on its sides are "
-                            "equal within their errors",
-                            name, k, n, n == 1 ? "" : "s", n == 1 ? "is" : "are", named->name, list[i].from);
+    for (size_t i = 0; i < count; i++) {
+        char when[60];
+
+        if (strcmp(list[i].event, name) != 0)
+            continue;
+        snprintf(when, sizeof when, list[i].touched ? "about t = %.6g its sides touch but for rounding"
+                                                    : "from t = %.4g on its sides are equal within their errors",
+                 list[i].from);
+        (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: %zu occurrence%s of the event %s known in %s: %s", name, k, n,
+                        n == 1 ? "" : "s", n == 1 ? "is" : "are", named->name, when);
+        break;
+    }
     return qdot_hint("`events` lists them");
 }
 

@@ -14,7 +14,4 @@ int qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o);
 QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *run,
                                             const char *name, long k, qdot_expr *value);
 
-/* "NAME  from t = A on its sides are equal within their errors: whether it occurs there is not known" */
-void qdot_event_print_faded(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text);
-
 #endif

@@ -14,11 +14,13 @@ typedef struct {
     double within, bend, blur; /* of a touch, as in qdot_root */
 } qdot_occurrence;
 
-/* A stretch of time in which the function of an event, having decayed, was so small that rounding of the run hides its
- * sign: whether the event occurs there is not known. */
+/* A stretch of time in which the function of an event was so small that rounding of the run hides its sign: whether the
+ * event occurs there is not known. It has decayed; or, `touched`, it is that of an event that rises or falls and touches 0
+ * in the middle of the stretch, as if it had two crossings there that rounding does not tell apart, or none. */
 typedef struct {
     size_t event;
     double from, to;
+    bool touched;
 } qdot_course_faded;
 
 /* What ended a piece. */

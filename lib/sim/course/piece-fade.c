@@ -23,21 +23,43 @@ static qdot_course_faded *
 stretch_since(qdot_course *c, size_t event, double since)
 {
     for (size_t k = c->faded.n; k-- > 0;)
-        if (c->faded.at[k].event == event)
+        if (c->faded.at[k].event == event && !c->faded.at[k].touched)
             return c->faded.at[k].from == since ? &c->faded.at[k] : NULL;
     return NULL;
 }
 
-/* Drop the occurrences of an event from `since` on: they are zeros of rounding. */
+/* Drop the occurrences and touches of an event from `since` on: they are zeros of rounding. */
 static void
 forget_since(qdot_piece *x, size_t event, double since)
 {
-    size_t n = 0;
+    size_t n = 0, n_faded = 0;
 
     for (size_t k = 0; k < x->c->occurrences.n; k++)
         if (x->c->occurrences.at[k].event != event || x->direction * (x->c->occurrences.at[k].t - since) < 0)
             x->c->occurrences.at[n++] = x->c->occurrences.at[k];
     x->c->occurrences.n = n;
+    for (size_t k = 0; k < x->c->faded.n; k++) {
+        const qdot_course_faded *f = &x->c->faded.at[k];
+
+        if (f->event != event || !f->touched || x->direction * (f->from - since) < 0)
+            x->c->faded.at[n_faded++] = *f;
+    }
+    x->c->faded.n = n_faded;
+}
+
+qdot_status
+qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+    const double blur = x->direction * root->blur;
+
+    if (root->way != 0 || root->pole || w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].undoing)
+        return QDOT_OK;
+    if (root->within > 0) { /* less tolerance may show two crossings, or none */
+        x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY, root->within);
+        return QDOT_OK;
+    }
+    return qdot_vec_push(&x->c->faded, ((qdot_course_faded){w->index, root->t - blur, root->t + blur, true}));
 }
 
 qdot_status
@@ -58,8 +80,9 @@ qdot_piece_take_faded(qdot_piece *x, double t)
             continue;
         }
         forget_since(x, event, since);
-        QDOT_TRY(qdot_vec_push(&x->c->faded, ((qdot_course_faded){event, since, t})));
+        QDOT_TRY(qdot_vec_push(&x->c->faded, ((qdot_course_faded){event, since, t, false})));
     }
     x->noted = x->c->occurrences.n;
+    x->noted_faded = x->c->faded.n;
     return QDOT_OK;
 }

@@ -335,12 +335,20 @@ end_of(qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
     return t;
 }
 
+/* What was noted in a step that is searched again, or was not taken. */
+static void
+forget_step(qdot_piece *x)
+{
+    x->c->occurrences.n = x->noted;
+    x->c->faded.n = x->noted_faded;
+}
+
 /* Record the roots of the step up to the first that ends the piece. */
 static qdot_status
 take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
 {
     x->roots.n = 0;
-    x->c->occurrences.n = x->noted;
+    forget_step(x);
     x->intent = QDOT_PIECE_GOES_ON;
     if (x->first_step) {
         const qdot_watched *w = leaves_domain(x);
@@ -369,14 +377,12 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
     if (x->intent == QDOT_PIECE_ENDS)
         return QDOT_OK;
     for (size_t i = 0; i < n; i++) {
-        if (!is_occurrence(x, &roots[i])) {
-            if (roots[i].within > 0) /* of an event that rises or falls: it may be two crossings */
-                x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY,
-                                         roots[i].within);
-            continue;
-        }
         if (x->intent == QDOT_PIECE_ENDS && x->direction * (roots[i].t - x->t_act) > 0)
             break;
+        if (!is_occurrence(x, &roots[i])) {
+            QDOT_TRY(qdot_piece_pass_touch(x, &roots[i]));
+            continue;
+        }
         if (x->intent != QDOT_PIECE_ENDS && is_action(x, &roots[i])) {
             x->intent = QDOT_PIECE_ENDS;
             x->t_act = end_of(x, roots, n, i);
@@ -497,7 +503,7 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
              qdot_watch_is_far(qdot_piece_watch(x), step);
     if (x->far) {
         x->intent = QDOT_PIECE_GOES_ON; /* of a longer step that was not taken */
-        x->c->occurrences.n = x->noted;
+        forget_step(x);
         return QDOT_OK;
     }
     x->expanded = step;
@@ -658,6 +664,7 @@ qdot_piece_integrate(qdot_piece *x)
     x->searched.since = x->start.t;
     x->searched.parts = 0;
     x->noted = c->occurrences.n;
+    x->noted_faded = c->faded.n;
     status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped || x->start.followed, &options, x->t1,
                                     x->start.y);
     if (x->broken_off) {

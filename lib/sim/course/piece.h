@@ -94,7 +94,7 @@ typedef struct {
     qdot_vec(qdot_root) fired; /* those that ended the piece before */
     qdot_vec(size_t) pushed;   /* surfaces of contacts that lasted, into which what ended it has pushed the motion */
     qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
-    size_t noted;              /* occurrences before this step */
+    size_t noted, noted_faded; /* occurrences, and stretches where one is not known, before this step */
     struct {
         double since; /* start of the piece, or of a step */
         size_t parts; /* looked at since then */
@@ -205,6 +205,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_stop_chatter(qdot_piece *x, bool anew);
  * where that is so in c->faded. */
 void qdot_piece_let_fade(qdot_piece *x);
 QDOT_MUST_CHECK qdot_status qdot_piece_take_faded(qdot_piece *x, double t);
+/* A root that is no occurrence, for it only touches where the event is to rise or fall: it may be two crossings that a
+ * tighter tolerance (c->passed_over), or nothing in this run (c->faded), tells from a touch. */
+QDOT_MUST_CHECK qdot_status qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root);
 /* An event that is met where a piece starts: it is noted, and in x->roots, if its way fits. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 

@@ -78,10 +78,11 @@ qdot_run_report_is_beyond(const qdot_run_report *r, double t)
 }
 
 /* A stretch of time in which the function of an event, having decayed, is not known to differ from 0: whether the event
- * occurs there is not known. */
+ * occurs there is not known. `touched`: it touches 0 there, and rises or falls as far as rounding can tell, or neither. */
 typedef struct {
     const char *event;
     double from, to;
+    bool touched;
 } qdot_run_faded;
 
 /* An event that occurred. */

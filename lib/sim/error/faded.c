@@ -179,7 +179,7 @@ qdot_faded_find(qdot_run *run, size_t event, double *from)
 
     *from = NAN;
     for (size_t k = 0; k < c->faded.n; k++)
-        if (c->faded.at[k].event == event && c->faded.at[k].to == end)
+        if (c->faded.at[k].event == event && !c->faded.at[k].touched && c->faded.at[k].to == end)
             *from = c->faded.at[k].from;
     if (e->then || e->stop || c->tr.count < 2)
         return QDOT_OK;

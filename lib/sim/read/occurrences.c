@@ -90,33 +90,45 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
     return status;
 }
 
+/* Of an event whose occurrences are known up to `from` alone: drop those behind, and touches. */
+static void
+drop_from(qdot_run *run, const char *event, double from)
+{
+    const double direction = run->t1 < run->t0 ? -1 : 1;
+    size_t n = 0, n_faded = 0;
+
+    for (size_t i = 0; i < run->occurrences.n; i++)
+        if (strcmp(run->occurrences.at[i].event, event) != 0 || direction * (run->occurrences.at[i].t - from) < 0)
+            run->occurrences.at[n++] = run->occurrences.at[i];
+    run->occurrences.n = n;
+    for (size_t i = 0; i < run->faded.n; i++)
+        if (strcmp(run->faded.at[i].event, event) != 0 || direction * (run->faded.at[i].from - from) < 0)
+            run->faded.at[n_faded++] = run->faded.at[i];
+    run->faded.n = n_faded;
+}
+
 /* Fill run->faded. Where the function of an event stays within its error of 0 to the end of the run, occurrences there are
  * none that is known: they are left out. */
 static qdot_status
 leave_out_faded(qdot_run *run)
 {
     const qdot_course *c = &run->course;
-    const double end = c->tr.count > 0 ? c->tr.t[c->tr.count - 1] : 0, direction = run->t1 < run->t0 ? -1 : 1;
+    const double end = c->tr.count > 0 ? c->tr.t[c->tr.count - 1] : 0;
 
     run->faded.n = 0;
     for (size_t k = 0; k < c->faded.n; k++)
-        if (c->faded.at[k].to != end)
+        if (c->faded.at[k].touched || c->faded.at[k].to != end)
             QDOT_TRY(qdot_vec_push(&run->faded,
-                                   ((qdot_run_faded){run->stage.events.at[c->faded.at[k].event].name,
-                                                     c->faded.at[k].from, c->faded.at[k].to})));
+                                   ((qdot_run_faded){run->stage.events.at[c->faded.at[k].event].name, c->faded.at[k].from,
+                                                     c->faded.at[k].to, c->faded.at[k].touched})));
     for (size_t e = 0; e < run->stage.events.n; e++) {
         double from;
-        size_t n = 0;
 
         QDOT_TRY(qdot_faded_find(run, e, &from));
         if (isnan(from))
             continue;
-        QDOT_TRY(qdot_vec_push(&run->faded, ((qdot_run_faded){run->stage.events.at[e].name, from, end})));
-        for (size_t i = 0; i < run->occurrences.n; i++)
-            if (strcmp(run->occurrences.at[i].event, run->stage.events.at[e].name) != 0
-                || direction * (run->occurrences.at[i].t - from) < 0)
-                run->occurrences.at[n++] = run->occurrences.at[i];
-        run->occurrences.n = n;
+        drop_from(run, run->stage.events.at[e].name, from);
+        QDOT_TRY(qdot_vec_push(&run->faded, ((qdot_run_faded){run->stage.events.at[e].name, from, end, false})));
     }
     return QDOT_OK;
 }

@@ -61,6 +61,26 @@ find_corner(qdot_run *run)
     return lose(run, text);
 }
 
+/* If an event that acts where it rises or falls touches 0 but for rounding, it may act there or not. */
+static qdot_status
+find_touch(qdot_run *run)
+{
+    const qdot_course *c = &run->course;
+    char text[300];
+
+    for (size_t k = 0; k < c->faded.n && !run->hidden; k++) {
+        const qdot_staged_event *e = &run->stage.events.at[c->faded.at[k].event];
+
+        if (!c->faded.at[k].touched || !qdot_staged_event_acts(e))
+            continue;
+        snprintf(text, sizeof text,
+                 "about t = %.6g the event %.100s touches but for rounding, so that whether it acts there is not known",
+                 c->faded.at[k].from, e->name);
+        return lose(run, text);
+    }
+    return QDOT_OK;
+}
+
 /* Terms of a series are so many times smaller than its first, with which a step is at its end as large as they count. */
 static const double of_series = 0x1p80;
 
@@ -145,6 +165,7 @@ qdot_run_doubt_places(qdot_run *run)
 {
     QDOT_TRY(find_hidden(run));
     QDOT_TRY(find_corner(run));
+    QDOT_TRY(find_touch(run));
     return find_underflow(run);
 }
 

@@ -8,8 +8,8 @@
 
 #include "sim/course/run-state.h"
 
-/* A force that acts for less than a step, a cusp of a constraint, forces that underflow where they matter: then
- * run->hidden is set, the error NaN, and run->doubt says why. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* A force that acts for less than a step, a cusp of a constraint, an acting event of which rounding hides whether it rises or falls, forces that
+ * underflow where they matter: then run->hidden is set, the error NaN, and run->doubt says why. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_run_doubt_places(qdot_run *run);
 
 /* The state at which a run comes to a singularity: its error is NaN, that of states before is known as ever. Errors:
