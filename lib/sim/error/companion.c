@@ -5,14 +5,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/progress.h"
+#include "expr/walk.h"
 #include "num/two.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
+#include "sim/course/chatter.h"
+#include "sim/course/reader.h"
 #include "sim/model/massless.h"
 #include "sim/model/still.h"
+#include "tape/rounding.h"
 #include "tape/shake.h"
-#include "sim/course/chatter.h"
 
 /* The end time of the companion: that of the run, or, if an event ended the run, its limit. */
 static double
@@ -126,6 +130,57 @@ project_start(const qdot_run *run, const qdot_ode_system *system, double t0, dou
     return status;
 }
 
+/* Whether the function of an event is 0 at the start of the run but for its rounding. */
+static qdot_status
+starts_on(const qdot_run *run, const qdot_staged_event *e, double t0, bool *on)
+{
+    const size_t n = 2 * run->plan->n;
+    qdot_reading of = {0};
+    qdot_status status = qdot_reader_lower(run->plan, 1, &e->function, &of);
+    double *in = NULL, g, noise;
+
+    *on = false;
+    if (status == QDOT_OK && !of.accelerations) {
+        in = qdot_calloc(qdot_tape_inputs(of.tape) + 2 * qdot_tape_work(of.tape) + 1, sizeof *in);
+        status = in ? QDOT_OK : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK && in) {
+        double *work = in + qdot_tape_inputs(of.tape);
+
+        memcpy(in, run->start, n * sizeof *in);
+        in[n] = t0;
+        qdot_tape_eval(of.tape, in, &g, work);
+        qdot_rounding_bounds(of.tape, in, NULL, &noise, work);
+        *on = fabs(g) <= noise;
+    }
+    qdot_free(in);
+    qdot_tape_free(of.tape);
+    return status;
+}
+
+/* Bodies that touch at the start, as the function of an event that acts has it, touch in the companion: where they stand is
+ * not moved, for the crossing might be behind them and a blow be missed. */
+static qdot_status
+keep_contacts(const qdot_run *run, double t0, double *y, double *low)
+{
+    const size_t n = 2 * run->plan->n;
+
+    for (size_t k = 0; k < run->stage.events.n; k++) {
+        const qdot_staged_event *e = &run->stage.events.at[k];
+        bool on;
+
+        if (!e->then || e->way == 0 || e->undoing)
+            continue;
+        QDOT_TRY(starts_on(run, e, t0, &on));
+        for (size_t i = 0; i < n && on; i++)
+            if (qdot_expr_contains(run->plan->pool, e->function, run->plan->inputs[i])) {
+                y[i] = run->start[i];
+                low[i] = run->start_low[i];
+            }
+    }
+    return QDOT_OK;
+}
+
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
  * the start is on is kept. */
 static qdot_status
@@ -138,6 +193,8 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     memcpy(low, run->start_low, n * sizeof *low);
     qdot_companion_beside(run->units, n, run->start, number, run->report.tol, y,
                           run->leading ? low : NULL);
+    if (!run->leading)
+        QDOT_TRY(keep_contacts(run, t0, y, low));
     move_by_error(run, number, 1, y, low);
     if (system->project) /* along what solutions may do */
         QDOT_TRY(project_start(run, system, t0, y));
