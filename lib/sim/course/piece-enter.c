@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "ode/companion.h"
+#include "series/taylor.h"
 #include "sim/course/piece.h"
 #include "sim/model/constraints.h"
 
@@ -427,6 +429,23 @@ move_along(qdot_piece *x, size_t mode, double time, qdot_two *moved)
     return status;
 }
 
+/* Where an event acts, a method that reads states in doubles rounds them, and so do its companions, alike: the state
+ * `moved` [n] of a companion is moved by a rounding. That of places may be a drift over many events, for they are always
+ * the same; it is up or down without a pattern, in one companion opposite to the other. That of velocities is drawn. */
+static void
+move_by_rounding(const qdot_piece *x, qdot_two *moved)
+{
+    const size_t places = x->n / 2;
+
+    for (size_t i = 0; i < x->n; i++) {
+        const double size = fabs(x->start.y[i]), by = nextafter(size, INFINITY) - size;
+        const bool up = i < places ? qdot_companion_moved(1, 1, i, 0) > 1 : qdot_taylor_chance(x->start.t, i) < 0.5;
+
+        if (size != 0)
+            moved[i] = qdot_two_add_double(moved[i], (up ? by : -by) * x->c->early);
+    }
+}
+
 qdot_status
 qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind)
 {
@@ -444,6 +463,9 @@ qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind)
         status = move_along(x, before, -late, moved);
     if (status == QDOT_OK && behind != SIZE_MAX)
         status = move_along(x, behind, late, moved);
+    if (status == QDOT_OK && behind == SIZE_MAX && !x->has_root &&
+        (!x->method->series || x->options->alternates) && !x->c->systems.at[x->mode].project)
+        move_by_rounding(x, moved);
     if (status == QDOT_OK)
         status = start_at(x, moved, &done);
     if (status == QDOT_OK && behind == SIZE_MAX)
