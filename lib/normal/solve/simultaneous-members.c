@@ -140,8 +140,31 @@ divides_by_zero(const qdot_simultaneous *s, qdot_expr e)
     return found;
 }
 
+/* The set and that each place without a period lies in its declared domain. */
+static qdot_status
+add_domains(qdot_simultaneous *s, qdot_expr known, qdot_expr *set)
+{
+    qdot_pool *pool = s->pool;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, known) && *set != QDOT_FALSE; i++) {
+        qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, known, i), 0),
+                  value = qdot_expr_arg(pool, qdot_expr_arg(pool, known, i), 1), period;
+        qdot_window window;
+
+        QDOT_TRY(qdot_simultaneous_period(s, u, &period));
+        if (period != QDOT_NIL)
+            continue;
+        window = qdot_simultaneous_window(s, u, false);
+        *set = qdot_conditions_all(pool, *set, qdot_window_relations(pool, &window, value));
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    if (*set != QDOT_FALSE)
+        *set = qdot_conditions_at(pool, *set, 0, NULL, NULL, &s->facts);
+    return qdot_pool_check(pool);
+}
+
 /* Whether the equations may be 0 there: they have values (that a numerator vanishes is not enough), and none is
- * refuted; *conditions gets where all of it is defined. */
+ * refuted inside the domains; *conditions gets where all of it is defined. */
 static qdot_status
 may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *conditions, bool *yes)
 {
@@ -150,6 +173,7 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
               there = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, whole, b->known)),
               also = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, s->defined, b->known)),
               room[QDOT_CONDITIONS_MOST];
+    qdot_expr inside;
     qdot_facts facts;
     qdot_status status = qdot_pool_check(pool);
 
@@ -165,7 +189,12 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
         QDOT_TRY(qdot_pool_check(pool));
         *yes = *conditions != QDOT_FALSE;
     }
-    facts = qdot_facts_and(pool, &s->facts, *conditions, room);
+    inside = *conditions;
+    if (*yes) {
+        QDOT_TRY(add_domains(s, b->known, &inside));
+        *yes = inside != QDOT_FALSE;
+    }
+    facts = qdot_facts_and(pool, &s->facts, inside, room);
     for (uint32_t i = 0; *yes && i < qdot_expr_count(pool, there); i++) {
         qdot_decision d;
 

@@ -110,6 +110,9 @@ solutions_lie_in_the_domain_and_say_when_they_exist(void **state)
          "[theta = 1/6*pi, x = 1/2*sqrt(3)]; [theta = 5/6*pi, x = -1/2*sqrt(3)]"},
         {{"sqrt(x) - y", "x + y - 6"}, {"x", "y"}, "[x = 4, y = 2]"},
         {{"abs(x) - x", "y - 1"}, {"x", "y"}, "[y = 1] |[x >= 0]"},
+        /* sqrt(x^2 + r^2) at x = 0, r = p + 1 is r only where r > 0 */
+        {{"x*(1 - 1/sqrt(x^2 + r^2))", "r*(1 - 1/sqrt(x^2 + r^2)) - p"}, {"x", "r"},
+         "[x = 0, r = p + 1] |[p + 1 > 0] special -p"},
     };
 
     (void)state;
