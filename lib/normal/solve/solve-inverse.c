@@ -60,13 +60,54 @@ circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
         when);
 }
 
+/* u with tan(u/2) = a/b. */
+static qdot_expr
+twice_the_angle(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    qdot_expr two = qdot_expr_int(pool, 2);
+
+    if ((qdot_expr_node(pool, b)->sign & QDOT_NE0) != 0)
+        return qdot_mul(pool, two, qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, a, b)));
+    if ((qdot_expr_node(pool, a)->sign & QDOT_NE0) != 0)
+        return qdot_sub(pool, QDOT_PI, qdot_mul(pool, two, qdot_fun1(pool, QDOT_ATAN, qdot_div(pool, b, a))));
+    return qdot_mul(pool, two, qdot_fun(pool, QDOT_ATAN2, 2, (qdot_expr[]){a, b}));
+}
+
+/* a sin u + b cos u + d = 0 where one of the coefficients is d or -d: a quarter of the circle solves it whatever the
+ * other one is, and beside it one angle by its half: a sin u = b (1 - cos u) for sin(u/2) = 0 and for tan(u/2) = a/b.
+ * *at: the first; nil: it is not so. The sum of arc functions of the general form would hide a root at an end of a
+ * domain. */
+static qdot_status
+mixed_at_quarter(const qdot_solver *s, qdot_expr a, qdot_expr b, qdot_expr d, qdot_expr *at, qdot_expr *beside)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr quarter = qdot_mul(pool, QDOT_HALF, QDOT_PI), minus_b = qdot_neg(pool, b);
+    struct {
+        qdot_expr zero, at, over, below;
+    } cases[] = {{qdot_add(pool, b, d), QDOT_ZERO, a, b},
+                 {qdot_sub(pool, b, d), QDOT_PI, a, b},
+                 {qdot_add(pool, a, d), quarter, minus_b, a},
+                 {qdot_sub(pool, a, d), qdot_neg(pool, quarter), minus_b, a}};
+
+    *at = QDOT_NIL;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases && *at == QDOT_NIL; i++) {
+        if (qdot_solver_tidy(s, cases[i].zero) != QDOT_ZERO)
+            continue;
+        *at = cases[i].at;
+        *beside = qdot_add(
+            pool, cases[i].at,
+            twice_the_angle(pool, qdot_solver_tidy(s, cases[i].over), qdot_solver_tidy(s, cases[i].below)));
+    }
+    return qdot_pool_check(pool);
+}
+
 /* With R = sqrt(a^2 + b^2): R cos(u - atan2(a, b)) = -d. */
 qdot_status
 qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_expr d,
                   qdot_expr when)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr R, shift, v;
+    qdot_expr R, shift, v, at, beside;
 
     if (d == QDOT_ZERO) {
         qdot_expr w = qdot_fun1(pool, QDOT_ATAN,
@@ -76,6 +117,9 @@ qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_ex
         return qdot_solver_turns(s, u, 2, (qdot_expr[]){w, qdot_add(pool, w, QDOT_PI)}, when);
     }
     QDOT_TRY(qdot_solver_divide(s, qdot_list(pool, 2, (qdot_expr[]){a, b})));
+    QDOT_TRY(mixed_at_quarter(s, a, b, d, &at, &beside));
+    if (at != QDOT_NIL)
+        return qdot_solver_turns(s, u, 2, (qdot_expr[]){at, beside}, when);
     R = qdot_add(pool, qdot_mul(pool, a, a), qdot_mul(pool, b, b));
     when = qdot_conditions_and(
         pool, when,

@@ -192,6 +192,10 @@ roots_are_real_or_say_when(void **state)
         {"sqrt(x + 1) + x", "1/2*(1 - sqrt(5))"},
         {"tanh(x) - 2", ""},
         {"atan(x) - 2", ""},
+        /* a root whatever a is, and one by its half angle */
+        {"a*sin(x) + cos(x) - 1", "0; 2*atan(a)"},
+        {"a*sin(x) - cos(x) - 1", "pi; pi - 2*atan(a)"},
+        {"k*sin(x) + c*cos(x) + k", "-1/2*pi; 2*atan2(-c, k) - 1/2*pi"},
     };
 
     (void)state;
