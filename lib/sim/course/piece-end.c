@@ -289,6 +289,9 @@ qdot_piece_find_delay(qdot_piece *x)
     }
 }
 
+/* In units of |g| at an event that is counted where a piece starts: its residual. What is left of it behind is 0. */
+static const double counted = 0x1p11;
+
 /* Before anything is changed: the signs of all functions, and their values. */
 static qdot_status
 look_before(qdot_piece *x, double t, double *g)
@@ -310,8 +313,13 @@ look_before(qdot_piece *x, double t, double *g)
         x->left[i] = first[i];
         x->turned[i] = false;
     }
-    for (size_t i = 0; i < x->fired.n; i++)
-        x->untouched[x->fired.at[i].function] = false;
+    for (size_t i = 0; i < x->fired.n; i++) {
+        qdot_root *root = &x->fired.at[i];
+
+        x->untouched[root->function] = false;
+        if (instant) /* counted where the piece starts, so its zero there is no further occurrence */
+            root->residual = fmax(root->residual, counted * fabs(g[root->function]));
+    }
     return QDOT_OK;
 }
 
@@ -330,6 +338,19 @@ look_behind(qdot_piece *x, double t, double *g)
         x->untouched[i] = x->untouched[i] && now[i] == g[i];
     qdot_free(signs);
     return status;
+}
+
+/* The way that event i is met behind the change; 0 also where it is the only one and the motion has no rates there: the
+ * run says so where it goes on. */
+static qdot_status
+way_behind(qdot_piece *x, size_t i, bool alone, int *way)
+{
+    qdot_status status = qdot_piece_way(x, i, way);
+
+    if (!alone || (status != QDOT_EDOMAIN && status != QDOT_ESINGULAR))
+        return status;
+    *way = 0;
+    return QDOT_OK;
 }
 
 /* Carry out `then` of the event that root k is of, among others at the same instant. One whose crossing an event before
@@ -351,8 +372,7 @@ change_state(qdot_piece *x, size_t k, double *old)
     memcpy(x->start.low, low, x->n * sizeof *low);
     QDOT_TRY(qdot_piece_change(x, e, x->t_act, old, low, y, x->start.low));
     memcpy(x->start.low_of, y, x->n * sizeof *y);
-    if (!alone)
-        QDOT_TRY(qdot_piece_way(x, root->function, &behind));
+    QDOT_TRY(way_behind(x, root->function, alone, &behind));
     if (root->way != 0 && before == -root->way && behind == root->way) {
         memcpy(y, old, x->n * sizeof *y);
         memcpy(x->start.low_of, old, x->n * sizeof *y);

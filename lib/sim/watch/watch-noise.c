@@ -94,6 +94,23 @@ qdot_watch_noise_of(qdot_watch *w, double t, const double *y, const double *by, 
 }
 
 qdot_status
+qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i, double *noise)
+{
+    const double h = 0x1p-20 * t;
+    double g;
+
+    *noise = 0;
+    if (h == 0)
+        return QDOT_OK;
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    QDOT_TRY(qdot_watch_value(w, t, w->moved));
+    g = w->moved[i];
+    QDOT_TRY(moved_by(w, t + h, y, 2 * w->n, 0, i, g, noise));
+    *noise *= 4 * DBL_EPSILON / 0x1p-20;
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i, double *noise)
 {
     double by[2 * QDOT_WATCH_NODES], *room = NULL, *change = by;

@@ -542,11 +542,13 @@ qdot_watch_look(qdot_watch *w, double t, const double *y, const double *largest,
     for (size_t i = 0; i < w->m; i++)
         signs[i] = qdot_watch_sign(g[i]);
     for (size_t i = 0; i < w->m && on; i++) {
-        double noise = 0;
+        double noise = 0, of_time = 0;
 
-        if (g[i] != 0)
+        if (g[i] != 0) {
             QDOT_TRY(qdot_watch_noise_of(w, t, y, largest, i, &noise));
-        on[i] = fabs(g[i]) <= noise;
+            QDOT_TRY(qdot_watch_noise_of_time(w, t, y, i, &of_time));
+        }
+        on[i] = fabs(g[i]) <= noise + of_time;
     }
     return QDOT_OK;
 }

@@ -120,8 +120,12 @@ QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const doubl
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
                                                 const double *by, size_t i, double *noise);
 
-/* All g [m] at a state, and their signs [m]; on [m], unless NULL: whether they are 0 but for rounding of a
- * state whose components have been as large as `largest` [2n]. */
+/* What 4 roundings of the time make of g_i where that holds it. */
+QDOT_MUST_CHECK qdot_status qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i,
+                                                     double *noise);
+
+/* All g [m] at a state, and their signs [m]; on [m], unless NULL: whether they are 0 but for rounding of the
+ * time and of a state whose components have been as large as `largest` [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y,
                                             const double *largest, int *signs, double *g, bool *on);
 
