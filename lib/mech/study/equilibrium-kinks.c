@@ -415,11 +415,11 @@ jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
         QDOT_TRY(steps_over(r, node, b, QDOT_ZERO, qdot_sub(pool, a, qdot_mul(pool, m, b)), &smooth));
         break;
     case QDOT_IF:
-        b = condition_gap(pool, a);
-        if (b != QDOT_NIL)
-            QDOT_TRY(steps_over(r, node, qdot_expr_arg(pool, node, 2), qdot_expr_arg(pool, node, 1), b, &smooth));
-        else
-            smooth = qdot_expr_arg(pool, node, 1) == qdot_expr_arg(pool, node, 2);
+        b = with_gaps(pool, a, qdot_list(pool, 0, NULL));
+        QDOT_TRY(qdot_pool_check(pool));
+        for (uint32_t i = 0; i < qdot_expr_count(pool, b) && smooth; i++)
+            QDOT_TRY(steps_over(r, node, qdot_expr_arg(pool, node, 2), qdot_expr_arg(pool, node, 1),
+                                qdot_expr_arg(pool, b, i), &smooth));
         if (!smooth)
             *zeros = with_gaps(pool, a, *zeros);
         *yes = !smooth;
