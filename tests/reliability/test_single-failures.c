@@ -5,6 +5,8 @@
  * examples that are named behind the program:
  *
  *     long     every n
+ *     share    every n, but of what the thread for exact computations allocates in one of them only every SHARE-th after
+ *              the first SPAN: whichever it is, the computation is left as a whole
  *     places   the first EACH_PLACE of each chain of functions that come to an allocation
  *     97       every 97th
  */
@@ -179,7 +181,7 @@ carry_out_in_copy(long n, struct found *told)
  * each of them another of the next SPAN allocations fails. So a failure costs what comes after it, and not what came
  * before. Only the main thread makes copies, and while no other works (a copy has no thread but its own): SPAN is the
  * least. Runs begin no threads for it (qdot_threads_are_taken). */
-enum { SPAN = 400, SLACK = 16 }; /* a copy begins a thread for FLINT, which costs some allocations */
+enum { SPAN = 400, SLACK = 16, SHARE = 16 }; /* a copy begins a thread for FLINT, which costs some allocations */
 
 /* Where allocations come from: the functions that are at work, as one number. QDOT_RELIABILITY=places fails EACH_PLACE
  * allocations of each of them in a statement, where `long` fails all. */
@@ -255,7 +257,7 @@ fail_each_of_span(void)
     }
     if (!copy_ends_well(copy, -1))
         counts->bad++;
-    for (long n = 0; n < *span + SLACK; n++) {
+    for (long n = 0; n < *span + SLACK; n += is_form("share") && n >= SPAN ? SHARE : 1) {
         if (places != NULL && (n >= *span || (n < MOST_OF_SPAN && !places->is_new[n])))
             continue;
         found->left = -1;
@@ -372,7 +374,7 @@ fail_each_of(const char *script, const char *path)
             found->left = -1;
             if (places != NULL)
                 memset(places->at, 0, sizeof places->at), places->n = 0;
-            if (is_form("long") || places != NULL)
+            if (is_form("long") || is_form("share") || places != NULL)
                 fail_each_on_the_way();
             else
                 fail_some();
@@ -385,8 +387,8 @@ fail_each_of(const char *script, const char *path)
     (void)own_folder_clean(NULL);
     print_message("# %s: each alone of %ld allocations, %ld of them not survived or without a word\n", script,
                   counts->times, counts->bad);
-    if (places != NULL)
-        print_message("# %s: %ld allocations in all, %d from each place\n", script, counts->seen, EACH_PLACE);
+    if (counts->seen > 0)
+        print_message("# %s: %ld allocations in all\n", script, counts->seen);
     assert_int_equal(counts->bad, 0);
 }
 
@@ -408,7 +410,7 @@ fail_each_of_example(const char *name)
 static void
 one_allocation_alone_may_fail(void **state)
 {
-    const bool all = is_form("long") || is_form("places") || stride() > 0;
+    const bool every = is_form("long") || is_form("share"), all = every || is_form("places") || stride() > 0;
     struct {
         struct found found, usual;
         struct counts counts;
@@ -424,7 +426,7 @@ one_allocation_alone_may_fail(void **state)
     counts = &shared->counts;
     span = &shared->span;
     places = is_form("places") ? &shared->places : NULL;
-    qdot_threads_are_taken = is_form("long") || places != NULL;
+    qdot_threads_are_taken = every || places != NULL;
     for (size_t i = 0; i < SCRIPTS && *chosen == NULL; i++)
         if (all || i % 4 == 0)
             fail_each_of_example(scripts[i]);
