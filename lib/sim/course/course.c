@@ -25,7 +25,7 @@ make_room(qdot_piece *x)
     x->jumps = qdot_calloc(m, sizeof *x->jumps);
     x->root = qdot_calloc(x->n, sizeof *x->root);
     x->thens = qdot_calloc(x->c->stage->events.n + 1, sizeof *x->thens);
-    x->y = qdot_calloc(9 * x->n, sizeof *x->y);
+    x->y = qdot_calloc(11 * x->n, sizeof *x->y);
     x->step = (qdot_trajectory){.n = x->n,
                                 .count = 2,
                                 .method = x->method,
@@ -41,7 +41,7 @@ make_room(qdot_piece *x)
     x->start.y = x->y_act + x->n;
     x->rim = x->start.y + x->n;
     x->bare = x->rim + x->n;
-    x->start.low = x->bare + x->n;
+    x->start.low = x->bare + 3 * x->n;
     x->start.low_of = x->start.low + x->n;
     x->end_low = x->start.low_of + x->n;
     x->largest = x->end_low + x->n;

@@ -5,15 +5,11 @@
 #include <string.h>
 
 #include "ode/scale.h"
-#include "sim/course/piece.h"
+#include "sim/course/piece-impact.h"
 #include "sim/model/contact.h"
 
-/* Two velocities count as equal up to this. */
+/* Two places count as equal up to this, and two velocities without series. */
 static const double alike = 1e-9;
-/* The operations of `then` may round it by so many times the rounding of velocities. */
-static const double roundings = 32;
-/* The speed of a trial impact. */
-static const double trial = 1e-3;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides them. */
 static const double least_height = DBL_EPSILON / 8;
 /* The same of a place that moves with time: where it is at a root, rounding of that hides. */
@@ -30,6 +26,8 @@ static const double led = 16;
 static const double apart = 64 * DBL_EPSILON;
 /* The motion does not rest where entering the contact would change a component by more than this part of it. */
 static const double fastest = 1e-4;
+/* Nor where nothing presses it by more than this. */
+static const double rounded = 32 * DBL_EPSILON;
 /* A bounce is not low if it begins with more than this part of the largest speed so far. */
 static const double slow = 1e-2;
 
@@ -68,88 +66,12 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
     return QDOT_OK;
 }
 
-/* --- whether the event is an impact on a smooth wall ---------------------------------- */
-
-/* The direction M^-1 du/dq [n] times the reaction at the start: q'' of the mode less that without
- * the contact, `free`; *size its length. */
-static qdot_status
-direction(qdot_piece *x, size_t mode, size_t free, double *d, double *size)
-{
-    const size_t n = x->n / 2;
-    double *rates = qdot_malloc(2 * x->n * sizeof *rates);
-    qdot_status status = rates ? QDOT_OK : QDOT_ENOMEM;
-
-    *size = 0;
-    if (status == QDOT_OK)
-        status = qdot_piece_rates(x, mode, rates);
-    if (status == QDOT_OK)
-        status = qdot_piece_rates(x, free, rates + x->n);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        d[i] = rates[n + i] - rates[x->n + n + i];
-        *size = hypot(*size, d[i]);
-    }
-    qdot_free(rates);
-    return status;
-}
-
-/* Whether `then` at the start with its velocities less `speed` d/|d| gives them back, turned about by
- * 0 ... 1 times that speed, its *share, and leaves the place where it is. */
-static qdot_status
-is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double size, double speed,
-          double *share, bool *yes)
-{
-    const size_t n = x->n / 2;
-    double *old = qdot_malloc(2 * x->n * sizeof *old), *y = old + x->n, back = 0, aside = 0;
-    double scale = 1;
-    bool stays = true;
-    qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
-
-    *yes = false;
-    if (status == QDOT_OK) {
-        memcpy(old, x->start.y, x->n * sizeof *old);
-        for (size_t i = 0; i < n; i++)
-            old[n + i] -= speed * d[i] / size;
-        memcpy(y, old, x->n * sizeof *y);
-        status = qdot_piece_change(x, e, x->start.t, old, NULL, y, NULL);
-    }
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        back += (y[n + i] - old[n + i]) * d[i] / size;
-        scale = fmax(scale, fabs(old[n + i]));
-    }
-    for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        aside = fmax(aside, fabs(y[n + i] - old[n + i] - back * d[i] / size));
-    for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        stays = stays && fabs(y[i] - old[i]) <= roundings * DBL_EPSILON * fmax(fabs(old[i]), x->largest[i]);
-    *yes = stays && status == QDOT_OK && aside <= alike * speed + roundings * DBL_EPSILON * scale
-           && back >= speed * (1 - 1e-6) - alike * scale
-           && back <= 2 * speed * (1 + 1e-6) + alike * scale;
-    *share = speed > 0 ? back / speed - 1 : 0;
-    qdot_free(old);
-    return qdot_grave(status);
-}
-
-static qdot_status
-is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, double *share, bool *yes)
-{
-    const qdot_staged_event *e = &x->c->stage->events.at[event];
-    double *d = qdot_malloc((x->n + 1) * sizeof *d), size;
-    qdot_status status = d ? direction(x, mode, free, d, &size) : QDOT_ENOMEM;
-
-    *yes = status == QDOT_OK && size > 0 && isfinite(size);
-    if (*yes)
-        status = is_impact(x, e, d, size, 0, share, yes);
-    if (status == QDOT_OK && *yes)
-        status = is_impact(x, e, d, size, trial, share, yes);
-    qdot_free(d);
-    return qdot_grave(status);
-}
-
 /* --- where one begins ----------------------------------------------------------------- */
 
 /* The bounces that are left out where a contact begins, and how the start is moved onto it. */
 typedef struct {
     double off[2]; /* u, u' of the start before that */
-    double pull;   /* u'' without the contact, against u' */
+    double pull;   /* u'' without the contact, against u'; 0: nothing presses it */
     double share;  /* the part of |u'| that an impact leaves */
     double size;   /* of the terms of u */
     double moved;  /* by how much the start changes, relative to max(1, |component|) */
@@ -172,13 +94,13 @@ size_of_place(const qdot_piece *x, const skipped *s)
 static double
 height(const skipped *s)
 {
-    return fabs(s->off[0]) + (s->off[1] != 0 ? s->off[1] * s->off[1] / (2 * s->pull) : 0);
+    return fabs(s->off[0]) + (s->off[1] != 0 && s->pull > 0 ? s->off[1] * s->off[1] / (2 * s->pull) : 0);
 }
 
 static double
 duration(const skipped *s)
 {
-    return s->off[1] != 0 ? 2 * fabs(s->off[1]) / (s->pull * fmax(0, 1 - s->share)) : 0;
+    return s->off[1] != 0 && s->pull > 0 ? 2 * fabs(s->off[1]) / (s->pull * fmax(0, 1 - s->share)) : 0;
 }
 
 /* The start moves along s->along until the row of that order of the surface is kept: an impulse of the contact, so that
@@ -200,30 +122,55 @@ move_onto(qdot_piece *x, size_t surface, int order, skipped *s)
     return QDOT_OK;
 }
 
-/* Fill s->along and s->pull by d [n], q'' of the contact less that without. */
+/* Fill s->along and s->pull by d [n], q'' of the contact less that without, of length `size`; 0: nothing presses it. */
 static qdot_status
-find_pull(qdot_piece *x, size_t surface, const double *d, skipped *s)
+find_pull(qdot_piece *x, size_t surface, const double *d, double size, skipped *s)
 {
     const size_t n = x->n / 2;
     double value, rise = 0;
 
     QDOT_TRY(qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, x->start.y, surface, 1, &value,
                                      s->along + n));
+    memcpy(s->along, size > 0 ? d : s->along + n, n * sizeof *d);
     for (size_t i = 0; i < n; i++) {
-        rise += s->along[n + i] * d[i];
+        rise += s->along[n + i] * s->along[i];
         s->size += fabs(s->along[n + i] * x->start.y[i]);
     }
     for (size_t i = 0; i < n; i++)
-        s->along[i] = d[i] / rise;
-    s->pull = rise != 0 ? fabs(rise) : INFINITY;
+        s->along[i] /= rise;
+    s->pull = size == 0 ? 0 : rise != 0 ? fabs(rise) : INFINITY;
     return QDOT_OK;
+}
+
+/* The contacts that last beside it, which the impulse of the event has pushed into: by theirs. None of them moves another. */
+static qdot_status
+keep_others(qdot_piece *x, size_t surface, double *d, skipped *s)
+{
+    const qdot_switches *switches = &x->c->stage->switches;
+    double *along = qdot_malloc((x->n + 1) * sizeof *along), size;
+    qdot_status status = along ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = qdot_switches_own(switches); i < switches->surfaces.n && status == QDOT_OK; i++) {
+        skipped other = {.along = along};
+
+        if (i == surface || x->side[i] != QDOT_SIDE_SLIDES || !switches->surfaces.at[i].contact)
+            continue;
+        status = qdot_piece_reaction(x, i, d, &size);
+        if (status == QDOT_OK && size > 0 && isfinite(size))
+            status = find_pull(x, i, d, size, &other);
+        if (status == QDOT_OK && size > 0 && isfinite(size))
+            status = move_onto(x, i, 1, &other);
+        s->moved = fmax(s->moved, other.moved);
+    }
+    qdot_free(along);
+    return status;
 }
 
 /* Enter the contact, in x->side and x->start.y; what that leaves out. */
 static qdot_status
 enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
 {
-    const size_t free = x->mode;
+    const size_t mode = x->mode;
     double *d = qdot_malloc((x->n + 1) * sizeof *d), size = 0, rest = 0;
     qdot_status status;
 
@@ -233,18 +180,19 @@ enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
     x->side[surface] = QDOT_SIDE_SLIDES;
     status = qdot_piece_enter(x);
     if (status == QDOT_OK)
-        status = direction(x, x->mode, free, d, &size);
-    if (status == QDOT_OK && size > 0 && isfinite(size))
-        status = find_pull(x, surface, d, s);
-    for (int order = 0; order < 2 && status == QDOT_OK && s->pull > 0; order++)
+        status = qdot_piece_reaction(x, surface, d, &size);
+    if (status == QDOT_OK && isfinite(size))
+        status = find_pull(x, surface, d, size, s);
+    for (int order = 0; order < 2 && status == QDOT_OK && isfinite(size); order++)
         status = move_onto(x, surface, order, s);
+    if (status == QDOT_OK && isfinite(s->moved))
+        status = keep_others(x, surface, d, s);
     if (status == QDOT_OK)
         status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y, &rest);
     s->moved = fmax(s->moved, rest);
-    if (status == QDOT_OK && isfinite(s->moved))
-        status = is_smooth_wall(x, x->c->stage->switches.surfaces.at[surface].event, x->mode, free, &s->share,
-                                can);
-    x->mode = free;
+    if (status == QDOT_OK && isfinite(s->moved) && rest <= fastest) /* beside it other contacts are kept */
+        status = qdot_piece_is_smooth_wall(x, surface, &s->share, can);
+    x->mode = mode;
     qdot_free(d);
     return qdot_grave(status);
 }
@@ -296,6 +244,8 @@ may_rest(const qdot_piece *x, size_t surface, double left, const skipped *s)
     const bool by_points = !x->reader.read_two && !x->c->leader;
     const double place = size_of_place(x, s);
 
+    if (s->pull == 0) /* it would fly on with that speed; and the reaction, 0 all along, is seen as that by series alone */
+        return x->reader.read_two && s->moved <= rounded;
     if (s->moved <= fastest
         && (by_points && left == 0 ? height(s) <= least_height * place /* the motion does not leave it */
                                    : isfinite(left) && s->moved * left <= lowest(x, surface) * place))
@@ -351,7 +301,7 @@ note_skipped(qdot_piece *x, size_t surface, const skipped *s)
 {
     qdot_course_chatter chatter = {.surface = surface, .t = x->start.t, .place = height(s),
                                    .speed = fabs(s->off[1]),
-                                   .unsure = s->off[1] != 0 ? fabs(s->off[0] / s->off[1]) : 0,
+                                   .unsure = s->off[1] != 0 ? fmin(fabs(s->off[0] / s->off[1]), duration(s)) : 0,
                                    .mode = {x->mode, x->mode, x->mode}, .ended = true};
 
     if (qdot_contacts_moves(&x->c->stage->switches, surface) && isfinite(s->pull))
@@ -465,6 +415,27 @@ qdot_piece_meets_again(const qdot_piece *x, size_t i)
 
 /* --- after a change ------------------------------------------------------------------- */
 
+/* The rate of a contact that lasts where an event has changed velocities; *noise: what is left of it by rounding, and by
+ * the error of a method without series. */
+static qdot_status
+rate_beside(const qdot_piece *x, size_t surface, double *rate, double *noise)
+{
+    const size_t n = x->n / 2;
+    double *slopes = qdot_malloc((n + 1) * sizeof *slopes);
+    qdot_status status = slopes ? QDOT_OK : QDOT_ENOMEM;
+
+    *noise = 0;
+    if (status == QDOT_OK)
+        status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, x->start.y, surface, 1, rate,
+                                         slopes);
+    for (size_t k = 0; k < n && status == QDOT_OK; k++)
+        *noise += rounded * fabs(slopes[k]) * x->largest[n + k];
+    if (!x->reader.read_two)
+        *noise = fmax(*noise, alike);
+    qdot_free(slopes);
+    return status;
+}
+
 qdot_status
 qdot_piece_keep_contacts(qdot_piece *x)
 {
@@ -474,17 +445,16 @@ qdot_piece_keep_contacts(qdot_piece *x)
     x->pushed.n = 0;
     for (size_t i = qdot_switches_own(s); i < s->surfaces.n; i++) {
         const double reaction = s->surfaces.at[i].reaction;
-        double place, rate;
+        double place, rate, noise;
 
         if (x->side[i] != QDOT_SIDE_SLIDES || qdot_piece_mode(x)->side[i] != QDOT_SIDE_SLIDES)
             continue;
         QDOT_TRY(
             qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 0, &place, NULL));
-        QDOT_TRY(
-            qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 1, &rate, NULL));
+        QDOT_TRY(rate_beside(x, i, &rate, &noise));
         place *= reaction;
         rate *= reaction;
-        if (fabs(place) <= alike && fabs(rate) <= alike)
+        if (fabs(place) <= alike && fabs(rate) <= noise)
             continue;
         x->side[i] = 0;
         if (place > alike || (fabs(place) <= alike && rate > 0))

@@ -163,10 +163,11 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
     *left = 0;
     if (!r) {
         qdot_piece_repeat new = {
-            .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t};
+            .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t, .at_once = 1};
 
         return qdot_vec_push(&x->repeats, new);
     }
+    r->at_once = t == r->last ? r->at_once + 1 : 1;
     if (fabs(t - r->since) > MOMENT * reach) {
         r->since = t;
         r->n = 0;
@@ -175,6 +176,23 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
     *yes = ++r->n > MOST_REPEATS || *left <= NEAR * reach || r->soon;
     *left = isfinite(*left) ? *left : 0;
     return QDOT_OK;
+}
+
+/* Whether the blows of event w all came at one instant; *look: it is time to try those that follow, at ever longer
+ * intervals. */
+static bool
+is_at_one_instant(const qdot_piece *x, const qdot_watched *w, int way, bool *look)
+{
+    const qdot_piece_repeat *r = qdot_piece_repeat_of(x, w->kind, w->index);
+    size_t n = r ? r->at_once : 0;
+
+    if (w->kind != QDOT_WATCH_EVENT || n <= MOST_REPEATS
+        || qdot_contacts_surface(&x->c->stage->switches, w->index, way) == SIZE_MAX)
+        return false;
+    for (n = n - 1; n % 2 == 0; n /= 2)
+        ;
+    *look = *look || n == 1;
+    return true;
 }
 
 /* Whether the switch w comes ever faster only because bounces do, as the switch at the top of each bounce under drag: an
@@ -244,6 +262,19 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
     return true;
 }
 
+/* Of a companion: whether the event w, which has just been noted, comes again at this instant in the run. */
+static bool
+comes_again_in_run(const qdot_piece *x, const qdot_watched *w)
+{
+    const qdot_course *run = x->c->leader;
+    const size_t k = x->c->ends.n;
+
+    for (size_t i = k; i < run->ends.n && run->ends.at[i].t == run->ends.at[k - 1].t; i++)
+        if (run->ends.at[i].what.kind == w->kind && run->ends.at[i].what.index == w->index)
+            return true;
+    return false;
+}
+
 /* Of a companion: whether the motion of the run comes to rest on the event that ended this piece; *led: the run says
  * that, for it has a piece behind this one. What the bounces to come are left out for is the same in both then. */
 static bool
@@ -252,7 +283,8 @@ rests_in_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
     const qdot_course *run = x->c->leader;
     const size_t next = x->c->tr.pieces.n, surface = qdot_contacts_surface(&x->c->stage->switches, w->index, way);
 
-    *led = run && w->kind == QDOT_WATCH_EVENT && surface != SIZE_MAX && next < run->tr.pieces.n;
+    *led = run && w->kind == QDOT_WATCH_EVENT && surface != SIZE_MAX && next < run->tr.pieces.n
+           && !comes_again_in_run(x, w);
     return *led && x->c->stage->modes.at[run->tr.pieces.at[next].mode]->side[surface] == QDOT_SIDE_SLIDES;
 }
 
@@ -392,6 +424,21 @@ change_state(qdot_piece *x, size_t k, double *old)
     return QDOT_OK;
 }
 
+/* The blows that follow at this instant, if they never end; c->reason if they cannot be followed. */
+static qdot_status
+follow_blows(qdot_piece *x)
+{
+    bool endless, known;
+
+    QDOT_TRY(qdot_piece_try_blows(x, &endless, &known));
+    if (!known)
+        say_accumulated(x, &qdot_piece_mode(x)->watched[x->roots.at[0].function], x->t_act, 0);
+    for (size_t i = x->repeats.n; i-- > 0 && endless;) /* they may come again */
+        if (x->repeats.at[i].kind == QDOT_WATCH_EVENT && x->repeats.at[i].last == x->t_act)
+            x->repeats.at[i] = x->repeats.at[--x->repeats.n];
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_piece_act(qdot_piece *x, bool *over)
 {
@@ -400,6 +447,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
     qdot_status status = old && g ? QDOT_OK : QDOT_ENOMEM;
     const qdot_mode *m = qdot_piece_mode(x);
     const double t = x->t_act;
+    bool at_once = false;
 
     x->fired.n = 0;
     x->crossed.n = x->pushed.n = 0;
@@ -417,7 +465,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
         double left = 0;
-        bool fast = false, low = false, led, rests;
+        bool fast = false, low = false, led, rests, once;
 
         if (w->kind != QDOT_WATCH_EVENT || qdot_staged_event_acts(&x->c->stage->events.at[w->index]))
             status = qdot_vec_push(
@@ -460,7 +508,10 @@ qdot_piece_act(qdot_piece *x, bool *over)
         }
         if (status == QDOT_OK)
             status = accumulates(x, w, t, &fast, &left);
-        rests = rests_in_run(x, w, qdot_root_way(root), &led);
+        once = fast && is_at_one_instant(x, w, qdot_root_way(root), &at_once);
+        fast = fast && !once;
+        rests = rests_in_run(x, w, qdot_root_way(root), &led) && !once;
+        led = led && !once;
         if (status == QDOT_OK && !led && !fast && !*over && w->kind == QDOT_WATCH_EVENT)
             status = qdot_piece_may_be_low(x, w->index, qdot_root_way(root), &low);
         if (status == QDOT_OK && (led ? rests : fast || low) && !*over && w->kind == QDOT_WATCH_EVENT)
@@ -479,6 +530,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
         status = look_behind(x, t, g);
     if (x->start.jumped && status == QDOT_OK && !*over) {
         status = qdot_piece_keep_contacts(x);
+        if (status == QDOT_OK && at_once && x->c->reason[0] == '\0')
+            status = follow_blows(x);
         *over = x->c->reason[0] != '\0';
         if (*over)
             qdot_piece_stop(x, true);

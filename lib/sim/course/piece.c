@@ -209,14 +209,19 @@ stays_on_event(qdot_piece *x)
     return false;
 }
 
-/* The piece ends where it starts, by an event. */
+/* The piece ends where it starts, by an event, whose function is 0 there but for rounding of the places: in two doubles
+ * that is more than rounding of the function. */
 static qdot_status
 end_at_once(qdot_piece *x, double t0, const qdot_root *root)
 {
+    qdot_root met = *root;
+
     x->intent = QDOT_PIECE_ENDS;
     x->t_act = t0;
+    if (x->reader.read_two)
+        QDOT_TRY(qdot_watch_noise_of(qdot_piece_watch(x), t0, x->start.y, x->largest, root->function, &met.residual));
     QDOT_TRY(note(x, root));
-    return qdot_vec_push(&x->roots, *root);
+    return qdot_vec_push(&x->roots, met);
 }
 
 /* Whether the piece ends at once by event i, `root` of which is where it starts. Behind a change of the state: an event
@@ -560,6 +565,8 @@ accepted(double t, const double *y, bool *stop, void *user)
 {
     qdot_piece *x = user;
 
+    if (x->first_step)
+        memset(x->end_low, 0, x->n * sizeof *x->end_low);
     QDOT_TRY(check_accelerations(x, t, y));
     if (x->options->accepted)
         QDOT_TRY(x->options->accepted(t, y, stop, x->options->user));
@@ -656,6 +663,8 @@ qdot_piece_integrate(qdot_piece *x)
     x->beyond = NULL;
     x->has_root = false;
     memset(x->end_low, 0, x->n * sizeof *x->end_low);
+    if (x->reader.read_two) /* it may end where it starts */
+        qdot_piece_low(x, x->end_low);
     x->intent = QDOT_PIECE_GOES_ON;
     x->resting = SIZE_MAX;
     x->broken_off = false;

@@ -29,6 +29,7 @@ typedef struct {
                                      interval before */
     size_t steady;                /* how often in a row the ratio was the same */
     bool soon;                    /* its contact was about to last (qdot_piece_rest) */
+    size_t at_once;               /* times at the same t */
 } qdot_piece_repeat;
 
 /* A surface for which another side has to be tried. */
@@ -70,7 +71,7 @@ typedef struct {
     bool *turned;       /* [functions] an event on it ended that piece, and its own `then` turned it back */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
-    double *bare;  /* [n] the start, before a try has moved it */
+    double *bare;  /* [n] the start, before a try has moved it; then start.low and .low_of [n] there */
     double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
     bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
@@ -261,6 +262,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_rest(qdot_piece *x, size_t event, int way
 /* Whether the event that changed the state, met with the sign `way`, leaves it so slow that the next bounce might not be
  * told from rounding within a step; never by series in two doubles, which tell it. */
 QDOT_MUST_CHECK qdot_status qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may);
+/* (piece-blows.c) Behind blows at one instant: whether those that follow never end, *endless. Then x->start.y is the state
+ * to which they lead, and what touches there without speed lasts, as by qdot_piece_rest. Not *known: that was not found. */
+QDOT_MUST_CHECK qdot_status qdot_piece_try_blows(qdot_piece *x, bool *endless, bool *known);
 /* (piece-puck.c) Where a piece starts in the present mode: pucks that move, but are at rest, are given
  * the speed of their start. *can: friction slows those that are to rest. */
 QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);

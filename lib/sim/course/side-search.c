@@ -165,6 +165,23 @@ side_enter(qdot_piece *x, bool *can)
     return status;
 }
 
+/* The state where the piece starts, in two doubles, to and from y [3n]. */
+static void
+copy_start(const qdot_piece *x, double *y)
+{
+    memcpy(y, x->start.y, x->n * sizeof *y);
+    memcpy(y + x->n, x->start.low, x->n * sizeof *y);
+    memcpy(y + 2 * x->n, x->start.low_of, x->n * sizeof *y);
+}
+
+static void
+put_start(qdot_piece *x, const double *y)
+{
+    memcpy(x->start.y, y, x->n * sizeof *y);
+    memcpy(x->start.low, y + x->n, x->n * sizeof *y);
+    memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
+}
+
 /* Integrate with x->side: the whole piece, or its first step. */
 static qdot_status
 go(qdot_piece *x)
@@ -187,7 +204,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     x->side[surface] = side;
     QDOT_TRY(qdot_piece_sides(x, held));
     if (qdot_piece_has_massless(x)) /* their values are those of the sides found */
-        memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
+        put_start(x, x->bare);
     status = side_enter(x, &can);
     if (status == QDOT_OK && can) {
         qdot_piece_carry(x);
@@ -228,23 +245,6 @@ sides_compare(qdot_piece *x, const long *held)
         }
     qdot_free(others.at);
     return status;
-}
-
-/* The state where the piece starts, in two doubles, to and from y [3n]. */
-static void
-copy_start(const qdot_piece *x, double *y)
-{
-    memcpy(y, x->start.y, x->n * sizeof *y);
-    memcpy(y + x->n, x->start.low, x->n * sizeof *y);
-    memcpy(y + 2 * x->n, x->start.low_of, x->n * sizeof *y);
-}
-
-static void
-put_start(qdot_piece *x, const double *y)
-{
-    memcpy(x->start.y, y, x->n * sizeof *y);
-    memcpy(x->start.low, y + x->n, x->n * sizeof *y);
-    memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
 }
 
 /* Compare the sides found with others, then integrate with them. */
@@ -307,7 +307,7 @@ go_by_crossing(qdot_piece *x, bool *decided)
     if (!*decided)
         return QDOT_OK;
     memcpy(x->side, x->tried.at, surfaces * sizeof *x->side);
-    memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
+    put_start(x, x->bare);
     QDOT_TRY(side_enter(x, &can));
     *decided = can;
     if (!can)
@@ -329,12 +329,12 @@ search(qdot_piece *x)
     x->search = QDOT_SIDES_TRIED;
     x->hindrance[0] = '\0';
     x->put_aside = x->start.slipped = false;
-    memcpy(x->bare, x->start.y, x->n * sizeof *x->bare);
+    copy_start(x, x->bare);
     for (;;) {
         bool over, can;
 
         QDOT_TRY(qdot_interrupt_check());
-        memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
+        put_start(x, x->bare);
         QDOT_TRY(next_sides(x, &combinations, &over));
         if (over) {
             bool decided;
@@ -384,6 +384,8 @@ qdot_piece_search(qdot_piece *x)
             return QDOT_OK;
         if (surfaces > 0)
             memcpy(x->side, qdot_piece_mode(x)->side, surfaces * sizeof *x->side);
+        if (!qdot_piece_has_massless(x)) /* not what the piece that was tried has made up for */
+            put_start(x, x->bare);
         QDOT_TRY(qdot_piece_rest(x, x->resting, x->resting_way, 0, &lasts, &soon));
         if (!lasts)
             break;

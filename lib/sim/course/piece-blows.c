@@ -1,0 +1,202 @@
+/* piece-blows.c -- blows at one instant that never end: bodies in a row that stick.
+ *
+ * Where several contacts are met at one instant each blow may set off another one: x = y, y = z, x = y, ... They are
+ * carried out one by one, as pieces without length. With restitutions below 1 there may be infinitely many, by which the
+ * speeds with which the bodies approach go to 0 as a geometric series does. So once an event has come more often at one
+ * instant the following blows are tried on the velocities alone: either they end, and the run goes through them, or no
+ * approach is left that rounding does not hide. That is where the run goes on, and what touches then may last there.
+ *
+ * Nothing is looked for between them: only coordinates and velocities that `then` sets change, and time stands still.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "sim/course/piece.h"
+#include "sim/model/contact.h"
+
+/* Blows that are tried at most. */
+enum { MOST_BLOWS = 200000 };
+/* The blows end by themselves if the last one turned back more than so many times the rounding of the speed. */
+static const double seen = 0x1p14;
+/* What is left of the speed at which others of them end counts as rounding up to so many times that. */
+static const double left_over = 64;
+
+/* A contact that touches at the instant. */
+typedef struct {
+    size_t event, surface;
+    int way;   /* the sign of du/dt with which it is met, in the direction of the run */
+    bool lasted; /* in the mode of the piece that ended */
+    bool held;   /* it lasts: it is met first, and alone */
+    bool due;
+    double rate, noise; /* du/dt by the velocities now, times `way`; its rounding */
+} touch;
+
+typedef struct {
+    qdot_piece *x;
+    qdot_vec(touch) at;
+    double *y;     /* [2n] the state */
+    double *room;  /* [6n] */
+    size_t blows;
+    double last;   /* the speed that the last one turned back, over its rounding */
+} blows;
+
+/* The sign of du/dt with which event i is met. */
+static int
+way_met(const qdot_piece *x, size_t i)
+{
+    const int asked = qdot_piece_way_asked(x, i);
+
+    return asked != 0 ? asked : -x->left[i];
+}
+
+static qdot_status
+find_touches(blows *b)
+{
+    qdot_piece *x = b->x;
+    const qdot_switches *s = &x->c->stage->switches;
+
+    for (size_t i = 0; i < x->c->stage->events.n; i++) {
+        const int way = way_met(x, i);
+        touch new = {.event = i, .surface = qdot_contacts_surface(s, i, way), .way = way};
+
+        if (way == 0 || new.surface == SIZE_MAX)
+            continue;
+        new.lasted = new.held = qdot_piece_mode(x)->side[new.surface] == QDOT_SIDE_SLIDES;
+        if (new.lasted || x->touching[i])
+            QDOT_TRY(qdot_vec_push(&b->at, new));
+    }
+    return QDOT_OK;
+}
+
+/* du/dt of a contact, at the state of the trial. */
+static qdot_status
+touch_measure(blows *b, touch *c)
+{
+    qdot_piece *x = b->x;
+    const size_t n = x->n / 2;
+    double *rates = b->room, *fast = rates + x->n, *slopes = fast + x->n, rate, noise = 0;
+
+    if (c->lasted) {
+        QDOT_TRY(qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, b->y, c->surface, 1, &rate, slopes));
+        for (size_t i = 0; i < n; i++)
+            noise += 4 * DBL_EPSILON * fabs(slopes[i]) * x->largest[n + i];
+    } else {
+        memset(rates, 0, 2 * x->n * sizeof *rates);
+        memcpy(rates, b->y + n, n * sizeof *rates);
+        memcpy(fast, x->largest + n, n * sizeof *fast);
+        QDOT_TRY(qdot_watch_rate(qdot_piece_watch(x), x->start.t, b->y, NULL, rates, fast, c->event, &rate, &noise));
+    }
+    c->rate = rate * c->way * x->direction;
+    c->noise = noise;
+    return QDOT_OK;
+}
+
+static qdot_status
+touch_measure_all(blows *b)
+{
+    for (size_t k = 0; k < b->at.n; k++)
+        QDOT_TRY(touch_measure(b, &b->at.at[k]));
+    return QDOT_OK;
+}
+
+static bool
+touch_approaches(const touch *c)
+{
+    return c->rate > c->noise;
+}
+
+static qdot_status
+blows_strike(blows *b, touch *c)
+{
+    qdot_piece *x = b->x;
+    double *old = b->room;
+
+    memcpy(old, b->y, x->n * sizeof *old);
+    QDOT_TRY(qdot_piece_change(x, &x->c->stage->events.at[c->event], x->start.t, old, NULL, b->y, NULL));
+    b->last = c->rate / c->noise;
+    b->blows++;
+    c->held = c->due = false;
+    return QDOT_OK;
+}
+
+/* The next blows, as pieces without length have them: a contact that lasts and is pushed into first, and alone; else all
+ * that approach, one after the other, but for those that one before them has turned back. *any: there were some. */
+static qdot_status
+try_next(blows *b, bool *any)
+{
+    bool pushed = false;
+
+    *any = false;
+    QDOT_TRY(touch_measure_all(b));
+    for (size_t k = 0; k < b->at.n; k++)
+        pushed |= b->at.at[k].held && touch_approaches(&b->at.at[k]);
+    for (size_t k = 0; k < b->at.n; k++) {
+        touch *c = &b->at.at[k];
+
+        c->due = touch_approaches(c) && (c->held || !pushed);
+        c->held = c->held && fabs(c->rate) <= c->noise; /* else it is left */
+    }
+    for (size_t k = 0; k < b->at.n; k++) {
+        touch *c = &b->at.at[k];
+
+        if (!c->due)
+            continue;
+        QDOT_TRY(touch_measure(b, c));
+        if (!touch_approaches(c))
+            continue;
+        QDOT_TRY(blows_strike(b, c));
+        *any = true;
+    }
+    return QDOT_OK;
+}
+
+/* The contacts that the blows leave without speed last from here on, if they may. */
+static qdot_status
+let_rest(blows *b)
+{
+    qdot_piece *x = b->x;
+
+    memcpy(x->start.y, b->y, x->n * sizeof *b->y);
+    memcpy(x->start.low_of, b->y, x->n * sizeof *b->y);
+    memset(x->start.low, 0, x->n * sizeof *x->start.low);
+    for (size_t k = 0; k < b->at.n; k++) {
+        const touch *c = &b->at.at[k];
+        bool lasts, soon;
+
+        if (fabs(c->rate) > left_over * c->noise)
+            continue;
+        x->side[c->surface] = 0;
+        QDOT_TRY(qdot_piece_rest(x, c->event, c->way, 0, &lasts, &soon));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_piece_try_blows(qdot_piece *x, bool *endless, bool *known)
+{
+    blows b = {.x = x};
+    bool any = true;
+    qdot_status status;
+
+    *endless = false;
+    *known = true;
+    b.y = qdot_malloc(7 * x->n * sizeof *b.y);
+    b.room = b.y + x->n;
+    status = b.y ? find_touches(&b) : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        memcpy(b.y, x->start.y, x->n * sizeof *b.y);
+    while (status == QDOT_OK && any && b.blows < MOST_BLOWS) {
+        status = qdot_interrupt_check();
+        if (status == QDOT_OK)
+            status = try_next(&b, &any);
+    }
+    *known = !any;
+    *endless = !any && b.blows > 0 && b.last <= seen;
+    if (status == QDOT_OK && *endless)
+        status = let_rest(&b);
+    qdot_free(b.y);
+    qdot_free(b.at.at);
+    return status;
+}
