@@ -44,14 +44,101 @@ time_within(const qdot_piece *x, size_t i)
     return (x->start.t - tr->t[tr->pieces.at[tr->pieces.n - 1].first]) / (1 + surface(x, i)->power);
 }
 
-/* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what has been left
+static bool
+holds_velocities(const qdot_piece *x, size_t i)
+{
+    return (qdot_expr_node(x->c->stage->switches.pool, surface(x, i)->u)->holds
+            & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+           != 0;
+}
+
+/* So near to the middle of a layer, in parts of the way to its rim, the power is next to nothing. */
+static const double beside_middle = 0x1p-10;
+
+/* What else than the power switches at u = 0, as a dashpot that acts in contact alone: the rates of a mode beyond the layer
+ * less those of the mode inside, jump [n], at the time `back` before the start, by its velocities. 0 where the power has no
+ * value there. */
+static qdot_status
+find_jump(qdot_piece *x, size_t beyond, size_t inside, double back, double *jump)
+{
+    const size_t n = x->n / 2;
+    const qdot_ode_system *in = x->c->systems.at + inside, *out = x->c->systems.at + beyond;
+    double *y = qdot_malloc(2 * x->n * sizeof *y), *rates = y + x->n;
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+
+    memset(jump, 0, x->n * sizeof *jump);
+    if (status == QDOT_OK) {
+        memcpy(y, x->start.y, x->n * sizeof *y);
+        for (size_t i = 0; i < n; i++)
+            y[i] -= back * y[n + i];
+        status = in->rhs(x->start.t - back, y, rates, in->user);
+    }
+    if (status == QDOT_OK)
+        status = out->rhs(x->start.t - back, y, jump, out->user);
+    for (size_t k = 0; k < x->n && y; k++)
+        jump[k] = status == QDOT_OK && k >= n ? jump[k] - rates[k] : 0;
+    qdot_free(y);
+    return qdot_grave(status);
+}
+
+/* The time from the rim of the layer of surface i, where the motion enters it, to its middle, with its sign; 0: not known. */
+static qdot_status
+find_half(qdot_piece *x, size_t i, double *half)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    double *rates = qdot_malloc(2 * x->n * sizeof *rates), rate = 0, noise = 0;
+    qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < x->n && rates; k++)
+        rates[x->n + k] = fabs(rates[k]);
+    for (size_t k = 0; k < m->m && status == QDOT_OK && rate == 0; k++)
+        if (m->watched[k].kind == QDOT_WATCH_SURFACE && m->watched[k].index == i)
+            status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, NULL, rates, rates + x->n, k, &rate,
+                                     &noise);
+    *half = fabs(rate) > noise ? x->direction * surface(x, i)->layer / fabs(rate) : 0;
+    qdot_free(rates);
+    return status;
+}
+
+/* What switches beside the power of a place does so at its middle, and is made good: where the layer is entered, up to the
+ * middle; where it is left on its other side, from there on. jumps [2 x n], of the side before and of that behind, where it is
+ * left. */
+static qdot_status
+make_jumps_good(qdot_piece *x, size_t i, bool leaves, double *jumps)
+{
+    const qdot_trajectory *tr = &x->c->tr;
+    const size_t pieces = tr->pieces.n, n = x->n;
+    size_t before;
+    double half;
+
+    if (is_in_time(x, i) || holds_velocities(x, i))
+        return QDOT_OK;
+    if (!leaves) {
+        QDOT_TRY(find_half(x, i, &half));
+        QDOT_TRY(find_jump(x, x->start.from, x->mode, -half * (1 - beside_middle), jumps));
+        for (size_t k = 0; k < n; k++)
+            x->start.y[k] += half * jumps[k];
+        return QDOT_OK;
+    }
+    before = pieces < 2 ? x->mode : tr->pieces.at[pieces - 2].mode;
+    if (!x->entered || x->c->stage->modes.at[before]->side[i] != -qdot_piece_mode(x)->side[i])
+        return QDOT_OK;
+    half = (x->start.t - tr->t[tr->pieces.at[pieces - 1].first]) / 2;
+    QDOT_TRY(find_jump(x, before, x->start.from, half * (1 + beside_middle), jumps));
+    QDOT_TRY(find_jump(x, x->mode, x->start.from, half * (1 - beside_middle), jumps + n));
+    for (size_t k = 0; k < n; k++)
+        x->start.y[k] += half * jumps[n + k];
+    return QDOT_OK;
+}
+
+/* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what its power has left
  * out of velocities since, relative to its size. */
 static qdot_status
 pass_rim(qdot_piece *x, size_t i, bool leaves)
 {
     qdot_course *c = x->c;
     const double time = time_within(x, i);
-    double *inside = qdot_malloc(2 * x->n * sizeof *inside), *beyond = inside + x->n,
+    double *inside = qdot_calloc(4 * x->n, sizeof *inside), *beyond = inside + x->n, *jumps = beyond + x->n,
            most = 0;
     qdot_status status = inside ? QDOT_OK : QDOT_ENOMEM;
 
@@ -59,8 +146,11 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
         status = qdot_piece_rates(x, leaves ? x->start.from : x->mode, inside);
     if (status == QDOT_OK)
         status = qdot_piece_rates(x, leaves ? x->mode : x->start.from, beyond);
+    if (status == QDOT_OK)
+        status = make_jumps_good(x, i, leaves, jumps);
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
-        const double out = beyond[k] - inside[k], mean = x->entered ? (x->rim[k] + out) / 2 : out;
+        const double out = beyond[k] - inside[k],
+                     mean = x->entered ? (x->rim[k] - jumps[k] + out - jumps[x->n + k]) / 2 : out;
 
         most = fmax(most, fabs(mean) / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
         x->rim[k] = out;
@@ -316,14 +406,6 @@ is_driven_back(qdot_piece *x, size_t i, bool *yes)
     x->side[i] = 0;
     x->mode = mode;
     return qdot_grave(status);
-}
-
-static bool
-holds_velocities(const qdot_piece *x, size_t i)
-{
-    return (qdot_expr_node(x->c->stage->switches.pool, surface(x, i)->u)->holds
-            & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
-           != 0;
 }
 
 /* Events whose function is 0 where the motion has come to rest, and was not before. */

@@ -16,9 +16,9 @@
  * little for its coefficients to keep the step within their radius: u would seem to turn back to the rim.
  * That is w = 16 tol^(5/4) U, at most (tol/100)^(1/(1 + p)) U. What was left out is added up
  * (sim/course/piece-layer.c): a run that leaves out more than its tolerance ends. In a layer of the time it is
- * known, and added to the velocities.
+ * known, and added to the velocities; so is, in a layer of places, what else switches at u = 0, as a dashpot in contact.
  *
- * Tests  tests/script/runs/broken-powers.lag, tests/bad/broken-power-*.lag
+ * Tests  tests/script/runs/broken-powers.lag, tests/script/contacts/contact-dashpots.lag, tests/bad/digits/broken-power-digits.lag
  */
 #ifndef QDOT_SIM_LAYER_H
 #define QDOT_SIM_LAYER_H
