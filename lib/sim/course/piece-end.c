@@ -355,6 +355,26 @@ look_before(qdot_piece *x, double t, double *g)
     return QDOT_OK;
 }
 
+/* Of a touch whose function rounding of the places hides all of it is 0, not a part as beside a root (watch.c): what looks
+ * like a crossing behind it has been counted with it. */
+static const double whole = 0x1p12;
+
+static qdot_status
+widen_touches(qdot_piece *x, double t)
+{
+    for (size_t i = 0; i < x->fired.n; i++) {
+        qdot_root *root = &x->fired.at[i];
+        double noise;
+
+        if (root->way != 0 || qdot_piece_mode(x)->watched[root->function].kind != QDOT_WATCH_EVENT)
+            continue;
+        QDOT_TRY(qdot_watch_noise_of(qdot_piece_watch(x), t, x->start.y, x->y, root->function, &noise));
+        if (root->residual <= 4 * noise)
+            root->residual = whole * noise;
+    }
+    return QDOT_OK;
+}
+
 /* And behind it. */
 static qdot_status
 look_behind(qdot_piece *x, double t, double *g)
@@ -461,6 +481,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)
         status = look_before(x, t, g);
+    if (status == QDOT_OK)
+        status = widen_touches(x, t);
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
