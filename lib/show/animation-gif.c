@@ -4,9 +4,9 @@
 
 #include "base/interrupt.h"
 #include "base/ranks.h"
+#include "base/sink.h"
 #include "show/animation.h"
 #include "show/gnuplot.h"
-#include "show/sink.h"
 
 enum { MOST_PICTURES = 400, A_SECOND = 25, PIXELS = 560, TRAIL_POINTS = 240 };
 

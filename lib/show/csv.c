@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "show/sink.h"
+#include "base/sink.h"
 
 enum { EXACT = 17, CHUNK = 1 << 16 };
 

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "base/sink.h"
 #include "show/formula-page.h"
-#include "show/sink.h"
 
 enum { EXACT = 17, CHUNK = 1 << 16 };
 

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/ranks.h"
+#include "base/sink.h"
 #include "show/figure-parts.h"
 #include "show/gnuplot.h"
-#include "show/sink.h"
 
 /* --- kinds of image ----------------------------------------------------------------- */
 

@@ -12,8 +12,8 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/sink.h"
 #include "show/data.h"
-#include "show/sink.h"
 
 enum {
     SUPERBLOCK = 48,

@@ -17,8 +17,8 @@
 
 #include "base/interrupt.h"
 #include "base/ranks.h"
+#include "base/sink.h"
 #include "base/text.h"
-#include "show/sink.h"
 
 extern char **environ;
 

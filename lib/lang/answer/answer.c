@@ -6,16 +6,16 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/number-text.h"
+#include "base/sink.h"
 #include "base/terminal.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
-#include "lang/answer/number-text.h"
 #include "lang/answer/sheet.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
 #include "lang/source/source.h"
-#include "show/sink.h"
 
 /* A code for a colour of answers, "" where none is shown. */
 static const char *

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "tape/constant.h"

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "lang/answer/digits.h"
-#include "lang/answer/number-text.h"
 #include "lang/answer/write.h"
 #include "ode/scale.h"
 

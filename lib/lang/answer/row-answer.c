@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "base/number-text.h"
 #include "base/utf8.h"
 #include "base/wrap.h"
-#include "lang/answer/number-text.h"
 #include "lang/answer/write.h"
 
 /* Failed rows that are told one by one. */

@@ -4,11 +4,11 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/formula.h"
-#include "lang/answer/number-text.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/components.h"
 #include "lang/declare/constraints.h"

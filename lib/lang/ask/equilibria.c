@@ -2,11 +2,11 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/number-text.h"
 #include "expr/calculus.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
-#include "lang/answer/number-text.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
 #include "lang/language/read.h"

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
+#include "base/number-text.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/declare/session-remarks.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"

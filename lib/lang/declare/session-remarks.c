@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "lang/answer/number-text.h"
+#include "base/number-text.h"
 #include "lang/session/measured.h"
 
 const char qdot_session_file_header[] = "# a scene written by qdot\n";

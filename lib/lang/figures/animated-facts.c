@@ -1,8 +1,8 @@
 /* animated-facts.c -- the lines below a moving picture: which run it is, and how right. */
 #include <math.h>
 
+#include "base/number-text.h"
 #include "expr/walk.h"
-#include "lang/answer/number-text.h"
 #include "lang/figures/animated.h"
 
 enum { MOST_VALUES = 24 };

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/number-text.h"
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/answer/number-text.h"
 #include "lang/files/data-file.h"
 #include "lang/session/bind.h"
 

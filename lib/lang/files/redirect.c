@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/sink.h"
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/scene-file.h"
 #include "show/formula-page.h"
-#include "show/sink.h"
 
 struct qdot_redirect_type {
     const char *ending;

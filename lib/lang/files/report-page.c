@@ -1,6 +1,7 @@
 /* report-page.c -- the statement `report`: scene, derivation, run and script as one page. */
 #include <string.h>
 
+#include "base/sink.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/figures/figure-file.h"
@@ -14,7 +15,6 @@
 #include "mech/study/noether.h"
 #include "show/page.h"
 #include "show/pdf.h"
-#include "show/sink.h"
 
 enum { LONGEST = 4000000 };
 

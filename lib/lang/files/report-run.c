@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "lang/answer/number-text.h"
+#include "base/number-text.h"
 #include "lang/answer/report.h"
 #include "lang/figures/animated.h"
 #include "lang/files/report-answer.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lang/answer/number-text.h"
+#include "base/number-text.h"
 #include "lang/files/report-answer.h"
 #include "lang/session/conditions.h"
 #include "lang/session/measured.h"

@@ -2,10 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "base/wrap.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/files/data-file.h"
 #include "lang/files/digits-table.h"
 #include "lang/files/row-file.h"

@@ -4,12 +4,12 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/number-text.h"
 #include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/list.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/answer/number-text.h"
 #include "lang/commands/set.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/number-text.h"
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/commands/statement.h"
 #include "lang/figures/figure-option.h"
 #include "lang/language/read.h"

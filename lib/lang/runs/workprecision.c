@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/number-text.h"
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"

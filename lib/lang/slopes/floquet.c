@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/number-text.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 #include "lang/slopes/orbit-run.h"

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/number-text.h"
 #include "base/utf8.h"
 #include "base/wrap.h"
-#include "lang/answer/number-text.h"
 #include "lang/answer/write.h"
 #include "lang/session/row-tables.h"
 

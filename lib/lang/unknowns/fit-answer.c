@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "base/utf8.h"
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/number-text.h"
 #include "lang/unknowns/fit-parts.h"
 
 /* Of a standard error, the numerical error that is no longer small beside it. */

@@ -5,10 +5,10 @@
  * permissions of the file that was there are kept. What is no regular file (a pipe, a device) is written as
  * it is.
  *
- * Tests  tests/show/test_sink.c
+ * Tests  tests/base/test_sink.c
  */
-#ifndef QDOT_SHOW_SINK_H
-#define QDOT_SHOW_SINK_H
+#ifndef QDOT_BASE_SINK_H
+#define QDOT_BASE_SINK_H
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* number-text.h -- doubles as people read them, and for JSON. */
-#ifndef QDOT_LANG_NUMBER_TEXT_H
-#define QDOT_LANG_NUMBER_TEXT_H
+#ifndef QDOT_BASE_NUMBER_TEXT_H
+#define QDOT_BASE_NUMBER_TEXT_H
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* sink.c -- writing a file beside its place and hearing of every failure. */
-#include "show/sink.h"
+#include "base/sink.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 /* number-text.c -- doubles as people read them, and for JSON. */
-#include "lang/answer/number-text.h"
+#include "base/number-text.h"
 
 #include <math.h>
 #include <string.h>

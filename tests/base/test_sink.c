@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/sink.h"
 #include "own-folder.h"
-#include "show/sink.h"
 
 static int
 enter(void **state)
