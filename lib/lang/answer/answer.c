@@ -443,23 +443,6 @@ qdot_answer_cells(qdot_session *session, const qdot_text *values)
 }
 
 qdot_status
-qdot_answer_row(qdot_session *session, size_t n, const double *values)
-{
-    qdot_text cells = {0};
-    qdot_status status;
-
-    for (size_t i = 0; i < n; i++) {
-        qdot_text_add(&cells, i > 0 ? "," : "");
-        qdot_number_text_json(&cells, values[i]);
-    }
-    status = qdot_text_status(&cells);
-    if (status == QDOT_OK)
-        status = qdot_answer_cells(session, &cells);
-    qdot_text_clear(&cells);
-    return status;
-}
-
-qdot_status
 qdot_answer_file(qdot_session *session, const char *path)
 {
     qdot_text line = {0};

@@ -43,10 +43,6 @@ QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr l
                                               qdot_expr right,
                                               const qdot_decision *decision);
 
-/* {"kind":"row"}: values [n]; JSON only (as text rows are a table). */
-QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, size_t n,
-                                            const double *values);
-
 /* {"kind":"row"} of JSON values with their commas; JSON only. */
 QDOT_MUST_CHECK qdot_status qdot_answer_cells(qdot_session *session,
                                               const qdot_text *values);

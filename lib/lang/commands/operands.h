@@ -4,7 +4,6 @@
 
 #include "lang/language/cursor.h"
 #include "lang/session/runs.h"
-#include "show/show.h"
 
 typedef struct {
     char *label;               /* the source text; owned */

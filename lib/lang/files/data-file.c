@@ -1,11 +1,15 @@
-/* data-file.c -- columns in a file by its ending, and the facts of their run. */
+/* data-file.c -- a table in a file by its ending, and the facts of its run. */
 #include "lang/files/data-file.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "show/data.h"
+#include "table/csv.h"
+#include "table/hdf5.h"
+#include "table/html.h"
+#include "table/json.h"
+#include "table/text.h"
 
 enum { TEXT_DIGITS = 12 };
 
@@ -36,18 +40,18 @@ qdot_data_file_check(const char *path)
 
 /* --- what is known ------------------------------------------------------------------------ */
 
-typedef qdot_vec(qdot_data_fact) facts;
+typedef qdot_vec(qdot_table_fact) facts;
 
 static qdot_status
 add_text(facts *to, const char *name, const char *text)
 {
-    return text == NULL ? QDOT_OK : qdot_vec_push(to, ((qdot_data_fact){name, text, 0}));
+    return text == NULL ? QDOT_OK : qdot_vec_push(to, ((qdot_table_fact){name, text, 0}));
 }
 
 static qdot_status
 add_number(facts *to, const char *name, double x)
 {
-    return isnan(x) ? QDOT_OK : qdot_vec_push(to, ((qdot_data_fact){name, NULL, x}));
+    return isnan(x) ? QDOT_OK : qdot_vec_push(to, ((qdot_table_fact){name, NULL, x}));
 }
 
 static qdot_status
@@ -98,7 +102,7 @@ add_parameters(const qdot_session *session, qdot_run *run, facts *to)
 /* --- the file ----------------------------------------------------------------------------- */
 
 static qdot_status
-write_facts(qdot_session *session, qdot_run *run, type type, qdot_data *data, const char *path)
+write_facts(qdot_session *session, qdot_run *run, type type, qdot_table *table, const char *path)
 {
     facts known = {0}, parameters = {0};
     qdot_status status = add_text(&known, "program", PACKAGE_STRING);
@@ -107,16 +111,16 @@ write_facts(qdot_session *session, qdot_run *run, type type, qdot_data *data, co
         status = add_run(session, run, &known);
     if (status == QDOT_OK && run != NULL)
         status = add_parameters(session, run, &parameters);
-    data->n_facts = known.n;
-    data->facts = known.at;
+    table->n_facts = known.n;
+    table->facts = known.at;
     if (run != NULL) { /* else the caller's */
-        data->n_parameters = parameters.n;
-        data->parameters = parameters.at;
+        table->n_parameters = parameters.n;
+        table->parameters = parameters.at;
     }
     if (status == QDOT_OK)
-        status = type == JSON   ? qdot_data_json(data, path)
-                 : type == HTML ? qdot_data_html(data, TEXT_DIGITS, path)
-                                : qdot_data_hdf5(data, path);
+        status = type == JSON   ? qdot_table_json(table, path)
+                 : type == HTML ? qdot_table_html(table, path)
+                                : qdot_table_hdf5(table, path);
     qdot_free(known.at);
     qdot_free(parameters.at);
     return status;
@@ -131,11 +135,11 @@ title_of(const char *path)
 }
 
 static qdot_status
-write_text(size_t n, const qdot_column *columns, size_t rows, const char *path,
-           qdot_session *session)
+write_text(qdot_session *session, const qdot_table *table, const char *path)
 {
+    static const qdot_table_text_options options = {QDOT_IN_TXT, TEXT_DIGITS, ""};
     qdot_text text = {0};
-    qdot_status status = qdot_table_text(n, columns, rows, TEXT_DIGITS, "", &text);
+    qdot_status status = qdot_table_text(table, &options, &text);
 
     if (status == QDOT_OK)
         status = qdot_answer_in_file(session, path, &text);
@@ -144,32 +148,14 @@ write_text(size_t n, const qdot_column *columns, size_t rows, const char *path,
 }
 
 qdot_status
-qdot_data_file_write(qdot_session *session, qdot_run *run, size_t n, const qdot_column *columns,
-                     size_t rows, const char *path)
+qdot_data_file_write(qdot_session *session, qdot_run *run, qdot_table *table, const char *path)
 {
     const type type = type_of(path);
-    qdot_data data = {.title = title_of(path),
-                      .columns = n,
-                      .rows = rows,
-                      .column = columns};
 
     QDOT_TRY(qdot_data_file_check(path));
+    table->title = title_of(path);
     if (type == TEXT)
-        return write_text(n, columns, rows, path, session);
-    QDOT_TRY(type == CSV ? qdot_table_csv(n, columns, rows, path)
-                         : write_facts(session, run, type, &data, path));
-    return qdot_answer_file(session, path);
-}
-
-qdot_status
-qdot_data_file_write_texts(qdot_session *session, qdot_run *run, qdot_data *data,
-                           const char *path)
-{
-    const type type = type_of(path);
-
-    QDOT_TRY(qdot_data_file_check(path));
-    data->title = title_of(path);
-    QDOT_TRY(type == CSV ? qdot_table_csv_texts(data->columns, data->column, data->texts, data->rows, path)
-                         : write_facts(session, run, type, data, path));
+        return write_text(session, table, path);
+    QDOT_TRY(type == CSV ? qdot_table_csv(table, path) : write_facts(session, run, type, table, path));
     return qdot_answer_file(session, path);
 }

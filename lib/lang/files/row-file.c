@@ -21,24 +21,11 @@ qdot_row_file_named(const qdot_cursor *c)
 static qdot_status
 write_file(qdot_session *session, const qdot_row_table *t, const char *path)
 {
-    const bool bare = qdot_ends_in(path, ".txt") || (qdot_ends_in(path, ".csv") && t->note == NULL);
     qdot_row_columns x = {0};
-    qdot_status status = qdot_row_columns_fill(t, NULL, &x);
+    qdot_status status = qdot_row_columns_of(t, NULL, &x);
 
-    if (status == QDOT_OK && bare)
-        status = qdot_data_file_write(session, NULL, x.n, x.columns, x.rows, path);
-    if (status == QDOT_OK && !bare) {
-        qdot_data data = {.columns = x.n + 1, .rows = x.rows, .column = x.columns,
-                          .texts = (char *const *const *)x.texts};
-        qdot_data_fact *parameters = qdot_row_columns_parameters(t);
-
-        status = parameters != NULL ? QDOT_OK : QDOT_ENOMEM;
-        data.n_parameters = t->n_parameters;
-        data.parameters = parameters;
-        if (status == QDOT_OK)
-            status = qdot_data_file_write_texts(session, NULL, &data, path);
-        qdot_free(parameters);
-    }
+    if (status == QDOT_OK)
+        status = qdot_data_file_write(session, NULL, &x.table, path);
     qdot_row_columns_free(&x);
     return status;
 }

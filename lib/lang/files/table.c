@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/number-text.h"
-#include "base/wrap.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/table-answer.h"
 #include "lang/files/data-file.h"
 #include "lang/files/digits-table.h"
 #include "lang/files/row-file.h"
@@ -16,39 +16,40 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
-#include "show/show.h"
+
+/* Significant digits of answers. */
+enum { DIGITS = 10 };
 
 /* --- columns of numbers ------------------------------------------------------------- */
 
 typedef struct {
-    size_t rows, n;
+    qdot_table table;
     double *values; /* column by column */
     char **labels;
-    qdot_column *columns; /* [n] into the two */
 } grid;
 
 static void
 free_grid(grid *g)
 {
-    for (size_t i = 0; g->labels != NULL && i < g->n; i++)
+    for (size_t i = 0; g->labels != NULL && i < g->table.n; i++)
         qdot_free(g->labels[i]);
     qdot_free(g->labels);
     qdot_free(g->values);
-    qdot_free(g->columns);
+    qdot_free(g->table.columns);
 }
 
 static qdot_status
 new_grid(grid *g, size_t n, size_t rows)
 {
-    g->n = n;
-    g->rows = rows;
+    g->table.n = n;
+    g->table.rows = rows;
     g->values = qdot_calloc(n * rows, sizeof *g->values);
     g->labels = qdot_calloc(n, sizeof *g->labels);
-    g->columns = qdot_calloc(n, sizeof *g->columns);
-    if (g->values == NULL || g->labels == NULL || g->columns == NULL)
+    g->table.columns = qdot_calloc(n, sizeof *g->table.columns);
+    if (g->values == NULL || g->labels == NULL || g->table.columns == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
-        g->columns[i].at = g->values + i * rows;
+        g->table.columns[i] = (qdot_table_column){.digits = DIGITS, .gap = 2, .values = g->values + i * rows};
     return QDOT_OK;
 }
 
@@ -66,7 +67,7 @@ label_column(grid *g, size_t i, const char *label, size_t component, size_t comp
         return QDOT_ENOMEM;
     }
     g->labels[i] = text.at;
-    g->columns[i].label = text.at;
+    g->table.columns[i].name = text.at;
     return QDOT_OK;
 }
 
@@ -133,7 +134,7 @@ blank_all_unknown(qdot_session *session, grid *g, const qdot_operands *list, con
     bool some = false;
 
     for (size_t i = 0; i < list->n; i++) {
-        QDOT_TRY(blank_unknown(&list->at[i], g->rows, times, g->values + next * g->rows, &some));
+        QDOT_TRY(blank_unknown(&list->at[i], g->table.rows, times, g->values + next * g->table.rows, &some));
         next += list->at[i].columns.n;
     }
     return some ? qdot_answer_notice(session, "- stands for numbers beyond the horizon of their run, "
@@ -153,28 +154,10 @@ only_run(const qdot_operands *list)
 
 /* To a file by its ending; path NULL: as an answer. run: that of all columns, or NULL. */
 static qdot_status
-write_grid(qdot_session *session, const grid *g, qdot_run *run, const char *path)
+write_grid(qdot_session *session, grid *g, qdot_run *run, const char *path)
 {
-    qdot_text text = {0};
-    qdot_status status = QDOT_OK;
-
-    if (path != NULL)
-        return qdot_data_file_write(session, run, g->n, g->columns, g->rows, path);
-    if (!session->json) {
-        status = qdot_table_text(g->n, g->columns, g->rows, 10, QDOT_WRAP_CELL, &text);
-        return qdot_answer_written(session, "table", status, &text);
-    }
-    for (size_t k = 0; k < g->rows && status == QDOT_OK; k++) {
-        double *row = qdot_calloc(g->n, sizeof *row);
-
-        if (row == NULL)
-            return QDOT_ENOMEM;
-        for (size_t i = 0; i < g->n; i++)
-            row[i] = g->values[i * g->rows + k];
-        status = qdot_answer_row(session, g->n, row);
-        qdot_free(row);
-    }
-    return status;
+    return path != NULL ? qdot_data_file_write(session, run, &g->table, path)
+                        : qdot_answer_table(session, "table", &g->table);
 }
 
 /* --- table -------------------------------------------------------------------------- */
@@ -378,12 +361,12 @@ exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size
 static qdot_status
 fill_before_events(qdot_run *run, const qdot_operands *list, grid *g)
 {
-    for (size_t k = 0; k < g->rows; k++) {
+    for (size_t k = 0; k < g->table.rows; k++) {
         if (!qdot_run_is_before_event(run, k))
             continue;
         for (size_t i = 0; i < list->n; i++) /* one column each */
             QDOT_TRY(qdot_run_point_values(run, 1, list->at[i].columns.at, k,
-                                           g->values + (i + 1) * g->rows + k));
+                                           g->values + (i + 1) * g->table.rows + k));
     }
     return QDOT_OK;
 }

@@ -1,86 +1,113 @@
-/* row-columns.c -- the rows of a table column by column. */
+/* row-columns.c -- the rows of many runs as a table. */
 #include "lang/session/row-columns.h"
 
 #include "base/memory.h"
 
+enum { GAP = 2 };
+
 void
 qdot_row_columns_free(qdot_row_columns *x)
 {
-    for (size_t i = 0; x->labels != NULL && i < x->n; i++)
+    for (size_t i = 0; x->labels != NULL && i < x->n_labels; i++)
         qdot_text_clear(&x->labels[i]);
     qdot_free(x->labels);
-    qdot_free(x->values);
-    qdot_free(x->columns);
-    qdot_free(x->texts);
-    qdot_free(x->reasons);
+    qdot_free(x->table.columns);
+    qdot_free(x->parameters);
+    qdot_free(x->numbers);
+    qdot_free(x->order);
     *x = (qdot_row_columns){0};
 }
 
 static qdot_status
-row_columns_allocate(qdot_row_columns *x)
+row_columns_allocate(const qdot_row_table *t, bool some, qdot_row_columns *x)
 {
-    x->values = qdot_calloc(x->n * x->rows + 1, sizeof *x->values);
-    x->labels = qdot_calloc(x->n, sizeof *x->labels);
-    x->columns = qdot_calloc(x->n + 1, sizeof *x->columns);
-    x->texts = qdot_calloc(x->n + 1, sizeof *x->texts);
-    x->reasons = qdot_calloc(x->rows + 1, sizeof *x->reasons);
-    return x->values && x->labels && x->columns && x->texts && x->reasons ? QDOT_OK : QDOT_ENOMEM;
+    x->n_labels = t->n - t->n_swept;
+    x->labels = qdot_calloc(x->n_labels + 1, sizeof *x->labels);
+    x->table.columns = qdot_calloc(qdot_row_columns_count(t) + 3, sizeof *x->table.columns);
+    x->parameters = qdot_calloc(t->n_parameters + 1, sizeof *x->parameters);
+    if (!x->labels || !x->table.columns || !x->parameters)
+        return QDOT_ENOMEM;
+    if (!some)
+        return QDOT_OK;
+    x->numbers = qdot_calloc(t->rows + 1, sizeof *x->numbers);
+    x->order = qdot_calloc(t->rows + 1, sizeof *x->order);
+    return x->numbers && x->order ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* The rows that are done, and the column of their numbers. */
+static void
+row_columns_add_numbers(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
+{
+    for (size_t k = 0; k < t->rows; k++) {
+        x->numbers[k] = (double)k;
+        if (done[k])
+            x->order[x->table.rows++] = k;
+    }
+    x->table.order = x->order;
+    x->table.columns[x->table.n++] =
+        (qdot_table_column){.name = "row", .in = QDOT_IN_DATA, .values = x->numbers};
 }
 
 static qdot_status
-label_columns(const qdot_row_table *t, size_t first, qdot_row_columns *x)
+row_columns_add(const qdot_row_table *t, qdot_row_columns *x)
 {
-    for (size_t i = 0; i < x->n; i++) {
-        qdot_text *label = &x->labels[i];
-
-        if (i < first)
-            qdot_text_add(label, "row");
-        else if (i - first < t->n)
-            qdot_text_add(label, t->labels[i - first]);
-        else
-            qdot_text_format(label, "error of %s", t->labels[i - first - t->n + t->n_swept]);
-        QDOT_TRY(qdot_text_status(label));
-        x->columns[i] = (qdot_column){qdot_text_str(label), x->values + i * x->rows};
+    for (size_t i = 0; i < t->n; i++)
+        x->table.columns[x->table.n++] = (qdot_table_column){.name = t->labels[i],
+                                                             .form = QDOT_NUMBER_MEASURED,
+                                                             .gap = GAP,
+                                                             .measured = true,
+                                                             .values = t->values + i,
+                                                             .errors = t->errors + i,
+                                                             .stride = t->n};
+    for (size_t i = 0; i < x->n_labels; i++) {
+        qdot_text_format(&x->labels[i], "error of %s", t->labels[t->n_swept + i]);
+        QDOT_TRY(qdot_text_status(&x->labels[i]));
+        x->table.columns[x->table.n++] = (qdot_table_column){.name = qdot_text_str(&x->labels[i]),
+                                                             .in = QDOT_IN_DATA,
+                                                             .gap = GAP,
+                                                             .values = t->errors + t->n_swept + i,
+                                                             .stride = t->n};
     }
-    x->columns[x->n].label = t->note != NULL ? t->note : "reason";
-    x->texts[x->n] = x->reasons;
     return QDOT_OK;
+}
+
+/* How each row ended, and why; or what it is. */
+static void
+row_columns_add_reasons(const qdot_row_table *t, qdot_row_columns *x)
+{
+    const bool failures = t->note == NULL;
+
+    x->table.columns[x->table.n++] = (qdot_table_column){.name = "status",
+                                                         .in = QDOT_IN_ANSWERS,
+                                                         .kind = QDOT_CELL_TEXT,
+                                                         .field = "status",
+                                                         .texts = t->reasons,
+                                                         .present = failures ? "failed" : "done",
+                                                         .absent = "done"};
+    x->table.columns[x->table.n++] =
+        (qdot_table_column){.name = failures ? "reason" : t->note,
+                            .in = QDOT_IN_ANSWERS | QDOT_IN_FILES | (failures ? 0 : QDOT_IN_TERMINAL | QDOT_IN_CSV),
+                            .kind = QDOT_CELL_TEXT,
+                            .left = true,
+                            .gap = GAP,
+                            .field = failures ? "reason" : t->note,
+                            .texts = t->reasons};
 }
 
 qdot_status
-qdot_row_columns_fill(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
+qdot_row_columns_of(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
 {
-    static char none[] = "";
-    const size_t first = done != NULL;
-    size_t at = 0;
-
-    for (size_t k = 0; k < t->rows; k++)
-        x->rows += done == NULL || done[k];
-    x->n = first + qdot_row_columns_count(t);
-    QDOT_TRY(row_columns_allocate(x));
-    QDOT_TRY(label_columns(t, first, x));
-    for (size_t k = 0; k < t->rows; k++) {
-        double *const column = x->values + at;
-
-        if (done != NULL && !done[k])
-            continue;
-        if (first == 1)
-            column[0] = (double)k;
-        for (size_t i = 0; i < t->n; i++)
-            column[(first + i) * x->rows] = t->values[k * t->n + i];
-        for (size_t i = t->n_swept; i < t->n; i++)
-            column[(first + t->n + i - t->n_swept) * x->rows] = t->errors[k * t->n + i];
-        x->reasons[at++] = t->reasons[k] != NULL ? t->reasons[k] : none;
-    }
+    QDOT_TRY(row_columns_allocate(t, done != NULL, x));
+    x->table.name = x->table.title = t->name;
+    if (done != NULL)
+        row_columns_add_numbers(t, done, x);
+    else
+        x->table.rows = t->rows;
+    QDOT_TRY(row_columns_add(t, x));
+    row_columns_add_reasons(t, x);
+    for (size_t i = 0; i < t->n_parameters; i++)
+        x->parameters[i] = (qdot_table_fact){t->parameters[i], NULL, t->parameter_values[i]};
+    x->table.n_parameters = t->n_parameters;
+    x->table.parameters = x->parameters;
     return QDOT_OK;
-}
-
-qdot_data_fact *
-qdot_row_columns_parameters(const qdot_row_table *t)
-{
-    qdot_data_fact *all = qdot_calloc(t->n_parameters + 1, sizeof *all);
-
-    for (size_t i = 0; i < t->n_parameters && all != NULL; i++)
-        all[i] = (qdot_data_fact){t->parameters[i], NULL, t->parameter_values[i]};
-    return all;
 }

@@ -8,7 +8,8 @@
 #include <unistd.h>
 
 #include "lang/session/row-columns.h"
-#include "show/hdf5-read.h"
+#include "table/hdf5-read.h"
+#include "table/hdf5.h"
 
 static const char fact[] = "sweep";
 
@@ -52,15 +53,22 @@ sign(const char *said, uint64_t sum, qdot_text *out)
 /* --- written -------------------------------------------------------------------------- */
 
 static uint64_t
-sum_columns(const qdot_row_columns *x)
+sum_columns(const qdot_table *t)
 {
     uint64_t sum = sum_of_nothing;
 
-    for (size_t i = 0; i < x->rows; i++) {
-        for (size_t j = 0; j < x->n; j++)
-            add_number(&sum, x->columns[j].at[i]);
-        add_bytes(&sum, x->texts[x->n][i], strlen(x->texts[x->n][i]) + 1);
-    }
+    for (size_t i = 0; i < t->rows; i++)
+        for (size_t j = 0; j < t->n; j++) {
+            const qdot_table_cell cell = qdot_table_at(t, i, j);
+            const char *text = cell.text != NULL ? cell.text : "";
+
+            if (!qdot_table_shows(t, j, QDOT_IN_FILES))
+                continue;
+            if (t->columns[j].kind == QDOT_CELL_NUMBER)
+                add_number(&sum, cell.value);
+            else
+                add_bytes(&sum, text, strlen(text) + 1);
+        }
     return sum;
 }
 
@@ -70,18 +78,18 @@ qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said
 {
     qdot_text signed_text = {0};
     qdot_row_columns x = {0};
-    qdot_status status = qdot_row_columns_fill(t, done, &x);
+    qdot_status status = qdot_row_columns_of(t, done, &x);
 
     if (status == QDOT_OK)
-        status = sign(said, sum_columns(&x), &signed_text);
+        status = sign(said, sum_columns(&x.table), &signed_text);
     if (status == QDOT_OK) {
-        const qdot_data_fact facts[] = {{"program", PACKAGE_STRING, 0},
-                                        {fact, qdot_text_str(&signed_text), 0}};
-        const qdot_data data = {.title = t->name, .columns = x.n + 1, .rows = x.rows,
-                                .column = x.columns, .texts = (char *const *const *)x.texts,
-                                .n_facts = 2, .facts = facts};
+        const qdot_table_fact facts[] = {{"program", PACKAGE_STRING, 0},
+                                         {fact, qdot_text_str(&signed_text), 0}};
 
-        status = qdot_data_hdf5(&data, path);
+        x.table.n_facts = 2;
+        x.table.facts = facts;
+        x.table.n_parameters = 0;
+        status = qdot_table_hdf5(&x.table, path);
     }
     qdot_row_columns_free(&x);
     qdot_text_clear(&signed_text);
@@ -91,13 +99,13 @@ qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said
 /* --- read ----------------------------------------------------------------------------- */
 
 static qdot_status
-take_rows(const qdot_data_columns *from, const char *path, qdot_row_table *t, bool *done)
+take_rows(const qdot_hdf5_columns *from, const char *path, qdot_row_table *t, bool *done)
 {
-    const qdot_data_read_column *c = from->at.at;
-    const qdot_data_read_column *reasons = &c[1 + qdot_row_columns_count(t)];
+    const qdot_hdf5_column *c = from->at.at;
+    const qdot_hdf5_column *reasons = &c[1 + qdot_row_columns_count(t)];
 
     for (size_t at = 0; at < from->rows; at++) {
-        const double row = qdot_data_read_number(&c[0], at);
+        const double row = qdot_hdf5_number(&c[0], at);
         const char *reason = reasons->bytes + at * reasons->size;
         size_t k;
 
@@ -105,11 +113,11 @@ take_rows(const qdot_data_columns *from, const char *path, qdot_row_table *t, bo
             return qdot_fail(QDOT_EINVAL, "%.200s has a row %g that the sweep has not", path, row);
         k = (size_t)row;
         for (size_t i = 0; i < t->n; i++) {
-            t->values[k * t->n + i] = qdot_data_read_number(&c[1 + i], at);
+            t->values[k * t->n + i] = qdot_hdf5_number(&c[1 + i], at);
             t->errors[k * t->n + i] =
                 i < t->n_swept
                     ? 0
-                    : qdot_data_read_number(&c[1 + t->n + i - t->n_swept], at);
+                    : qdot_hdf5_number(&c[1 + t->n + i - t->n_swept], at);
         }
         if (*reason != '\0' && t->reasons[k] == NULL) {
             t->reasons[k] = qdot_strdup(reason);
@@ -122,17 +130,17 @@ take_rows(const qdot_data_columns *from, const char *path, qdot_row_table *t, bo
 }
 
 static uint64_t
-sum_read(const qdot_data_columns *from)
+sum_read(const qdot_hdf5_columns *from)
 {
     const size_t n = from->at.n - 1;
-    const qdot_data_read_column *reasons = &from->at.at[n];
+    const qdot_hdf5_column *reasons = &from->at.at[n];
     uint64_t sum = sum_of_nothing;
 
     for (size_t i = 0; i < from->rows; i++) {
         const char *reason = reasons->bytes + i * reasons->size;
 
         for (size_t j = 0; j < n; j++)
-            add_number(&sum, qdot_data_read_number(&from->at.at[j], i));
+            add_number(&sum, qdot_hdf5_number(&from->at.at[j], i));
         add_bytes(&sum, reason, strlen(reason) + 1);
     }
     return sum;
@@ -140,7 +148,7 @@ sum_read(const qdot_data_columns *from)
 
 /* That the file is of this sweep, with its rows as they were written. */
 static qdot_status
-file_check(const qdot_data_columns *from, const char *path, const char *said, const qdot_row_table *t)
+file_check(const qdot_hdf5_columns *from, const char *path, const char *said, const qdot_row_table *t)
 {
     const size_t n = 1 + qdot_row_columns_count(t) + 1, length = strlen(said); /* rows, numbers, reasons */
     const char *text = qdot_text_str(&from->text);
@@ -167,16 +175,16 @@ file_check(const qdot_data_columns *from, const char *path, const char *said, co
 qdot_status
 qdot_sweep_file_take(const char *path, const char *said, qdot_row_table *t, bool *done)
 {
-    qdot_data_columns from = {0};
+    qdot_hdf5_columns from = {0};
     qdot_status status;
 
     if (access(path, F_OK) != 0 && errno == ENOENT)
         return QDOT_OK;
-    status = qdot_data_read_hdf5(path, fact, &from);
+    status = qdot_hdf5_read(path, fact, &from);
     if (status == QDOT_OK)
         status = file_check(&from, path, said, t);
     if (status == QDOT_OK)
         status = take_rows(&from, path, t, done);
-    qdot_data_columns_clear(&from);
+    qdot_hdf5_columns_clear(&from);
     return status;
 }

@@ -1,6 +1,6 @@
 /* sweep-file.h -- the rows of a sweep that are done, kept in a file while it goes on.
  *
- * An HDF5 file (show/data.h) with the columns: row, from 0; what was swept; the numbers; their errors;
+ * An HDF5 file (table/hdf5.h) with the columns: row, from 0; what was swept; the numbers; their errors;
  * why a row failed. Its attribute "sweep" is what the sweep said, with a checksum of it and of the rows. It is
  * written beside its place and then moved there (base/sink.h), so that it is whole at any moment; the sweep
  * holds a lock on it (base/file-lock.h).

@@ -91,9 +91,11 @@ keep_rows(qdot_sweep *s, bool at_once)
 static qdot_status
 tell_rows(qdot_sweep *s, bool all)
 {
-    for (; s->c->session->json && s->told < s->table->rows && (all || s->done[s->told]); s->told++)
-        QDOT_TRY(qdot_row_answer_json(s->c->session, s->table, s->told));
-    return QDOT_OK;
+    const size_t from = s->told;
+
+    while (s->c->session->json && s->told < s->table->rows && (all || s->done[s->told]))
+        s->told++;
+    return s->told > from ? qdot_row_answer_part(s->c->session, s->table, from, s->told) : QDOT_OK;
 }
 
 /* Row k has been made, or has failed with that status and the last error. */

@@ -14,7 +14,7 @@
 #include "lang/slopes/slopes.h"
 #include "lang/session/row-tables.h"
 #include "num/least-squares.h"
-#include "show/csv-read.h"
+#include "table/csv-read.h"
 
 /* What a column of the file is. */
 typedef enum { QDOT_FIT_TIME, QDOT_FIT_VALUE, QDOT_FIT_SIGMA, QDOT_FIT_SKIP } qdot_fit_kind;

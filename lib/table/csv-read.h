@@ -7,10 +7,10 @@
  * Whatever else stands there is an error that begins with its place, FILE:LINE:COLUMN (both from 1, columns in
  * characters), as data.csv:7:12: `x` is not a number.
  *
- * Tests  tests/show/test_csv-read.c, tests/script/studies/fit.sh, tests/bad/studies/fit.sh
+ * Tests  tests/table/test_csv-read.c, tests/script/studies/fit.sh, tests/bad/studies/fit.sh
  */
-#ifndef QDOT_SHOW_CSV_READ_H
-#define QDOT_SHOW_CSV_READ_H
+#ifndef QDOT_TABLE_CSV_READ_H
+#define QDOT_TABLE_CSV_READ_H
 
 #include <stddef.h>
 

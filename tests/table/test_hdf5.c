@@ -1,4 +1,4 @@
-/* test_data.c -- columns as JSON, HTML and HDF5: what stands in the files, and failures. */
+/* test_hdf5.c -- a table as HDF5: what stands in the file, read back, and failures. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -14,16 +14,26 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "show/data.h"
-#include "show/hdf5-read.h"
+#include "table/hdf5-read.h"
+#include "table/hdf5.h"
 
 static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
-static const qdot_column columns[3] = {{"t", t}, {"a/b < c", x}, {"t", x}};
-static const qdot_data_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
-                            parameters[1] = {{"m[1]", NULL, 2.5}};
-static const qdot_data data = {"a table", 3, 3, columns, NULL, 2, 1, facts, parameters};
+static qdot_table_column columns[4] = {{.name = "t", .values = t},
+                                       {.name = "a/b < c", .values = x},
+                                       {.name = "hidden", .in = QDOT_IN_TERMINAL | QDOT_IN_ANSWERS, .values = t},
+                                       {.name = "t", .values = x}};
+static const qdot_table_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
+                             parameters[1] = {{"m[1]", NULL, 2.5}};
+static const qdot_table data = {.title = "a table",
+                                .n = 4,
+                                .rows = 3,
+                                .columns = columns,
+                                .n_facts = 2,
+                                .n_parameters = 1,
+                                .facts = facts,
+                                .parameters = parameters};
 
-static const char path[] = "test_data.out"; /* in the folder of the run */
+static const char path[] = "test_hdf5.out"; /* in the folder of the run */
 
 /* The file's bytes, to be freed; *n of them. */
 static char *
@@ -37,39 +47,6 @@ read_back(size_t *n)
     *n = fread(bytes, 1, 99999, file);
     fclose(file);
     return bytes;
-}
-
-static void
-json_has_facts_and_rows(void **state)
-{
-    size_t n;
-    char *text;
-
-    (void)state;
-    assert_int_equal(qdot_data_json(&data, path), QDOT_OK);
-    text = read_back(&n);
-    assert_string_equal(text, "{\"program\":\"q & \\\"p\\\"\",\"tol\":0.25,\n"
-                              "\"parameters\":{\"m[1]\":2.5},\n"
-                              "\"columns\":[\"t\",\"a/b < c\",\"t\"],\n\"rows\":[\n"
-                              "[0,2.3849999999999998,2.3849999999999998],\n"
-                              "[0.5,null,null],\n"
-                              "[1,-1e-300,-1e-300]]}\n");
-    free(text);
-}
-
-static void
-html_is_escaped(void **state)
-{
-    size_t n;
-    char *text;
-
-    (void)state;
-    assert_int_equal(qdot_data_html(&data, 4, path), QDOT_OK);
-    text = read_back(&n);
-    assert_non_null(strstr(text, "<dt>program</dt><dd>q &amp; \"p\"</dd>"));
-    assert_non_null(strstr(text, "<th>t</th><th>a/b &lt; c</th><th>t</th>"));
-    assert_non_null(strstr(text, "<tr><td>0</td><td>2.385</td><td>2.385</td></tr>"));
-    free(text);
 }
 
 static uint64_t
@@ -91,7 +68,7 @@ hdf5_ends_where_it_says(void **state)
     double last;
 
     (void)state;
-    assert_int_equal(qdot_data_hdf5(&data, path), QDOT_OK);
+    assert_int_equal(qdot_table_hdf5(&data, path), QDOT_OK);
     bytes = read_back(&n);
     assert_memory_equal(bytes, "\211HDF\r\n\032\n\2\10\10", 11);
     assert_int_equal(number(bytes + 28, 8), n);
@@ -105,10 +82,10 @@ hdf5_ends_where_it_says(void **state)
 }
 
 static qdot_status
-read_columns(qdot_data_columns *c)
+read_columns(qdot_hdf5_columns *c)
 {
-    *c = (qdot_data_columns){0};
-    return qdot_data_read_hdf5(path, "program", c);
+    *c = (qdot_hdf5_columns){0};
+    return qdot_hdf5_read(path, "program", c);
 }
 
 static void
@@ -124,30 +101,30 @@ put(const char *bytes, size_t n)
 static void
 hdf5_is_read_back(void **state)
 {
-    qdot_data_columns c;
+    qdot_hdf5_columns c;
     size_t n;
     char *bytes;
 
     (void)state;
-    assert_int_equal(qdot_data_hdf5(&data, path), QDOT_OK);
+    assert_int_equal(qdot_table_hdf5(&data, path), QDOT_OK);
     assert_int_equal(read_columns(&c), QDOT_OK);
-    assert_int_equal(c.at.n, data.columns);
+    assert_int_equal(c.at.n, 3);
     assert_int_equal(c.rows, data.rows);
     for (size_t j = 0; j < c.at.n; j++)
         for (size_t i = 0; i < c.rows; i++) {
-            const double x = qdot_data_read_number(&c.at.at[j], i), y = data.column[j].at[i];
+            const double x = qdot_hdf5_number(&c.at.at[j], i), y = qdot_table_at(&data, i, j < 2 ? j : 3).value;
 
             assert_memory_equal(&x, &y, sizeof x);
         }
     assert_string_equal(qdot_text_str(&c.text), facts[0].text);
-    qdot_data_columns_clear(&c);
+    qdot_hdf5_columns_clear(&c);
 
     /* cut anywhere it is refused; with any byte changed it is read or refused */
     bytes = read_back(&n);
     for (size_t k = 0; k < n; k++) {
         put(bytes, k);
         assert_int_equal(read_columns(&c), QDOT_EINVAL);
-        qdot_data_columns_clear(&c);
+        qdot_hdf5_columns_clear(&c);
     }
     for (size_t k = 0; k < n; k++)
         for (int bit = 0; bit < 8; bit += 7) {
@@ -157,72 +134,86 @@ hdf5_is_read_back(void **state)
             put(bytes, n);
             status = read_columns(&c);
             assert_true(status == QDOT_OK || status == QDOT_EINVAL || status == QDOT_ENOMEM);
-            qdot_data_columns_clear(&c);
+            qdot_hdf5_columns_clear(&c);
             bytes[k] ^= (char)(1 << bit);
         }
     free(bytes);
+}
+
+/* Texts are as long as the longest of their column, none is empty. */
+static void
+texts_are_read_back(void **state)
+{
+    char fold[] = "fold", saddle[] = "saddle-node", *types[] = {fold, NULL, saddle};
+    qdot_table_column all[] = {{.name = "t", .values = t}, {.name = "type", .kind = QDOT_CELL_TEXT, .texts = types}};
+    const qdot_table some = {.n = 2, .rows = 3, .columns = all, .n_facts = 2, .facts = facts};
+    qdot_hdf5_columns c;
+
+    (void)state;
+    assert_int_equal(qdot_table_hdf5(&some, path), QDOT_OK);
+    assert_int_equal(read_columns(&c), QDOT_OK);
+    assert_int_equal(c.at.n, 2);
+    assert_int_equal(c.at.at[0].size, 0);
+    assert_int_equal(c.at.at[1].size, sizeof "saddle-node");
+    for (size_t i = 0; i < 3; i++)
+        assert_string_equal(c.at.at[1].bytes + i * c.at.at[1].size, types[i] != NULL ? types[i] : "");
+    qdot_hdf5_columns_clear(&c);
 }
 
 /* A device without an end and a pipe that nobody writes are refused; Ctrl-C is heard. */
 static void
 only_regular_files_are_read(void **state)
 {
-    qdot_data_columns c = {0};
+    qdot_hdf5_columns c = {0};
 
     (void)state;
-    assert_int_equal(qdot_data_read_hdf5("/dev/zero", "program", &c), QDOT_EIO);
+    assert_int_equal(qdot_hdf5_read("/dev/zero", "program", &c), QDOT_EIO);
     (void)unlink(path);
     assert_int_equal(mkfifo(path, 0600), 0);
     assert_int_equal(read_columns(&c), QDOT_EIO);
     (void)unlink(path);
-    assert_int_equal(qdot_data_hdf5(&data, path), QDOT_OK);
+    assert_int_equal(qdot_table_hdf5(&data, path), QDOT_OK);
     qdot_interrupt_set_at(0);
     assert_int_equal(read_columns(&c), QDOT_EINTR);
     qdot_interrupt_clear();
-    qdot_data_columns_clear(&c);
+    qdot_hdf5_columns_clear(&c);
 }
 
 static void
 failing_memory_is_told(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < 3; kind++)
-        for (long n = 0;; n++) {
-            qdot_status status;
+    for (long n = 0;; n++) {
+        qdot_status status;
 
-            qdot_memory_fail_at(n);
-            status = kind == 0   ? qdot_data_json(&data, path)
-                     : kind == 1 ? qdot_data_html(&data, 4, path)
-                                 : qdot_data_hdf5(&data, path);
-            qdot_memory_fail_at(-1);
-            if (status == QDOT_OK) {
-                assert_true(n > 0);
-                break;
-            }
-            assert_int_equal(status, QDOT_ENOMEM);
+        qdot_memory_fail_at(n);
+        status = qdot_table_hdf5(&data, path);
+        qdot_memory_fail_at(-1);
+        if (status == QDOT_OK) {
+            assert_true(n > 0);
+            break;
         }
+        assert_int_equal(status, QDOT_ENOMEM);
+    }
 }
 
 static void
 files_that_cannot_be_written_are_told(void **state)
 {
-    const qdot_data empty = {.title = ""};
+    const qdot_table empty = {.title = ""};
 
     (void)state;
-    assert_int_equal(qdot_data_hdf5(&data, "/nowhere/x.h5"), QDOT_EIO);
-    assert_int_equal(qdot_data_json(&data, "/nowhere/x.json"), QDOT_EIO);
-    assert_int_equal(qdot_data_hdf5(&empty, path), QDOT_EINVAL);
-    assert_int_equal(qdot_data_html(&empty, 4, path), QDOT_EINVAL);
+    assert_int_equal(qdot_table_hdf5(&data, "/nowhere/x.h5"), QDOT_EIO);
+    assert_int_equal(qdot_table_hdf5(&empty, path), QDOT_EINVAL);
 }
 
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_has_facts_and_rows),
-        cmocka_unit_test(html_is_escaped),
         cmocka_unit_test(hdf5_ends_where_it_says),
         cmocka_unit_test(hdf5_is_read_back),
+        cmocka_unit_test(texts_are_read_back),
         cmocka_unit_test(only_regular_files_are_read),
         cmocka_unit_test(failing_memory_is_told),
         cmocka_unit_test(files_that_cannot_be_written_are_told),

@@ -5,7 +5,7 @@
  *
  * Source  as hdf5.c
  */
-#include "show/hdf5-read.h"
+#include "table/hdf5-read.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -112,9 +112,9 @@ messages_next(messages *m)
 /* Read the data set at `address` as the next column. */
 static qdot_status
 read_column(const file *f, uint64_t address, const unsigned char *name, size_t length,
-            qdot_data_columns *out)
+            qdot_hdf5_columns *out)
 {
-    qdot_data_read_column c = {.label = qdot_malloc(length + 1)};
+    qdot_hdf5_column c = {.label = qdot_malloc(length + 1)};
     uint64_t rows = 0, size = 0, where = 0;
     bool texts = false;
     messages m;
@@ -154,7 +154,7 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
 
 /* A link to a column, or an attribute that is a text. */
 static qdot_status
-take_message(const file *f, const messages *m, qdot_data_columns *out)
+take_message(const file *f, const messages *m, qdot_hdf5_columns *out)
 {
     const unsigned char *b = m->body;
     size_t name, type;
@@ -179,7 +179,7 @@ take_message(const file *f, const messages *m, qdot_data_columns *out)
 }
 
 qdot_status
-qdot_data_read_hdf5(const char *path, const char *fact, qdot_data_columns *out)
+qdot_hdf5_read(const char *path, const char *fact, qdot_hdf5_columns *out)
 {
     qdot_text bytes = {0};
     qdot_status status = hdf5_load(path, &bytes);
@@ -200,7 +200,7 @@ qdot_data_read_hdf5(const char *path, const char *fact, qdot_data_columns *out)
 }
 
 void
-qdot_data_columns_clear(qdot_data_columns *c)
+qdot_hdf5_columns_clear(qdot_hdf5_columns *c)
 {
     for (size_t i = 0; i < c->at.n; i++) {
         qdot_free(c->at.at[i].label);
@@ -208,11 +208,11 @@ qdot_data_columns_clear(qdot_data_columns *c)
     }
     qdot_free(c->at.at);
     qdot_text_clear(&c->text);
-    *c = (qdot_data_columns){0};
+    *c = (qdot_hdf5_columns){0};
 }
 
 double
-qdot_data_read_number(const qdot_data_read_column *c, size_t row)
+qdot_hdf5_number(const qdot_hdf5_column *c, size_t row)
 {
     const uint64_t bits = read_little_endian((const unsigned char *)c->bytes + 8 * row, 8);
     double x;

@@ -13,7 +13,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "show/show.h"
+#include "table/csv.h"
 
 static char folder[] = "qdot-csv-XXXXXX";
 
@@ -30,6 +30,14 @@ leave(void **state)
     (void)state;
     remove("a.csv");
     return chdir("..") == 0 && rmdir(folder) == 0 ? 0 : -1;
+}
+
+static qdot_status
+csv_write(size_t n, qdot_table_column *columns, size_t rows, const char *path)
+{
+    const qdot_table t = {.n = n, .rows = rows, .columns = columns};
+
+    return qdot_table_csv(&t, path);
 }
 
 /* The file as a string; the caller frees it. */
@@ -50,11 +58,11 @@ static void
 file_holds_header_and_rows(void **state)
 {
     const double t[] = {0, 0.5}, x[] = {-2.25, 0.1};
-    const qdot_column columns[] = {{"t", t}, {"theta'", x}};
+    qdot_table_column columns[] = {{.name = "t", .values = t}, {.name = "theta'", .values = x}};
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_table_csv(2, columns, 2, "a.csv"), QDOT_OK);
+    assert_int_equal(csv_write(2, columns, 2, "a.csv"), QDOT_OK);
     text = contents("a.csv");
     assert_string_equal(text, "t,theta'\n0,-2.25\n0.5,0.10000000000000001\n");
     free(text);
@@ -64,14 +72,14 @@ static void
 doubles_read_back_bit_by_bit(void **state)
 {
     double x[1000];
-    qdot_column column = {"x", x};
+    qdot_table_column column = {.name = "x", .values = x};
     char *text, *at;
 
     (void)state;
     srand(7);
     for (int i = 0; i < 1000; i++)
         x[i] = ldexp((double)rand() / 3 - rand(), rand() % 400 - 200);
-    assert_int_equal(qdot_table_csv(1, &column, 1000, "a.csv"), QDOT_OK);
+    assert_int_equal(csv_write(1, &column, 1000, "a.csv"), QDOT_OK);
     text = contents("a.csv");
     at = strchr(text, '\n') + 1;
     for (int i = 0; i < 1000; i++) {
@@ -88,15 +96,15 @@ static void
 labels_are_quoted_where_rfc_4180_asks(void **state)
 {
     const double x[] = {1};
-    const qdot_column columns[] = {{"mass_matrix[a, b]", x},
-                                   {"say \"so\"", x},
-                                   {"two\nlines", x},
-                                   {"θ₁", x},
-                                   {"", x}};
+    qdot_table_column columns[] = {{.name = "mass_matrix[a, b]", .values = x},
+                                   {.name = "say \"so\"", .values = x},
+                                   {.name = "two\nlines", .values = x},
+                                   {.name = "θ₁", .values = x},
+                                   {.name = "", .values = x}};
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_table_csv(5, columns, 1, "a.csv"), QDOT_OK);
+    assert_int_equal(csv_write(5, columns, 1, "a.csv"), QDOT_OK);
     text = contents("a.csv");
     assert_string_equal(text,
                         "\"mass_matrix[a, b]\",\"say \"\"so\"\"\",\"two\nlines\",θ₁,\n"
@@ -108,13 +116,36 @@ static void
 what_is_not_finite_is_said_in_words(void **state)
 {
     const double x[] = {NAN, INFINITY, -INFINITY};
-    const qdot_column column = {"x", x};
+    qdot_table_column column = {.name = "x", .values = x};
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_table_csv(1, &column, 3, "a.csv"), QDOT_OK);
+    assert_int_equal(csv_write(1, &column, 3, "a.csv"), QDOT_OK);
     text = contents("a.csv");
     assert_string_equal(text, "x\nnan\ninf\n-inf\n");
+    free(text);
+}
+
+/* Texts are quoted like labels; what has digits of its own, or fewer, or no number, is written so. */
+static void
+columns_say_how_their_cells_stand(void **state)
+{
+    const double x[] = {1e-9, NAN}, y[] = {1.0 / 3, NAN}, z[] = {0, 1};
+    char seen[] = "a, \"b\"", digits[] = "0.1234567890123456789", *texts[] = {seen, NULL}, *many[] = {digits, NULL};
+    qdot_table_column columns[] = {{.name = "tol", .values = x, .exact = 1, .blank = true},
+                                   {.name = "y", .values = y},
+                                   {.name = "hidden", .values = y, .in = QDOT_IN_FILES | QDOT_IN_TXT},
+                                   {.name = "why", .kind = QDOT_CELL_TEXT, .texts = texts},
+                                   {.name = "z", .values = z, .texts = many},
+                                   {.name = "is", .kind = QDOT_CELL_FLAG, .values = z}};
+    char *text;
+
+    (void)state;
+    assert_int_equal(csv_write(6, columns, 2, "a.csv"), QDOT_OK);
+    text = contents("a.csv");
+    assert_string_equal(text, "tol,y,why,z,is\n"
+                              "1e-09,0.33333333333333331,\"a, \"\"b\"\"\",0.1234567890123456789,0\n"
+                              ",nan,,1,1\n");
     free(text);
 }
 
@@ -122,20 +153,20 @@ static void
 a_file_that_cannot_be_written_is_an_error(void **state)
 {
     static double x[100000];
-    const qdot_column column = {"x", x};
+    qdot_table_column column = {.name = "x", .values = x};
 
     (void)state;
-    assert_int_equal(qdot_table_csv(1, &column, 1, "missing/a.csv"), QDOT_EIO);
+    assert_int_equal(csv_write(1, &column, 1, "missing/a.csv"), QDOT_EIO);
     assert_non_null(strstr(qdot_last_error()->message, "missing/a.csv"));
     assert_non_null(strstr(qdot_last_error()->message, "No such file"));
-    assert_int_equal(qdot_table_csv(1, &column, 1, "."), QDOT_EIO);
-    assert_int_equal(qdot_table_csv(1, &column, 1, ""), QDOT_EINVAL);
-    assert_int_equal(qdot_table_csv(0, &column, 1, "a.csv"), QDOT_EINVAL);
+    assert_int_equal(csv_write(1, &column, 1, "."), QDOT_EIO);
+    assert_int_equal(csv_write(1, &column, 1, ""), QDOT_EINVAL);
+    assert_int_equal(csv_write(0, &column, 1, "a.csv"), QDOT_EINVAL);
     if (access("/dev/full", W_OK) == 0) {
         /* a few bytes fail only when they are flushed, many while they are written */
-        assert_int_equal(qdot_table_csv(1, &column, 1, "/dev/full"), QDOT_EIO);
+        assert_int_equal(csv_write(1, &column, 1, "/dev/full"), QDOT_EIO);
         assert_non_null(strstr(qdot_last_error()->message, "No space left"));
-        assert_int_equal(qdot_table_csv(1, &column, 100000, "/dev/full"), QDOT_EIO);
+        assert_int_equal(csv_write(1, &column, 100000, "/dev/full"), QDOT_EIO);
     }
 }
 
@@ -143,11 +174,11 @@ static void
 ctrl_c_stops_a_long_file(void **state)
 {
     static double x[100000];
-    const qdot_column column = {"x", x};
+    qdot_table_column column = {.name = "x", .values = x};
 
     (void)state;
     qdot_interrupt_set();
-    assert_int_equal(qdot_table_csv(1, &column, 100000, "a.csv"), QDOT_EINTR);
+    assert_int_equal(csv_write(1, &column, 100000, "a.csv"), QDOT_EINTR);
     qdot_interrupt_clear();
 }
 
@@ -155,13 +186,13 @@ static void
 no_memory_is_an_error(void **state)
 {
     static double x[10];
-    const qdot_column column = {"x", x};
+    qdot_table_column column = {.name = "x", .values = x};
     long n = 0;
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {
         qdot_memory_fail_at(n);
-        status = qdot_table_csv(1, &column, 10, "a.csv");
+        status = csv_write(1, &column, 10, "a.csv");
         qdot_memory_fail_at(-1);
         assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
     }
@@ -176,6 +207,7 @@ main(void)
         cmocka_unit_test(doubles_read_back_bit_by_bit),
         cmocka_unit_test(labels_are_quoted_where_rfc_4180_asks),
         cmocka_unit_test(what_is_not_finite_is_said_in_words),
+        cmocka_unit_test(columns_say_how_their_cells_stand),
         cmocka_unit_test(a_file_that_cannot_be_written_is_an_error),
         cmocka_unit_test(ctrl_c_stops_a_long_file),
         cmocka_unit_test(no_memory_is_an_error),

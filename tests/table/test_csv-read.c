@@ -7,7 +7,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "show/csv-read.h"
+#include "table/csv-read.h"
 
 static void
 reads(const char *text, size_t columns, size_t rows, const double *numbers)

@@ -1,5 +1,5 @@
 /* csv-read.c -- reads rows of numbers, line by line. */
-#include "show/csv-read.h"
+#include "table/csv-read.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* hdf5.c -- columns in the format of HDF5, written directly.
+/* hdf5.c -- a table in the format of HDF5, written directly.
  *
  * The file is a superblock of version 2, then object headers of version 2 with their messages: the
  * root group, the group of parameters and a data set for each column, whose numbers follow in one
@@ -7,13 +7,14 @@
  * Source  The HDF Group, HDF5 File Format Specification 3.0, II.A, IV.A; the checksum is lookup3 by
  *         B. Jenkins (2006).
  */
+#include "table/hdf5.h"
+
 #include <stdint.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/sink.h"
-#include "show/data.h"
 
 enum {
     SUPERBLOCK = 48,
@@ -134,7 +135,7 @@ text_type(qdot_text *out, size_t size)
 
 /* One fact as an attribute. */
 static void
-attribute(qdot_text *header, const qdot_data_fact *fact)
+attribute(qdot_text *header, const qdot_table_fact *fact)
 {
     size_t name = strlen(fact->name) + 1, length = fact->text == NULL ? 0 : strlen(fact->text);
     bool number = fact->text == NULL;
@@ -188,16 +189,30 @@ group(qdot_text *header)
     bytes(header, 0, 2);
 }
 
+static bool
+has_texts(const qdot_table *t, size_t j)
+{
+    return t->columns[j].kind == QDOT_CELL_TEXT;
+}
+
+static const char *
+entry_text(const qdot_table *t, size_t j, size_t i)
+{
+    const char *text = qdot_table_at(t, i, j).text;
+
+    return text != NULL ? text : "";
+}
+
 /* Bytes of one entry of the column: a double, or the longest text and its NUL. */
 static size_t
-entry_size(const qdot_data *data, size_t j)
+entry_size(const qdot_table *t, size_t j)
 {
     size_t size = 1;
 
-    if (!qdot_data_has_texts(data, j))
+    if (!has_texts(t, j))
         return sizeof(double);
-    for (size_t i = 0; i < data->rows; i++) {
-        const size_t n = strlen(data->texts[j][i]) + 1;
+    for (size_t i = 0; i < t->rows; i++) {
+        const size_t n = strlen(entry_text(t, j, i)) + 1;
 
         size = n > size ? n : size;
     }
@@ -205,10 +220,10 @@ entry_size(const qdot_data *data, size_t j)
 }
 
 static void
-data_set(qdot_text *header, const qdot_data *data, size_t j, uint64_t address)
+data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
 {
-    const size_t rows = data->rows, size = entry_size(data, j);
-    const bool texts = qdot_data_has_texts(data, j);
+    const size_t rows = t->rows, size = entry_size(t, j);
+    const bool texts = has_texts(t, j);
 
     message(header, DATASPACE, 12);
     bytes(header, 0x01000102, 4); /* version 2, one dimension, fixed, simple */
@@ -247,9 +262,9 @@ enum { OBJECT = 14 }; /* bytes of a header beside its messages */
 
 /* The label without what a name may not have; one met before gets its column's number. */
 static void
-column_name(const qdot_data *data, size_t j, qdot_text *out)
+column_name(const qdot_table *t, size_t j, qdot_text *out)
 {
-    const char *label = data->column[j].label;
+    const char *label = t->columns[j].name;
 
     for (const char *c = label; *c != '\0'; c++)
         if (*c == '/')
@@ -257,7 +272,7 @@ column_name(const qdot_data *data, size_t j, qdot_text *out)
         else
             qdot_text_char(out, *c);
     for (size_t i = 0; i < j; i++)
-        if (strcmp(data->column[i].label, label) == 0 || strcmp(label, "parameters") == 0) {
+        if (strcmp(t->columns[i].name, label) == 0 || strcmp(label, "parameters") == 0) {
             qdot_text_format(out, " (%zu)", j + 1);
             break;
         }
@@ -271,16 +286,16 @@ typedef struct {
 
 /* The messages of the root: facts, links to the parameters and to the columns. */
 static void
-hdf5_add_root(const qdot_data *data, const places *at, qdot_text *messages)
+hdf5_add_root(const qdot_table *t, const places *at, qdot_text *messages)
 {
     qdot_text name = {0};
 
     group(messages);
-    for (size_t i = 0; i < data->n_facts; i++)
-        attribute(messages, &data->facts[i]);
+    for (size_t i = 0; i < t->n_facts; i++)
+        attribute(messages, &t->facts[i]);
     link_to(messages, "parameters", at->parameters);
-    for (size_t j = 0; j < data->columns; j++) {
-        column_name(data, j, &name);
+    for (size_t j = 0; j < t->n; j++) {
+        column_name(t, j, &name);
         link_to(messages, qdot_text_str(&name), at->columns != NULL ? at->columns[j] : 0);
         qdot_text_truncate(&name, 0);
     }
@@ -304,20 +319,20 @@ superblock(uint64_t end, qdot_text *out)
 /* The header of each column in turn: where it is, and the numbers that it has; out: NULL: only
  * find where. */
 static bool
-column_headers(const qdot_data *data, places *at, uint64_t *where, qdot_text *out)
+column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
 {
     qdot_text messages = {0};
     uint64_t header = at->headers, numbers = at->numbers;
     bool failed = false;
 
-    for (size_t j = 0; j < data->columns; j++) {
+    for (size_t j = 0; j < t->n; j++) {
         qdot_text_truncate(&messages, 0);
-        data_set(&messages, data, j, numbers);
+        data_set(&messages, t, j, numbers);
         if (out != NULL)
             object(out, &messages);
         where[j] = header;
         header += OBJECT + messages.n;
-        numbers += data->rows * entry_size(data, j);
+        numbers += t->rows * entry_size(t, j);
         failed |= messages.failed;
     }
     at->end = at->numbers == 0 ? header : numbers;
@@ -327,32 +342,32 @@ column_headers(const qdot_data *data, places *at, uint64_t *where, qdot_text *ou
 
 /* All headers; the size of each does not depend on the addresses in it. */
 static qdot_status
-headers(const qdot_data *data, qdot_text *out)
+headers(const qdot_table *t, qdot_text *out)
 {
     qdot_text messages = {0}, parameters = {0};
     places at = {0};
-    uint64_t *columns = qdot_calloc(data->columns + 1, sizeof *columns);
+    uint64_t *columns = qdot_calloc(t->n + 1, sizeof *columns);
     bool failed = false;
 
     if (columns == NULL)
         return QDOT_ENOMEM;
     group(&parameters);
-    for (size_t i = 0; i < data->n_parameters; i++)
-        attribute(&parameters, &data->parameters[i]);
-    hdf5_add_root(data, &at, &messages);
+    for (size_t i = 0; i < t->n_parameters; i++)
+        attribute(&parameters, &t->parameters[i]);
+    hdf5_add_root(t, &at, &messages);
     at.parameters = SUPERBLOCK + OBJECT + messages.n;
     at.headers = at.parameters + OBJECT + parameters.n;
-    failed |= column_headers(data, &at, columns, NULL);
+    failed |= column_headers(t, &at, columns, NULL);
     at.numbers = at.end;
-    failed |= column_headers(data, &at, columns, NULL);
+    failed |= column_headers(t, &at, columns, NULL);
     at.columns = columns;
     qdot_text_truncate(&messages, 0);
     superblock(at.end, out);
-    hdf5_add_root(data, &at, &messages);
+    hdf5_add_root(t, &at, &messages);
     object(out, &messages);
     object(out, &parameters);
     failed |= messages.failed || parameters.failed;
-    failed |= column_headers(data, &at, columns, out);
+    failed |= column_headers(t, &at, columns, out);
     out->failed |= failed;
     qdot_text_clear(&messages);
     qdot_text_clear(&parameters);
@@ -362,31 +377,33 @@ headers(const qdot_data *data, qdot_text *out)
 
 /* One entry, a text filled up with NUL to its size. */
 static void
-put_entry(const qdot_data *data, size_t j, size_t i, size_t size, qdot_text *out)
+put_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *out)
 {
+    const char *text;
     size_t n;
 
-    if (!qdot_data_has_texts(data, j)) {
-        real(out, data->column[j].at[i]);
+    if (!has_texts(t, j)) {
+        real(out, qdot_table_at(t, i, j).value);
         return;
     }
-    n = strlen(data->texts[j][i]);
-    qdot_text_add_n(out, data->texts[j][i], n);
+    text = entry_text(t, j, i);
+    n = strlen(text);
+    qdot_text_add_n(out, text, n);
     for (; n < size; n++)
         qdot_text_char(out, '\0');
 }
 
 static qdot_status
-put_numbers(const qdot_data *data, qdot_sink *sink, qdot_text *text)
+put_numbers(const qdot_table *t, qdot_sink *sink, qdot_text *text)
 {
     enum { CHUNK = 8192 };
 
-    for (size_t j = 0; j < data->columns; j++) {
-        const size_t size = entry_size(data, j);
+    for (size_t j = 0; j < t->n; j++) {
+        const size_t size = entry_size(t, j);
 
-        for (size_t i = 0; i < data->rows; i++) {
-            put_entry(data, j, i, size, text);
-            if (i % CHUNK != CHUNK - 1 && i + 1 < data->rows)
+        for (size_t i = 0; i < t->rows; i++) {
+            put_entry(t, j, i, size, text);
+            if (i % CHUNK != CHUNK - 1 && i + 1 < t->rows)
                 continue;
             QDOT_TRY(qdot_text_status(text));
             QDOT_TRY(qdot_interrupt_check());
@@ -397,28 +414,37 @@ put_numbers(const qdot_data *data, qdot_sink *sink, qdot_text *text)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_data_hdf5(const qdot_data *data, const char *path)
+static qdot_status
+write_columns(const qdot_table *t, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
-    qdot_status status;
+    qdot_status status = headers(t, &text);
 
-    if (data->columns == 0)
-        return qdot_fail(QDOT_EINVAL, "a table needs a column");
-    status = headers(data, &text);
     if (status == QDOT_OK)
         status = qdot_sink_open(&sink, path);
     if (status == QDOT_OK) {
         status = qdot_sink_put(&sink, text.at, text.n);
         qdot_text_truncate(&text, 0);
         if (status == QDOT_OK)
-            status = put_numbers(data, &sink, &text);
+            status = put_numbers(t, &sink, &text);
         if (status == QDOT_OK)
             status = qdot_sink_close(&sink);
         else
             qdot_sink_abandon(&sink);
     }
     qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_table_hdf5(const qdot_table *t, const char *path)
+{
+    qdot_table shown;
+    qdot_status status = qdot_table_select(t, QDOT_IN_FILES, &shown);
+
+    if (status == QDOT_OK)
+        status = write_columns(&shown, path);
+    qdot_free(shown.columns);
     return status;
 }

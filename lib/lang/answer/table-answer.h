@@ -1,0 +1,21 @@
+/* table-answer.h -- tables as answers: columns under each other, or a line of JSON for each row.
+ *
+ * Tests  tests/script/sweeps/sweep.sh
+ */
+#ifndef QDOT_LANG_TABLE_ANSWER_H
+#define QDOT_LANG_TABLE_ANSWER_H
+
+#include "lang/session/session.h"
+#include "table/table.h"
+
+/* Write one row, or all of them; JSON only. */
+QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row);
+QDOT_MUST_CHECK qdot_status qdot_answer_rows(qdot_session *session, const qdot_table *t);
+
+/* Append the table as people read it, to be folded on a terminal (base/wrap.h). */
+QDOT_MUST_CHECK qdot_status qdot_answer_add_table(const qdot_table *t, qdot_text *out);
+
+/* {"kind":"row"} for each row; as text, the table as an answer of that name. */
+QDOT_MUST_CHECK qdot_status qdot_answer_table(qdot_session *session, const char *name, const qdot_table *t);
+
+#endif

@@ -1,0 +1,19 @@
+/* file.h -- a table being written to a file, in pieces. Internal to table/. */
+#ifndef QDOT_TABLE_FILE_H
+#define QDOT_TABLE_FILE_H
+
+#include "table/table.h"
+
+/* What stands before the rows, a row, what stands behind them; a function NULL: nothing. */
+typedef struct {
+    void (*head)(const qdot_table *t, qdot_text *out);
+    void (*row)(const qdot_table *t, size_t row, qdot_text *out);
+    void (*foot)(const qdot_table *t, qdot_text *out);
+} qdot_table_format;
+
+/* Write a file of the columns that stand there; path "-": standard output. Errors: those of qdot_table_select, of
+ * base/sink.h; QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_table_file(const qdot_table *t, unsigned where, const qdot_table_format *format,
+                                            const char *path);
+
+#endif

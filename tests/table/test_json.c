@@ -1,0 +1,146 @@
+/* test_json.c -- a table as rows of JSON and as a file of JSON. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "table/json.h"
+
+static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
+static qdot_table_column columns[4] = {{.name = "t", .values = t},
+                                       {.name = "a/b < c", .values = x},
+                                       {.name = "hidden", .in = QDOT_IN_TERMINAL | QDOT_IN_ANSWERS, .values = t},
+                                       {.name = "t", .values = x}};
+static const qdot_table_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
+                             parameters[1] = {{"m[1]", NULL, 2.5}};
+static const qdot_table data = {.title = "a table",
+                                .n = 4,
+                                .rows = 3,
+                                .columns = columns,
+                                .n_facts = 2,
+                                .n_parameters = 1,
+                                .facts = facts,
+                                .parameters = parameters};
+
+static const char path[] = "test_json.out"; /* in the folder of the run */
+
+/* The file's bytes, to be freed; *n of them. */
+static char *
+read_back(size_t *n)
+{
+    FILE *file = fopen(path, "rb");
+    char *bytes = calloc(1, 100000);
+
+    assert_non_null(file);
+    assert_non_null(bytes);
+    *n = fread(bytes, 1, 99999, file);
+    fclose(file);
+    return bytes;
+}
+
+static void
+json_has_facts_and_rows(void **state)
+{
+    size_t n;
+    char *text;
+
+    (void)state;
+    assert_int_equal(qdot_table_json(&data, path), QDOT_OK);
+    text = read_back(&n);
+    assert_string_equal(text, "{\"program\":\"q & \\\"p\\\"\",\"tol\":0.25,\n"
+                              "\"parameters\":{\"m[1]\":2.5},\n"
+                              "\"columns\":[\"t\",\"a/b < c\",\"t\"],\n\"rows\":[\n"
+                              "[0,2.3849999999999998,2.3849999999999998],\n"
+                              "[0.5,null,null],\n"
+                              "[1,-1e-300,-1e-300]]}\n");
+    free(text);
+}
+
+/* Rows as answers: fields before and behind the values; errors where a column is measured. */
+static void
+rows_are_answers(void **state)
+{
+    const double values[] = {0.5, 1.25}, errors[] = {0, 3e-13}, stable[] = {1, NAN};
+    char fold[] = "fold", failed[] = "no \"end\"", long_digits[] = "0.1234567890123456789";
+    char *types[] = {fold, NULL}, *reasons[] = {NULL, failed}, *digits[] = {long_digits, NULL};
+    qdot_table_column all[] = {
+        {.name = "type", .kind = QDOT_CELL_TEXT, .field = "type", .texts = types},
+        {.name = "x", .values = values, .errors = errors, .measured = true},
+        {.name = "in files alone", .in = QDOT_IN_DATA, .values = values},
+        {.name = "y", .values = values, .texts = digits},
+        {.name = "z", .kind = QDOT_CELL_TEXT, .texts = digits},
+        {.name = "stable", .kind = QDOT_CELL_FLAG, .field = "stable", .values = stable},
+        {.name = "status", .kind = QDOT_CELL_TEXT, .field = "status", .texts = reasons,
+         .present = "failed", .absent = "done"},
+        {.name = "reason", .kind = QDOT_CELL_TEXT, .field = "reason", .texts = reasons}};
+    const size_t order[] = {1, 0};
+    qdot_table rows = {.name = "curve", .n = 8, .rows = 2, .columns = all};
+    qdot_text out = {0};
+
+    (void)state;
+    qdot_table_json_row(&rows, 0, &out);
+    qdot_table_json_row(&rows, 1, &out);
+    assert_string_equal(qdot_text_str(&out),
+                        "{\"kind\":\"row\",\"name\":\"curve\",\"type\":\"fold\",\"values\":[0.5,0.1234567890123456789,"
+                        "\"0.1234567890123456789\"],\"errors\":[0,null,null],\"stable\":true,\"status\":\"done\","
+                        "\"reason\":null}\n"
+                        "{\"kind\":\"row\",\"name\":\"curve\",\"type\":null,\"values\":[1.25,1.25,null],"
+                        "\"errors\":[2.9999999999999998e-13,null,null],\"stable\":null,\"status\":\"failed\","
+                        "\"reason\":\"no \\\"end\\\"\"}\n");
+    qdot_text_truncate(&out, 0);
+    rows = (qdot_table){.n = 1, .rows = 2, .columns = columns, .order = order};
+    qdot_table_json_row(&rows, 0, &out);
+    assert_string_equal(qdot_text_str(&out), "{\"kind\":\"row\",\"values\":[0.5]}\n");
+    qdot_text_clear(&out);
+}
+
+static void
+failing_memory_is_told(void **state)
+{
+    (void)state;
+    for (long n = 0;; n++) {
+        qdot_status status;
+
+        qdot_memory_fail_at(n);
+        status = qdot_table_json(&data, path);
+        qdot_memory_fail_at(-1);
+        if (status == QDOT_OK) {
+            assert_true(n > 0);
+            break;
+        }
+        assert_int_equal(status, QDOT_ENOMEM);
+    }
+}
+
+static void
+files_that_cannot_be_written_are_told(void **state)
+{
+    const qdot_table empty = {.title = ""};
+
+    (void)state;
+    assert_int_equal(qdot_table_json(&data, "/nowhere/x.json"), QDOT_EIO);
+    assert_int_equal(qdot_table_json(&empty, path), QDOT_EINVAL);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(json_has_facts_and_rows),
+        cmocka_unit_test(rows_are_answers),
+        cmocka_unit_test(failing_memory_is_told),
+        cmocka_unit_test(files_that_cannot_be_written_are_told),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+
+    unlink(path);
+    return failed;
+}
