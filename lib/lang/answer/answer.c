@@ -432,17 +432,6 @@ qdot_answer_check(qdot_session *session, qdot_expr left, qdot_expr right,
 /* --- texts, files, notices, errors -------------------------------------------------- */
 
 qdot_status
-qdot_answer_cells(qdot_session *session, const qdot_text *values)
-{
-    qdot_text line = {0};
-
-    qdot_text_add(&line, "{\"kind\":\"row\",\"values\":[");
-    qdot_text_add(&line, qdot_text_str(values));
-    qdot_text_add(&line, "]}\n");
-    return qdot_write(session, session->out, &line);
-}
-
-qdot_status
 qdot_answer_file(qdot_session *session, const char *path)
 {
     qdot_text line = {0};

@@ -43,10 +43,6 @@ QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr l
                                               qdot_expr right,
                                               const qdot_decision *decision);
 
-/* {"kind":"row"} of JSON values with their commas; JSON only. */
-QDOT_MUST_CHECK qdot_status qdot_answer_cells(qdot_session *session,
-                                              const qdot_text *values);
-
 /* {"kind":"file"}: `wrote PATH`. */
 QDOT_MUST_CHECK qdot_status qdot_answer_file(qdot_session *session, const char *path);
 

@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/answer/table-answer.h"
 #include "lang/figures/figure-file.h"
 #include "show/figure.h"
+#include "table/csv.h"
 
 /* An error of 0 has no logarithm: it is drawn where rounding is. */
 static const double least_error = 0x1p-60;
@@ -92,15 +94,51 @@ say_left_out(qdot_session *session, const qdot_methods_left_out *list)
     return QDOT_OK;
 }
 
+/* The table with the words below it. */
+static qdot_status
+write_table(const qdot_error_study *of, qdot_text *out)
+{
+    qdot_table t = {0};
+    qdot_status status = of->table(of->study, &t);
+
+    if (status == QDOT_OK)
+        status = qdot_answer_add_table(&t, out);
+    qdot_table_clear(&t);
+    of->words(of->study, out);
+    return status;
+}
+
 static qdot_status
 tell_table(qdot_session *session, const qdot_error_study *of)
 {
     qdot_text text = {0};
+    qdot_status status;
 
     if (session->json)
         return of->rows(session, of->study);
-    of->table(of->study, &text);
-    return qdot_answer_written(session, of->name, QDOT_OK, &text);
+    status = write_table(of, &text);
+    return qdot_answer_written(session, of->name, status, &text);
+}
+
+static qdot_status
+tell_file(qdot_session *session, const qdot_error_study *of, const char *path)
+{
+    qdot_text text = {0};
+    qdot_table t = {0};
+    qdot_status status;
+
+    if (qdot_ends_in(path, ".csv")) {
+        status = of->data(of->study, &t);
+        if (status == QDOT_OK)
+            status = qdot_table_csv(&t, path);
+        qdot_table_clear(&t);
+        return status == QDOT_OK ? qdot_answer_file(session, path) : status;
+    }
+    status = write_table(of, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_in_file(session, path, &text);
+    qdot_text_clear(&text);
+    return status;
 }
 
 static qdot_status
@@ -127,18 +165,12 @@ qdot_status
 qdot_error_time_tell(qdot_session *session, const qdot_error_study *of)
 {
     const char *path = of->figure.figure->path;
-    qdot_text text = {0};
-    qdot_status status;
 
     QDOT_TRY(say_left_out(session, of->left_out));
-    if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
-        QDOT_TRY(tell_table(session, of));
-        if (of->interrupted && path == NULL)
-            return QDOT_OK; /* who stopped it does not wait for a figure */
-        return tell_figure(session, of);
-    }
-    (qdot_ends_in(path, ".csv") ? of->csv : of->table)(of->study, &text);
-    status = qdot_answer_in_file(session, path, &text);
-    qdot_text_clear(&text);
-    return status;
+    if (path != NULL && (qdot_ends_in(path, ".csv") || qdot_ends_in(path, ".txt")))
+        return tell_file(session, of, path);
+    QDOT_TRY(tell_table(session, of));
+    if (of->interrupted && path == NULL)
+        return QDOT_OK; /* who stopped it does not wait for a figure */
+    return tell_figure(session, of);
 }

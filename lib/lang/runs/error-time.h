@@ -6,6 +6,7 @@
 #include "lang/figures/figure-option.h"
 #include "lang/language/cursor.h"
 #include "sim/study/left-out.h"
+#include "table/table.h"
 
 typedef struct {
     const char *name; /* points of one name stand together */
@@ -35,8 +36,9 @@ typedef struct {
     const void *study; /* what the functions take */
     const qdot_methods_left_out *left_out;
     bool interrupted;
-    void (*table)(const void *study, qdot_text *out);
-    void (*csv)(const void *study, qdot_text *out);
+    qdot_status (*table)(const void *study, qdot_table *t); /* filled, from {0}, for people */
+    void (*words)(const void *study, qdot_text *out);       /* below it */
+    qdot_status (*data)(const void *study, qdot_table *t);  /* the same for .csv */
     qdot_status (*rows)(qdot_session *session, const void *study); /* as JSON */
     qdot_error_time figure; /* without n, points, note, which these write: */
     size_t most_points;

@@ -3,9 +3,8 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "base/number-text.h"
-#include "base/wrap.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/table-answer.h"
 #include "lang/commands/statement.h"
 #include "lang/figures/figure-option.h"
 #include "lang/language/read.h"
@@ -23,33 +22,74 @@ typedef struct {
 
 /* --- what is told ------------------------------------------------------------------- */
 
-static void
-csv(const void *study, qdot_text *out)
+/* The windows of methods k .. end - 1: their root mean squares. */
+static qdot_status
+windows_fill(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
+{
+    static const qdot_table_column columns[] = {
+        {.name = "method", .kind = QDOT_CELL_TEXT}, {.name = "tol", .exact = 1}, {.name = "t"}, {.name = "error"}};
+
+    QDOT_TRY(qdot_table_begin(t, sizeof columns / sizeof *columns, columns));
+    for (; k < end; k++)
+        for (size_t i = 0; i < l->rows[k].n; i++) {
+            qdot_table_add_text(t, l->rows[k].method);
+            qdot_table_add_number(t, l->rows[k].tol, 0);
+            qdot_table_add_number(t, l->rows[k].t[i], NAN);
+            qdot_table_add_number(t, l->rows[k].error[i], NAN);
+        }
+    return qdot_table_status(t);
+}
+
+static qdot_status
+windows(const void *study, qdot_table *t)
 {
     const qdot_longtime *l = study;
 
-    qdot_text_add(out, "method,tol,t,error\n");
-    for (size_t k = 0; k < l->n; k++)
-        for (size_t i = 0; i < l->rows[k].n; i++) {
-            qdot_text_format(out, "%s,", l->rows[k].method);
-            qdot_text_double(out, l->rows[k].tol, 1);
-            qdot_text_char(out, ',');
-            qdot_text_double(out, l->rows[k].t[i], 17);
-            qdot_text_char(out, ',');
-            qdot_text_double(out, l->rows[k].error[i], 17);
-            qdot_text_char(out, '\n');
-        }
+    return windows_fill(l, 0, l->n, t);
 }
 
 /* "t^1.00 +- 0.02" */
 static void
-growth(const qdot_longtime_row *r, qdot_text *out)
+growth(const qdot_longtime_row *r, qdot_table *t)
 {
-    char text[40] = "-";
+    qdot_text text = {0};
 
-    if (!isnan(r->growth))
-        snprintf(text, sizeof text, "t^%.2f +- %.2f", r->growth, r->growth_error);
-    qdot_text_format(out, QDOT_WRAP_CELL "%17s", text);
+    if (isnan(r->growth))
+        qdot_text_char(&text, '-');
+    else
+        qdot_text_format(&text, "t^%.2f +- %.2f", r->growth, r->growth_error);
+    qdot_table_add_written(t, &text);
+}
+
+/* A row for each method. */
+static qdot_status
+summary(const void *study, qdot_table *t)
+{
+    static const qdot_table_column columns[] = {
+        {.name = "method", .kind = QDOT_CELL_TEXT, .left = true, .width = 12},
+        {.name = "tol", .form = QDOT_NUMBER_SCIENTIFIC, .width = 7},
+        {.name = "steps", .form = QDOT_NUMBER_FIXED, .width = 10},
+        {.name = "evals", .form = QDOT_NUMBER_FIXED, .width = 12},
+        {.name = "time/s", .digits = 2, .width = 9},
+        {.name = "error", .form = QDOT_NUMBER_SCIENTIFIC, .digits = 1, .width = 9},
+        {.name = "growth", .kind = QDOT_CELL_TEXT, .width = 17},
+        {.name = "status", .kind = QDOT_CELL_TEXT, .left = true, .gap = 2}};
+    const qdot_longtime *l = study;
+
+    QDOT_TRY(qdot_table_begin(t, sizeof columns / sizeof *columns, columns));
+    for (size_t k = 0; k < l->n; k++) {
+        const qdot_longtime_row *r = l->rows + k;
+
+        qdot_table_add_text(t, r->method);
+        qdot_table_add_number(t, r->tol, 0);
+        qdot_table_add_number(t, (double)r->steps, 0);
+        qdot_table_add_number(t, (double)r->evals, 0);
+        qdot_table_add_number(t, r->cpu, NAN);
+        qdot_table_add_number(t, r->largest, NAN);
+        growth(r, t);
+        qdot_table_add_text(t, r->status);
+    }
+    return qdot_table_status(t);
 }
 
 /* What `auto` would take, and why. */
@@ -63,25 +103,10 @@ chosen(const qdot_longtime *l, qdot_text *out)
 }
 
 static void
-table(const void *study, qdot_text *out)
+words(const void *study, qdot_text *out)
 {
     const qdot_longtime *l = study;
 
-    qdot_text_format(out, "%-12s" QDOT_WRAP_CELL "%7s" QDOT_WRAP_CELL "%10s" QDOT_WRAP_CELL
-                          "%12s" QDOT_WRAP_CELL "%9s" QDOT_WRAP_CELL "%9s" QDOT_WRAP_CELL
-                          "%17s" QDOT_WRAP_CELL "  status\n",
-                     "method", "tol", "steps", "evals", "time/s", "error", "growth");
-    for (size_t k = 0; k < l->n; k++) {
-        const qdot_longtime_row *r = l->rows + k;
-
-        qdot_text_format(out, "%-12s" QDOT_WRAP_CELL "%7.0e" QDOT_WRAP_CELL "%10llu"
-                              QDOT_WRAP_CELL "%12llu" QDOT_WRAP_CELL "%9.2g" QDOT_WRAP_CELL
-                              "%9.1e",
-                         r->method, r->tol, (unsigned long long)r->steps,
-                         (unsigned long long)r->evals, r->cpu, r->largest);
-        growth(r, out);
-        qdot_text_format(out, QDOT_WRAP_CELL "  %s\n", r->status);
-    }
     qdot_text_add(out, "error: the largest |E - E0| / max(1, |E0|) met; growth: of its root mean square in "
                        "windows of time,\nfitted to the later half of them, with twice the standard "
                        "error\n");
@@ -91,7 +116,23 @@ table(const void *study, qdot_text *out)
     }
 }
 
-/* A row for each window; the growth as a number for each method. */
+/* The windows of a method as rows, and why it failed. */
+static qdot_status
+windows_json(qdot_session *session, const qdot_longtime *l, size_t k)
+{
+    const qdot_longtime_row *r = l->rows + k;
+    qdot_table t = {0};
+    qdot_status status = windows_fill(l, k, k + 1, &t);
+
+    if (status == QDOT_OK)
+        status = qdot_answer_rows(session, &t);
+    qdot_table_clear(&t);
+    if (status == QDOT_OK && strcmp(r->status, "done") != 0)
+        status = qdot_answer_notice(session, "method %s, tol %.0e: %s", r->method, r->tol, r->status);
+    return status;
+}
+
+/* The windows and the growth, a number, of each method. */
 static qdot_status
 rows_json(qdot_session *session, const void *study)
 {
@@ -100,26 +141,12 @@ rows_json(qdot_session *session, const void *study)
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < l->n && status == QDOT_OK; k++) {
-        const qdot_longtime_row *r = l->rows + k;
-
-        for (size_t i = 0; i < r->n && status == QDOT_OK; i++) {
-            qdot_text_clear(&text);
-            qdot_text_json(&text, r->method);
-            qdot_text_char(&text, ',');
-            qdot_number_text_json(&text, r->tol);
-            qdot_text_char(&text, ',');
-            qdot_number_text_json(&text, r->t[i]);
-            qdot_text_char(&text, ',');
-            qdot_number_text_json(&text, r->error[i]);
-            status = qdot_answer_cells(session, &text);
-        }
-        if (status == QDOT_OK && strcmp(r->status, "done") != 0)
-            status = qdot_answer_notice(session, "method %s, tol %.0e: %s", r->method, r->tol,
-                                        r->status);
+        status = windows_json(session, l, k);
         qdot_text_clear(&text);
-        qdot_text_format(&text, "growth[%s]", r->method);
+        qdot_text_format(&text, "growth[%s]", l->rows[k].method);
         if (status == QDOT_OK)
-            status = qdot_answer_number(session, qdot_text_str(&text), r->growth, r->growth_error);
+            status = qdot_answer_number(session, qdot_text_str(&text), l->rows[k].growth,
+                                        l->rows[k].growth_error);
     }
     qdot_text_clear(&text);
     if (status == QDOT_OK && l->chosen != NULL) {
@@ -156,8 +183,9 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
                                  .study = l,
                                  .left_out = &l->left_out,
                                  .interrupted = l->interrupted,
-                                 .table = table,
-                                 .csv = csv,
+                                 .table = summary,
+                                 .words = words,
+                                 .data = windows,
                                  .rows = rows_json,
                                  .figure = {.title = "error of the energy over long times",
                                             .abscissa = "time",

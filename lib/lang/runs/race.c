@@ -3,8 +3,8 @@
 
 #include "base/interrupt.h"
 #include "base/number-text.h"
-#include "base/wrap.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/table-answer.h"
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
@@ -12,41 +12,38 @@
 #include "lang/language/read.h"
 #include "sim/study/race.h"
 
-#define CELL QDOT_WRAP_CELL
-
-/* "1e-12", "-" where there is none */
-static void
-print_bound(double value, int width, qdot_text *out)
+/* Formulation, method, tolerance, error, drifts, CPU seconds. */
+static qdot_status
+race_fill(const qdot_race *race, qdot_table *t)
 {
-    qdot_text one = {0};
+    static const qdot_table_column columns[] = {
+        {.name = "formulation", .kind = QDOT_CELL_TEXT, .left = true, .width = 20},
+        {.name = "method", .kind = QDOT_CELL_TEXT, .left = true, .gap = 2, .width = 7},
+        {.name = "tol", .form = QDOT_NUMBER_SCIENTIFIC, .gap = 2, .width = 5},
+        {.name = "error", .form = QDOT_NUMBER_SCIENTIFIC_OR_0, .digits = 1, .width = 9},
+        {.name = "energy", .form = QDOT_NUMBER_SCIENTIFIC_OR_0, .digits = 1, .width = 9},
+        {.name = "constraints", .form = QDOT_NUMBER_SCIENTIFIC_OR_0, .digits = 1, .width = 12},
+        {.name = "cpu ms", .in = QDOT_IN_TERMINAL, .digits = 3, .gap = 2, .width = 10},
+        {.name = "cpu", .in = QDOT_IN_ANSWERS}};
 
-    if (isnan(value))
-        qdot_text_add(&one, "-");
-    else
-        qdot_text_format(&one, value == 0 ? "0" : "%.1e", value);
-    qdot_text_format(out, CELL "%*s", width, qdot_text_str(&one));
-    qdot_text_clear(&one);
-}
+    QDOT_TRY(qdot_table_begin(t, sizeof columns / sizeof *columns, columns));
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+            const double numbers[] = {e->tol, e->error, e->energy, e->constraint, 1e3 * e->cpu, e->cpu};
 
-static void
-print_lane(const qdot_race_lane *lane, qdot_text *out)
-{
-    for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
-        const qdot_race_entry *e = &lane->entry[k];
-
-        if (e->method == NULL)
-            continue;
-        qdot_text_format(out, "\n%-20s" CELL "  %-7s" CELL "  %5.0e", lane->name, e->method,
-                         e->tol);
-        print_bound(e->error, 9, out);
-        print_bound(e->energy, 9, out);
-        print_bound(e->constraint, 12, out);
-        qdot_text_format(out, CELL "  %10.3g", 1e3 * e->cpu);
-    }
+            if (e->method == NULL)
+                continue;
+            qdot_table_add_text(t, race->lane[i].name);
+            qdot_table_add_text(t, e->method);
+            for (size_t j = 0; j < sizeof numbers / sizeof *numbers; j++)
+                qdot_table_add_number(t, numbers[j], NAN);
+        }
+    return qdot_table_status(t);
 }
 
 static qdot_status
-print_race(const qdot_race *race, qdot_text *out)
+print_race(const qdot_race *race, const qdot_table *t, qdot_text *out)
 {
     qdot_text_format(out,
                      "race: end errors against the scene as given, projected, at tol %.0e, "
@@ -56,46 +53,16 @@ print_race(const qdot_race *race, qdot_text *out)
     if (race->minimal > 0)
         qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
                          race->coordinates, race->minimal);
-    qdot_text_format(out,
-                     "\n%-20s" CELL "  %-7s" CELL "  %5s" CELL "%9s" CELL "%9s" CELL "%12s" CELL
-                     "  %10s",
-                     "formulation", "method", "tol", "error", "energy", "constraints", "cpu ms");
-    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
-        if (race->lane[i].name != NULL)
-            print_lane(&race->lane[i], out);
+    qdot_text_char(out, '\n');
+    QDOT_TRY(qdot_answer_add_table(t, out));
     for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
         if (race->lane[i].reason != NULL)
-            qdot_text_format(out, "\nnot in %s: %s",
+            qdot_text_format(out, "not in %s: %s\n",
                              i + 1 < QDOT_RACE_FORMULATIONS ? "this treatment"
                                                             : "minimal coordinates",
                              race->lane[i].reason);
-    return qdot_text_status(out);
-}
-
-/* Formulation, method, tolerance, error, energy drift, constraint drift, CPU seconds. */
-static qdot_status
-answer_rows(qdot_session *session, const qdot_race *race)
-{
-    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
-        for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
-            const qdot_race_entry *e = &race->lane[i].entry[k];
-            double row[] = {e->tol, e->error, e->energy, e->constraint, e->cpu};
-            qdot_text cells = {0};
-            qdot_status status;
-
-            if (e->method == NULL)
-                continue;
-            qdot_text_json(&cells, race->lane[i].name);
-            qdot_text_char(&cells, ',');
-            qdot_text_json(&cells, e->method != NULL ? e->method : "");
-            for (size_t j = 0; j < sizeof row / sizeof *row; j++) {
-                qdot_text_char(&cells, ',');
-                qdot_number_text_json(&cells, row[j]);
-            }
-            status = qdot_answer_cells(session, &cells);
-            qdot_text_clear(&cells);
-            QDOT_TRY(status);
-        }
+    QDOT_TRY(qdot_text_status(out));
+    qdot_text_truncate(out, out->n - 1); /* the last line's end */
     return QDOT_OK;
 }
 
@@ -134,17 +101,19 @@ race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choi
             const qdot_panel_choice *panel)
 {
     qdot_text text = {0};
-    qdot_status status = QDOT_OK;
+    qdot_table t = {0};
+    qdot_status status = race_fill(race, &t);
 
-    if (race->notice != NULL)
+    if (status == QDOT_OK && race->notice != NULL)
         status = qdot_answer_notice(session, "%s", race->notice);
     if (status == QDOT_OK)
-        status = print_race(race, &text);
+        status = print_race(race, &t, &text);
     if (status == QDOT_OK)
         status = qdot_answer_text(session, "race", qdot_text_str(&text));
     if (status == QDOT_OK && session->json)
-        status = answer_rows(session, race);
+        status = qdot_answer_rows(session, &t);
     qdot_text_clear(&text);
+    qdot_table_clear(&t);
     /* who stopped it does not wait for a figure unless it was asked for */
     if (status == QDOT_OK && (!race->interrupted || figure->path != NULL))
         status = race_draw(session, race, figure, panel);

@@ -1,12 +1,9 @@
 /* workprecision.c -- error against time, every method: a table, a figure, a file. */
 #include <math.h>
-#include <stdarg.h>
-#include <string.h>
 
 #include "base/interrupt.h"
 #include "base/number-text.h"
-#include "base/wrap.h"
-#include "lang/answer/answer.h"
+#include "lang/answer/table-answer.h"
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
@@ -19,118 +16,62 @@ typedef struct {
     qdot_panel_choice panel;
 } choices;
 
-/* The columns, in the order of every form. */
-enum { COLUMNS = 13, CONSTRAINT_ERR = 10 };
-
-static const char *const names[COLUMNS] = {
-    "method", "tol",      "err",        "scd",            "time_min", "time_median", "evals",
-    "steps",  "rejected", "energy_err", "constraint_err", "ref_err",  "status"};
-
-/* The column of constraint errors stands only where there are constraints. */
-static bool
-has_column(const qdot_workprecision *w, size_t i)
-{
-    return i != CONSTRAINT_ERR || w->constraints;
-}
-
-/* The numbers of a row, columns 1 ... 11. */
-static void
-numbers_of(const qdot_workprecision *w, const qdot_workprecision_row *r, double *x)
-{
-    const double all[COLUMNS - 2] = {
-        r->tol,          r->err,           r->scd,              r->time_min,
-        r->time_median,  (double)r->evals, (double)r->steps,    (double)r->rejected,
-        r->energy_err,   r->constraint_err, w->ref_err};
-
-    memcpy(x, all, sizeof all);
-}
-
-/* --- a file of values ---------------------------------------------------------------- */
-
-static void
-csv_field(qdot_text *out, const char *field)
-{
-    if (strpbrk(field, ",\"\n") == NULL) {
-        qdot_text_add(out, field);
-        return;
-    }
-    qdot_text_char(out, '"');
-    for (; *field != '\0'; field++) {
-        if (*field == '"')
-            qdot_text_char(out, '"');
-        qdot_text_char(out, *field);
-    }
-    qdot_text_char(out, '"');
-}
-
-static void
-csv(const void *study, qdot_text *out)
-{
-    const qdot_workprecision *w = study;
-
-    for (size_t i = 0; i < COLUMNS; i++)
-        if (has_column(w, i))
-            qdot_text_format(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
-    for (size_t k = 0; k < w->n; k++) {
-        double x[COLUMNS - 2];
-
-        numbers_of(w, &w->rows[k], x);
-        qdot_text_add(out, w->rows[k].method);
-        for (size_t i = 0; i < COLUMNS - 2; i++) {
-            if (!has_column(w, i + 1))
-                continue;
-            qdot_text_char(out, ',');
-            if (!isnan(x[i]))
-                qdot_text_double(out, x[i], i == 0 ? 1 : 17);
-        }
-        qdot_text_char(out, ',');
-        csv_field(out, w->rows[k].status);
-        qdot_text_char(out, '\n');
-    }
-}
-
 /* --- a table ------------------------------------------------------------------------- */
 
-/* A cell, right-aligned; nothing for what is not known. */
-static void
-cell(qdot_text *out, int width, const char *format, double x)
-{
-    char text[40] = "-";
+enum { EXCEPT_PEOPLE = QDOT_IN_ANSWERS | QDOT_IN_DATA };
 
-    if (!isnan(x))
-        snprintf(text, sizeof text, format, x);
-    qdot_text_format(out, QDOT_WRAP_CELL "%*s", width, text);
+static const qdot_table_column columns[] = {
+    {.name = "method", .kind = QDOT_CELL_TEXT, .left = true, .width = 12},
+    {.name = "tol", .form = QDOT_NUMBER_SCIENTIFIC, .width = 7, .exact = 1, .blank = true},
+    {.name = "err", .form = QDOT_NUMBER_SCIENTIFIC, .digits = 1, .width = 9, .blank = true},
+    {.name = "scd", .form = QDOT_NUMBER_FIXED, .digits = 1, .width = 6, .blank = true},
+    {.name = "time_min", .head = "time/s", .form = QDOT_NUMBER_SCIENTIFIC, .digits = 2, .width = 10, .blank = true},
+    {.name = "time_median", .head = "median", .form = QDOT_NUMBER_SCIENTIFIC, .digits = 2, .width = 10, .blank = true},
+    {.name = "evals", .form = QDOT_NUMBER_FIXED, .width = 9},
+    {.name = "steps", .form = QDOT_NUMBER_FIXED, .width = 8},
+    {.name = "rejected", .form = QDOT_NUMBER_FIXED, .width = 9},
+    {.name = "energy_err", .head = "energy err", .form = QDOT_NUMBER_SCIENTIFIC, .digits = 1, .width = 11,
+     .blank = true},
+    {.name = "constraint_err", .head = "constr. err", .form = QDOT_NUMBER_SCIENTIFIC, .digits = 1, .width = 12,
+     .blank = true},
+    {.name = "ref_err", .in = EXCEPT_PEOPLE, .blank = true},
+    {.name = "status", .kind = QDOT_CELL_TEXT, .left = true, .gap = 2}};
+
+enum { COLUMNS = sizeof columns / sizeof *columns, CONSTRAINT_ERR = 10 };
+
+/* Constraint errors have a column only where there are constraints. */
+static qdot_status
+study_fill(const void *study, qdot_table *t)
+{
+    const qdot_workprecision *w = study;
+    qdot_table_column some[COLUMNS];
+    size_t n = 0;
+
+    for (size_t i = 0; i < COLUMNS; i++)
+        if (i != CONSTRAINT_ERR || w->constraints)
+            some[n++] = columns[i];
+    QDOT_TRY(qdot_table_begin(t, n, some));
+    for (size_t k = 0; k < w->n; k++) {
+        const qdot_workprecision_row *r = &w->rows[k];
+        const double numbers[] = {r->tol,           r->err,          r->scd,
+                                  r->time_min,      r->time_median,  (double)r->evals,
+                                  (double)r->steps, (double)r->rejected, r->energy_err,
+                                  r->constraint_err, w->ref_err};
+
+        qdot_table_add_text(t, r->method);
+        for (size_t i = 0; i < COLUMNS - 2; i++)
+            if (i + 1 != CONSTRAINT_ERR || w->constraints)
+                qdot_table_add_number(t, numbers[i], NAN);
+        qdot_table_add_text(t, r->status);
+    }
+    return qdot_table_status(t);
 }
 
 static void
-table(const void *study, qdot_text *out)
+words(const void *study, qdot_text *out)
 {
     const qdot_workprecision *w = study;
-    static const struct {
-        const char *head, *format;
-        int width, column;
-    } shown[] = {{"tol", "%.0e", 7, 0},      {"err", "%.1e", 9, 1},
-                 {"scd", "%.1f", 6, 2},      {"time/s", "%.2e", 10, 3},
-                 {"median", "%.2e", 10, 4},  {"evals", "%.0f", 9, 5},
-                 {"steps", "%.0f", 8, 6},    {"rejected", "%.0f", 9, 7},
-                 {"energy err", "%.1e", 11, 8}, {"constr. err", "%.1e", 12, 9}};
-    const size_t n = sizeof shown / sizeof *shown;
 
-    qdot_text_format(out, "%-12s", "method");
-    for (size_t i = 0; i < n; i++)
-        if (has_column(w, (size_t)shown[i].column + 1))
-            qdot_text_format(out, QDOT_WRAP_CELL "%*s", shown[i].width, shown[i].head);
-    qdot_text_add(out, QDOT_WRAP_CELL "  status\n");
-    for (size_t k = 0; k < w->n; k++) {
-        double x[COLUMNS - 2];
-
-        numbers_of(w, &w->rows[k], x);
-        qdot_text_format(out, "%-12s", w->rows[k].method);
-        for (size_t i = 0; i < n; i++)
-            if (has_column(w, (size_t)shown[i].column + 1))
-                cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
-        qdot_text_format(out, QDOT_WRAP_CELL "  %s\n", w->rows[k].status);
-    }
     qdot_text_add(out, "err: the largest error at the end, each relative to max(1, "
                        "|value|), against a reference whose own is ");
     qdot_number_text_bound(out, w->ref_err);
@@ -141,28 +82,13 @@ table(const void *study, qdot_text *out)
 static qdot_status
 rows_json(qdot_session *session, const void *study)
 {
-    const qdot_workprecision *w = study;
+    qdot_table t = {0};
+    qdot_status status = study_fill(study, &t);
 
-    for (size_t k = 0; k < w->n; k++) {
-        qdot_text values = {0};
-        double x[COLUMNS - 2];
-        qdot_status status;
-
-        numbers_of(w, &w->rows[k], x);
-        qdot_text_json(&values, w->rows[k].method);
-        for (size_t i = 0; i < COLUMNS - 2; i++) {
-            if (!has_column(w, i + 1))
-                continue;
-            qdot_text_char(&values, ',');
-            qdot_number_text_json(&values, x[i]);
-        }
-        qdot_text_char(&values, ',');
-        qdot_text_json(&values, w->rows[k].status);
-        status = qdot_answer_cells(session, &values);
-        qdot_text_clear(&values);
-        QDOT_TRY(status);
-    }
-    return QDOT_OK;
+    if (status == QDOT_OK)
+        status = qdot_answer_rows(session, &t);
+    qdot_table_clear(&t);
+    return status;
 }
 
 /* --- a figure ------------------------------------------------------------------------ */
@@ -196,8 +122,9 @@ workprecision_tell(qdot_session *session, const qdot_workprecision *w, const cho
                                  .study = w,
                                  .left_out = &w->left_out,
                                  .interrupted = w->interrupted,
-                                 .table = table,
-                                 .csv = csv,
+                                 .table = study_fill,
+                                 .words = words,
+                                 .data = study_fill,
                                  .rows = rows_json,
                                  .figure = {.title = "work and precision",
                                             .abscissa = "CPU time in s",
