@@ -5,8 +5,7 @@
 #include <stdio.h>
 
 #include "base/number-text.h"
-#include "base/utf8.h"
-#include "base/wrap.h"
+#include "lang/answer/table-answer.h"
 #include "lang/answer/write.h"
 #include "lang/session/row-tables.h"
 
@@ -119,108 +118,92 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
 
 /* --- JSON ---------------------------------------------------------------------------------- */
 
-/* `"values":[p, q ...]` */
+/* p and the columns of points y, one behind the other by `stride` numbers: columns [1 + b->n_columns]. */
 static void
-write_values(const qdot_branches *b, const double *y, qdot_text *line)
+fill_columns(const qdot_branches *b, const double *y, size_t stride, qdot_table_column *columns)
 {
-    qdot_text_add(line, ",\"values\":[");
-    qdot_number_text_json(line, y[b->found->n]);
-    for (size_t q = 0; q < b->n_columns; q++) {
-        qdot_text_char(line, ',');
-        qdot_number_text_json(line, y[b->columns[q]]);
+    for (size_t q = 0; q <= b->n_columns; q++) {
+        const size_t k = q == 0 ? b->found->n : b->columns[q - 1];
+
+        columns[q] = (qdot_table_column){.name = name_of(b, k), .values = y + k, .stride = stride};
     }
-    qdot_text_char(line, ']');
+}
+
+/* The points of branch i; columns [2 + b->n_columns] are work space. */
+static qdot_status
+branch_json(qdot_session *session, const qdot_branches *b, size_t i, qdot_table_column *columns)
+{
+    const qdot_branch *branch = &b->found->branches.at[i];
+    double *stable = qdot_calloc(branch->n + 1, sizeof *stable);
+    qdot_text name = {0};
+    qdot_status status = stable != NULL ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t j = 0; j < branch->n && status == QDOT_OK; j++)
+        stable[j] = branch->stability[j] == QDOT_STABILITY_UNDECIDED ? NAN
+                    : branch->stability[j] == QDOT_UNSTABLE          ? 0
+                                                                     : 1;
+    fill_columns(b, branch->y, b->found->width, columns);
+    columns[1 + b->n_columns] =
+        (qdot_table_column){.name = "stable", .kind = QDOT_CELL_FLAG, .field = "stable", .values = stable};
+    qdot_text_format(&name, "branch[%zu]", i + 1);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&name);
+    if (status == QDOT_OK) {
+        const qdot_table t = {
+            .name = qdot_text_str(&name), .n = 2 + b->n_columns, .rows = branch->n, .columns = columns};
+
+        status = qdot_answer_rows(session, &t);
+    }
+    qdot_text_clear(&name);
+    qdot_free(stable);
+    return status;
+}
+
+static qdot_status
+bifurcations_json(qdot_session *session, const qdot_branches *b, qdot_table_column *columns)
+{
+    qdot_table t = {.name = "bifurcation"};
+    qdot_status status;
+
+    columns[0] = (qdot_table_column){.name = "type", .kind = QDOT_CELL_TEXT, .field = "type"};
+    fill_columns(b, NULL, 0, columns + 1);
+    status = qdot_table_begin(&t, 2 + b->n_columns, columns);
+    for (size_t i = 0; i < b->found->bifurcations.n && status == QDOT_OK; i++) {
+        const qdot_bifurcation *one = &b->found->bifurcations.at[i];
+
+        qdot_table_add_text(&t, qdot_bifurcation_name(one->kind));
+        qdot_table_add_number(&t, one->y[b->found->n], NAN);
+        for (size_t q = 0; q < b->n_columns; q++)
+            qdot_table_add_number(&t, one->y[b->columns[q]], NAN);
+    }
+    if (status == QDOT_OK)
+        status = qdot_answer_rows(session, &t);
+    qdot_table_clear(&t);
+    return status;
 }
 
 static qdot_status
 answer_json(qdot_session *session, const qdot_branches *b)
 {
-    qdot_text line = {0};
+    qdot_table_column *columns = qdot_calloc(2 + b->n_columns, sizeof *columns);
+    qdot_status status = columns != NULL ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t i = 0; i < b->found->branches.n; i++) {
-        const qdot_branch *branch = &b->found->branches.at[i];
+    for (size_t i = 0; i < b->found->branches.n && status == QDOT_OK; i++)
+        status = branch_json(session, b, i, columns);
+    if (status == QDOT_OK)
+        status = bifurcations_json(session, b, columns);
+    if (status == QDOT_OK && !b->orbits) {
+        const size_t stride = b->found->n + 1;
+        const qdot_table t = {.name = "not followed",
+                              .n = 1 + b->n_columns,
+                              .rows = b->found->left.n / stride,
+                              .columns = columns};
 
-        for (size_t j = 0; j < branch->n; j++) {
-            qdot_text_format(&line, "{\"kind\":\"row\",\"name\":\"branch[%zu]\"", i + 1);
-            write_values(b, branch->y + j * b->found->width, &line);
-            qdot_text_format(&line, ",\"stable\":%s}\n",
-                             branch->stability[j] == QDOT_STABILITY_UNDECIDED ? "null"
-                             : branch->stability[j] == QDOT_UNSTABLE          ? "false"
-                                                                              : "true");
-            QDOT_TRY(qdot_write(session, session->out, &line));
-        }
+        fill_columns(b, b->found->left.at, stride, columns);
+        status = qdot_answer_rows(session, &t);
     }
-    for (size_t i = 0; i < b->found->bifurcations.n; i++) {
-        const qdot_bifurcation *one = &b->found->bifurcations.at[i];
-
-        qdot_text_add(&line, "{\"kind\":\"row\",\"name\":\"bifurcation\",\"type\":");
-        qdot_write_field(&line, "", qdot_bifurcation_name(one->kind));
-        write_values(b, one->y, &line);
-        qdot_text_add(&line, "}\n");
-        QDOT_TRY(qdot_write(session, session->out, &line));
-    }
-    for (size_t k = 0; k < b->found->left.n && !b->orbits; k += b->found->n + 1) {
-        qdot_text_add(&line, "{\"kind\":\"row\",\"name\":\"not followed\"");
-        write_values(b, b->found->left.at + k, &line);
-        qdot_text_add(&line, "}\n");
-        QDOT_TRY(qdot_write(session, session->out, &line));
-    }
-    return QDOT_OK;
-}
-
-/* --- cells in columns --------------------------------------------------------------------- */
-
-typedef struct {
-    size_t columns;
-    qdot_vec(qdot_text) cells; /* row by row */
-} grid;
-
-static qdot_text *
-new_cell(grid *g)
-{
-    static qdot_text none;
-    const qdot_text empty = {0};
-
-    if (qdot_vec_push(&g->cells, empty) != QDOT_OK) {
-        none.failed = true;
-        return &none;
-    }
-    return &g->cells.at[g->cells.n - 1];
-}
-
-static size_t
-width_of(const qdot_text *cell)
-{
-    return qdot_utf8_columns(qdot_text_str(cell), cell->n);
-}
-
-static qdot_status
-write_grid(const grid *g, qdot_text *out)
-{
-    for (size_t k = 0; k < g->cells.n; k++) {
-        const size_t column = k % g->columns;
-        const bool last = column + 1 == g->columns;
-        size_t width = 0;
-
-        QDOT_TRY(qdot_text_status(&g->cells.at[k]));
-        for (size_t i = column; i < g->cells.n && !last; i += g->columns)
-            width = width_of(&g->cells.at[i]) > width ? width_of(&g->cells.at[i]) : width;
-        qdot_text_format(out, "%s%s", column > 0 ? QDOT_WRAP_CELL "  " : "",
-                         qdot_text_str(&g->cells.at[k]));
-        if (last)
-            qdot_text_char(out, '\n');
-        else
-            qdot_text_format(out, "%*s", (int)(width - width_of(&g->cells.at[k])), "");
-    }
-    return QDOT_OK;
-}
-
-static void
-clear_grid(grid *g)
-{
-    for (size_t k = 0; k < g->cells.n; k++)
-        qdot_text_clear(&g->cells.at[k]);
-    qdot_free(g->cells.at);
+    qdot_free(columns);
+    return status;
 }
 
 /* --- words --------------------------------------------------------------------------------- */
@@ -348,7 +331,7 @@ word_of(qdot_stability verdict)
 }
 
 static void
-add_branch(const qdot_branches *b, size_t i, grid *g)
+add_branch(const qdot_branches *b, size_t i, qdot_table *t)
 {
     const qdot_branch *branch = &b->found->branches.at[i];
     const size_t n = b->found->n;
@@ -356,27 +339,29 @@ add_branch(const qdot_branches *b, size_t i, grid *g)
     for (size_t k = 0, end; k + 1 < branch->n; k = end) {
         const double *from, *to;
         qdot_stability verdict;
+        qdot_text cell = {0};
 
         end = part_end(b, branch, k, &verdict);
         from = branch->y + k * b->found->width;
         to = branch->y + end * b->found->width;
         if (k == 0)
-            qdot_text_format(new_cell(g), "branch[%zu]", i + 1);
-        else
-            (void)new_cell(g);
+            qdot_text_format(&cell, "branch[%zu]", i + 1);
+        qdot_table_add_written(t, &cell);
         if (from[n] > to[n]) {
             const double *const swap = from;
 
             from = to;
             to = swap;
         }
-        write_range(b, n, from, to, from[n], new_cell(g));
+        write_range(b, n, from, to, from[n], &cell);
+        qdot_table_add_written(t, &cell);
         for (size_t q = 0; q < b->n_told; q++) {
             const size_t i_q = b->columns[q];
 
-            write_range(b, i_q, from, to, furthest(b, branch, k, end, i_q), new_cell(g));
+            write_range(b, i_q, from, to, furthest(b, branch, k, end, i_q), &cell);
+            qdot_table_add_written(t, &cell);
         }
-        qdot_text_add(new_cell(g), word_of(verdict));
+        qdot_table_add_text(t, word_of(verdict));
     }
 }
 
@@ -460,21 +445,22 @@ write_measured(double value, double error, double size, qdot_text *out)
 }
 
 static void
-add_bifurcation(const qdot_branches *b, size_t i, grid *g)
+add_bifurcation(const qdot_branches *b, size_t i, qdot_table *t)
 {
     const qdot_bifurcation *one = &b->found->bifurcations.at[i];
     const size_t n = b->found->n;
-    qdot_text *cell;
+    qdot_text cell = {0};
     bool first = true;
 
-    qdot_text_add(new_cell(g), qdot_bifurcation_name(one->kind));
-    write_measured(one->y[n], one->error[n], b->found->size[n], new_cell(g));
+    qdot_table_add_text(t, qdot_bifurcation_name(one->kind));
+    write_measured(one->y[n], one->error[n], b->found->size[n], &cell);
+    qdot_table_add_written(t, &cell);
     for (size_t q = 0; q < b->n_told; q++) {
         const size_t k = b->columns[q];
 
-        write_measured(one->y[k], one->error[k], b->found->size[k], new_cell(g));
+        write_measured(one->y[k], one->error[k], b->found->size[k], &cell);
+        qdot_table_add_written(t, &cell);
     }
-    cell = new_cell(g);
     for (size_t k = 0; k < b->found->branches.n; k++) {
         const qdot_branch *branch = &b->found->branches.at[k];
         size_t j = 0;
@@ -483,24 +469,73 @@ add_bifurcation(const qdot_branches *b, size_t i, grid *g)
             j++;
         if (j == branch->n)
             continue;
-        qdot_text_format(cell, "%sbranch[%zu]", first ? "" : ", ", k + 1);
+        qdot_text_format(&cell, "%sbranch[%zu]", first ? "" : ", ", k + 1);
         first = false;
     }
     if (one->frequency > 0) {
-        qdot_text_add(cell, b->orbits ? ", multipliers at the angle " : ", angular frequency ");
-        write_measured(one->frequency, one->frequency_error, 1, cell);
+        qdot_text_add(&cell, b->orbits ? ", multipliers at the angle " : ", angular frequency ");
+        write_measured(one->frequency, one->frequency_error, 1, &cell);
     }
+    qdot_table_add_written(t, &cell);
 }
 
-static void
-add_head(const qdot_branches *b, const char *first, const char *last, grid *g)
+/* A table of texts: `first`, p, what is told, `last`. */
+static qdot_status
+begin_words(const qdot_branches *b, const char *first, const char *last, qdot_table *t)
 {
-    g->columns = b->n_told + 3;
-    qdot_text_add(new_cell(g), first);
-    qdot_text_add(new_cell(g), name_of(b, b->found->n));
-    for (size_t q = 0; q < b->n_told; q++)
-        qdot_text_add(new_cell(g), name_of(b, b->columns[q]));
-    qdot_text_add(new_cell(g), last);
+    const size_t n = b->n_told + 3;
+    qdot_table_column *columns = qdot_calloc(n, sizeof *columns);
+    qdot_status status;
+
+    if (columns == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        const char *name = i == 0       ? first
+                           : i == 1     ? name_of(b, b->found->n)
+                           : i + 1 == n ? last
+                                        : name_of(b, b->columns[i - 2]);
+
+        columns[i] = (qdot_table_column){.name = name, .kind = QDOT_CELL_TEXT, .left = true, .gap = 2};
+    }
+    status = qdot_table_begin(t, n, columns);
+    qdot_free(columns);
+    return status;
+}
+
+static qdot_status
+tell_branches(const qdot_branches *b, qdot_text *out)
+{
+    qdot_table t = {0};
+    qdot_status status = begin_words(b, "branch", "", &t);
+
+    for (size_t i = 0; i < b->found->branches.n && status == QDOT_OK; i++)
+        add_branch(b, i, &t);
+    if (status == QDOT_OK)
+        status = qdot_answer_add_table(&t, out);
+    qdot_table_clear(&t);
+    for (size_t i = 0; i < b->found->branches.n; i++)
+        say_ends(b, i, out);
+    return status;
+}
+
+static qdot_status
+tell_bifurcations(const qdot_branches *b, qdot_text *out)
+{
+    qdot_table t = {0};
+    qdot_status status;
+
+    if (b->found->bifurcations.n == 0) {
+        qdot_text_add(out, "no bifurcation was found\n");
+        return QDOT_OK;
+    }
+    qdot_text_char(out, '\n');
+    status = begin_words(b, "bifurcation", "of", &t);
+    for (size_t i = 0; i < b->found->bifurcations.n && status == QDOT_OK; i++)
+        add_bifurcation(b, i, &t);
+    if (status == QDOT_OK)
+        status = qdot_answer_add_table(&t, out);
+    qdot_table_clear(&t);
+    return status;
 }
 
 static void
@@ -539,31 +574,15 @@ say_left(const qdot_branches *b, qdot_text *out)
 qdot_status
 qdot_branches_answer(qdot_session *session, const qdot_branches *b)
 {
-    grid branches = {0}, points = {0};
     qdot_text text = {0};
     qdot_status status;
 
     if (session->json)
         return answer_json(session, b);
-    add_head(b, "branch", "", &branches);
-    for (size_t i = 0; i < b->found->branches.n; i++)
-        add_branch(b, i, &branches);
-    status = write_grid(&branches, &text);
-    for (size_t i = 0; i < b->found->branches.n; i++)
-        say_ends(b, i, &text);
-    if (b->found->bifurcations.n > 0) {
-        add_head(b, "bifurcation", "of", &points);
-        for (size_t i = 0; i < b->found->bifurcations.n; i++)
-            add_bifurcation(b, i, &points);
-        qdot_text_char(&text, '\n');
-    } else {
-        qdot_text_add(&text, "no bifurcation was found\n");
-    }
+    status = tell_branches(b, &text);
     if (status == QDOT_OK)
-        status = write_grid(&points, &text);
+        status = tell_bifurcations(b, &text);
     say_degenerate(b, &text);
     say_left(b, &text);
-    clear_grid(&branches);
-    clear_grid(&points);
     return qdot_answer_written(session, "branches", status, &text);
 }

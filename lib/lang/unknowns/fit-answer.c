@@ -7,8 +7,8 @@
 
 #include "base/number-text.h"
 #include "base/utf8.h"
-#include "base/wrap.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/table-answer.h"
 #include "lang/unknowns/fit-parts.h"
 
 /* Of a standard error, the numerical error that is no longer small beside it. */
@@ -68,9 +68,9 @@ correlation(const qdot_fit *f, size_t i, size_t j)
     return f->found.covariance[i * f->unknowns.names.n + j] / (f->error[i] * f->error[j]);
 }
 
-/* The lower triangle. */
-static void
-write_correlations(const qdot_fit *f, qdot_text *out)
+/* The lower triangle, all columns equally wide. */
+static qdot_status
+correlations_fill(const qdot_fit *f, qdot_table_column *columns, qdot_table *t)
 {
     const size_t k = f->unknowns.names.n;
     size_t width = 6;
@@ -81,16 +81,36 @@ write_correlations(const qdot_fit *f, qdot_text *out)
 
         width = own > width ? own : width;
     }
-    qdot_text_format(out, "%-*s", (int)width, "correlation");
+    columns[0] = (qdot_table_column){.name = "correlation", .kind = QDOT_CELL_TEXT, .width = (unsigned)width};
     for (size_t i = 0; i + 1 < k; i++)
-        qdot_text_format(out, QDOT_WRAP_CELL "  %*s", (int)width, f->unknowns.names.at[i].label);
-    qdot_text_char(out, '\n');
+        columns[1 + i] = (qdot_table_column){.name = f->unknowns.names.at[i].label,
+                                             .form = QDOT_NUMBER_FIXED,
+                                             .digits = 3,
+                                             .gap = 2,
+                                             .width = (unsigned)width};
+    QDOT_TRY(qdot_table_begin(t, k, columns));
     for (size_t i = 1; i < k; i++) {
-        qdot_text_format(out, "%*s", (int)(width > 11 ? width : 11), f->unknowns.names.at[i].label);
+        qdot_table_add_text(t, f->unknowns.names.at[i].label);
         for (size_t j = 0; j < i; j++)
-            qdot_text_format(out, QDOT_WRAP_CELL "  %*.3f", (int)width, correlation(f, i, j));
-        qdot_text_char(out, '\n');
+            qdot_table_add_number(t, correlation(f, i, j), NAN);
+        for (size_t j = i; j + 1 < k; j++)
+            qdot_table_add_text(t, "");
     }
+    return qdot_table_status(t);
+}
+
+static qdot_status
+write_correlations(const qdot_fit *f, qdot_text *out)
+{
+    qdot_table_column *columns = qdot_calloc(f->unknowns.names.n, sizeof *columns);
+    qdot_table t = {0};
+    qdot_status status = columns != NULL ? correlations_fill(f, columns, &t) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_answer_add_table(&t, out);
+    qdot_table_clear(&t);
+    qdot_free(columns);
+    return status;
 }
 
 static void
@@ -117,16 +137,17 @@ static qdot_status
 tell_text(qdot_fit *f, const char *residuals)
 {
     qdot_text text = {0};
+    qdot_status status = QDOT_OK;
 
     qdot_text_format(&text, "fit of %zu unknown%s to %zu numbers of %s, %zu step%s\n",
                      f->unknowns.names.n, f->unknowns.names.n == 1 ? "" : "s", f->found.n, f->path,
                      f->found.steps, f->found.steps == 1 ? "" : "s");
     write_unknowns(f, &text);
     if (f->unknowns.names.n > 1 && !isnan(f->error[0]) && f->error[0] > 0)
-        write_correlations(f, &text);
+        status = write_correlations(f, &text);
     write_residuals(f, &text);
     qdot_text_format(&text, "these values are set from now on (undo); %s holds data less fit\n", residuals);
-    return qdot_answer_written(f->session, "fit", QDOT_OK, &text);
+    return qdot_answer_written(f->session, "fit", status, &text);
 }
 
 /* --- JSON ------------------------------------------------------------------------------------------ */
