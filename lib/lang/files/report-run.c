@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-#include "base/number-text.h"
 #include "lang/answer/report.h"
 #include "lang/figures/animated.h"
 #include "lang/files/report-answer.h"
 #include "show/page-curves.h"
 #include "show/page.h"
+#include "table/html.h"
 
 enum { CURVES = 12 };
 
@@ -64,48 +64,54 @@ add_run(const sections *s, size_t i)
 
 /* --- the table of several ------------------------------------------------------------- */
 
-static void
-run_add_cell(qdot_text *page, double x, bool bound)
-{
-    qdot_text_add(page, "<td>");
-    if (!isfinite(x))
-        qdot_text_add(page, "\u2013");
-    else if (bound)
-        qdot_number_text_bound(page, x);
-    else
-        qdot_number_text(page, x, 0.0005 * fabs(x));
-    qdot_text_add(page, "</td>");
-}
+/* Of a number, for the digits that are shown of it. */
+static const double shown = 0.0005;
 
 static void
-add_table(const sections *s)
+table_add_finite(qdot_table *t, double x)
+{
+    qdot_table_add_number(t, isfinite(x) ? x : NAN, shown * fabs(x));
+}
+
+static qdot_status
+run_add_table(const sections *s)
 {
     static const char *const ends[] = {[QDOT_RUN_DONE] = "done",
                                        [QDOT_RUN_STOPPED] = "stopped",
                                        [QDOT_RUN_FAILED] = "failed"};
+    static const qdot_table_column columns[] = {
+        {.name = "run", .kind = QDOT_CELL_TEXT},
+        {.name = "method", .kind = QDOT_CELL_TEXT},
+        {.name = "tol", .form = QDOT_NUMBER_MEASURED},
+        {.name = "end", .form = QDOT_NUMBER_MEASURED},
+        {.name = "steps", .form = QDOT_NUMBER_FIXED},
+        {.name = "evaluations", .form = QDOT_NUMBER_FIXED},
+        {.name = "time, s", .digits = 2},
+        {.name = "error at the end", .form = QDOT_NUMBER_BOUND},
+        {.name = "drift of the energy", .form = QDOT_NUMBER_BOUND},
+        {.name = "", .kind = QDOT_CELL_TEXT}};
+    qdot_table t = {0};
+    qdot_status status = qdot_table_begin(&t, sizeof columns / sizeof *columns, columns);
 
-    qdot_text_add(s->page,
-                  "<h3>Side by side</h3>\n<table>\n<tr><th>run</th><th>method</th>"
-                  "<th>tol</th><th>end</th><th>steps</th><th>evaluations</th><th>time, "
-                  "s</th><th>error at the end</th><th>drift of the energy</th><th></th>"
-                  "</tr>\n");
-    for (size_t i = 0; i < s->n; i++) {
+    for (size_t i = 0; i < s->n && status == QDOT_OK; i++) {
         const qdot_run_report *r = qdot_run_get_report(s->runs[i]->run);
 
-        qdot_text_add(s->page, "<tr><td>");
-        qdot_animation_escape(s->page, s->runs[i]->name);
-        qdot_text_format(s->page, "</td><td>%s</td>", r->method);
-        run_add_cell(s->page, r->tol, false);
-        run_add_cell(s->page, r->t1, false);
-        qdot_text_format(s->page, "<td>%zu</td><td>%zu</td>", r->steps, r->evals);
-        qdot_text_add(s->page, "<td>");
-        qdot_text_double(s->page, r->cpu, 2);
-        qdot_text_add(s->page, "</td>");
-        run_add_cell(s->page, r->error, true);
-        run_add_cell(s->page, r->energy_drift, true);
-        qdot_text_format(s->page, "<td>%s</td></tr>\n", ends[r->status]);
+        qdot_table_add_text(&t, s->runs[i]->name);
+        qdot_table_add_text(&t, r->method);
+        table_add_finite(&t, r->tol);
+        table_add_finite(&t, r->t1);
+        qdot_table_add_number(&t, (double)r->steps, 0);
+        qdot_table_add_number(&t, (double)r->evals, 0);
+        table_add_finite(&t, r->cpu);
+        table_add_finite(&t, r->error);
+        table_add_finite(&t, r->energy_drift);
+        qdot_table_add_text(&t, ends[r->status]);
     }
-    qdot_text_add(s->page, "</table>\n");
+    qdot_text_add(s->page, "<h3>Side by side</h3>\n");
+    if (status == QDOT_OK)
+        status = qdot_table_html_part(&t, s->page);
+    qdot_table_clear(&t);
+    return status;
 }
 
 /* --- curves and pictures ---------------------------------------------------------------- */
@@ -166,7 +172,7 @@ qdot_report_runs(qdot_session *session, size_t n, const qdot_named_run *const *r
         status = add_run(&s, i);
     if (status == QDOT_OK) {
         if (n > 1)
-            add_table(&s);
+            status = run_add_table(&s);
         add_curves(&s);
         if (!bare)
             add_pictures(&s);

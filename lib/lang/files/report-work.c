@@ -10,37 +10,44 @@
 #include "lang/session/measured.h"
 #include "show/animation.h"
 #include "show/page-curves.h"
+#include "table/html.h"
 
-static void
-add_cell(qdot_text *page, double x)
+/* Of a number, for the digits that are shown of it. */
+static const double shown = 0.005;
+
+static qdot_status
+work_add_table(const qdot_workprecision *w, qdot_text *page)
 {
-    qdot_text_add(page, "<td>");
-    if (isfinite(x))
-        qdot_number_text(page, x, 0.005 * fabs(x));
-    else
-        qdot_text_add(page, "\xe2\x80\x93");
-    qdot_text_add(page, "</td>");
+    static const qdot_table_column columns[] = {
+        {.name = "method", .kind = QDOT_CELL_TEXT},
+        {.name = "tol", .form = QDOT_NUMBER_MEASURED},
+        {.name = "error", .form = QDOT_NUMBER_MEASURED},
+        {.name = "median time, s", .form = QDOT_NUMBER_MEASURED},
+        {.name = "evaluations", .form = QDOT_NUMBER_FIXED},
+        {.name = "", .kind = QDOT_CELL_TEXT}};
+    qdot_table t = {0};
+    qdot_status status = qdot_table_begin(&t, sizeof columns / sizeof *columns, columns);
+
+    for (size_t i = 0; i < w->n && status == QDOT_OK; i++) {
+        const qdot_workprecision_row *r = &w->rows[i];
+        const double numbers[] = {r->tol, r->err, r->time_median};
+
+        qdot_table_add_text(&t, r->method);
+        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+            qdot_table_add_number(&t, isfinite(numbers[k]) ? numbers[k] : NAN, shown * fabs(numbers[k]));
+        qdot_table_add_number(&t, (double)r->evals, 0);
+        qdot_table_add_text(&t, strcmp(r->status, "done") == 0 ? "" : r->status);
+    }
+    if (status == QDOT_OK)
+        status = qdot_table_html_part(&t, page);
+    qdot_table_clear(&t);
+    return status;
 }
 
 static void
-add_table(const qdot_workprecision *w, qdot_text *page)
+add_words(const qdot_workprecision *w, qdot_text *page)
 {
-    qdot_text_add(page, "<table>\n<tr><th>method</th><th>tol</th><th>error</th>"
-                        "<th>median time, s</th><th>evaluations</th><th></th></tr>\n");
-    for (size_t i = 0; i < w->n; i++) {
-        const qdot_workprecision_row *r = &w->rows[i];
-
-        qdot_text_add(page, "<tr><td>");
-        qdot_animation_escape(page, r->method);
-        qdot_text_add(page, "</td>");
-        add_cell(page, r->tol);
-        add_cell(page, r->err);
-        add_cell(page, r->time_median);
-        qdot_text_format(page, "<td>%llu</td><td>", (unsigned long long)r->evals);
-        qdot_animation_escape(page, strcmp(r->status, "done") == 0 ? "" : r->status);
-        qdot_text_add(page, "</td></tr>\n");
-    }
-    qdot_text_add(page, "</table>\n<p>Errors against a reference whose own error is ");
+    qdot_text_add(page, "<p>Errors against a reference whose own error is ");
     qdot_number_text_bound(page, w->ref_err);
     qdot_text_add(page, ".");
     for (size_t i = 0; i < w->left_out.n; i++) {
@@ -134,7 +141,8 @@ add_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_tex
         qdot_text_add(page, "</h3>\n");
     }
     QDOT_TRY(add_figure(study, page));
-    add_table(study, page);
+    QDOT_TRY(work_add_table(study, page));
+    add_words(study, page);
     if (known)
         qdot_text_add(page, "<p>Measured earlier in this session, with the same values, start "
                             "and limits.</p>\n");
