@@ -4,11 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/wrap.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/table-answer.h"
 #include "lang/figures/figure-file.h"
 #include "show/figure.h"
 #include "table/csv.h"
+#include "table/text.h"
 
 /* An error of 0 has no logarithm: it is drawn where rounding is. */
 static const double least_error = 0x1p-60;
@@ -94,15 +95,16 @@ say_left_out(qdot_session *session, const qdot_methods_left_out *list)
     return QDOT_OK;
 }
 
-/* The table with the words below it. */
+/* The table with the words below it; mark: before cells (table/text.h). */
 static qdot_status
-write_table(const qdot_error_study *of, qdot_text *out)
+write_table(const qdot_error_study *of, const char *mark, qdot_text *out)
 {
+    const qdot_table_text_options options = {QDOT_IN_TERMINAL, 0, mark};
     qdot_table t = {0};
     qdot_status status = of->table(of->study, &t);
 
     if (status == QDOT_OK)
-        status = qdot_answer_add_table(&t, out);
+        status = qdot_table_text(&t, &options, out);
     qdot_table_clear(&t);
     of->words(of->study, out);
     return status;
@@ -116,7 +118,7 @@ tell_table(qdot_session *session, const qdot_error_study *of)
 
     if (session->json)
         return of->rows(session, of->study);
-    status = write_table(of, &text);
+    status = write_table(of, QDOT_WRAP_CELL, &text);
     return qdot_answer_written(session, of->name, status, &text);
 }
 
@@ -134,7 +136,7 @@ tell_file(qdot_session *session, const qdot_error_study *of, const char *path)
         qdot_table_clear(&t);
         return status == QDOT_OK ? qdot_answer_file(session, path) : status;
     }
-    status = write_table(of, &text);
+    status = write_table(of, "", &text);
     if (status == QDOT_OK)
         status = qdot_answer_in_file(session, path, &text);
     qdot_text_clear(&text);
