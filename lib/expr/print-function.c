@@ -1,4 +1,6 @@
-/* print-function.c -- elementary and undefined functions, and their derivatives, as text. */
+/* print-function.c -- elementary and undefined functions, and their derivatives, as formulas. */
+#include <string.h>
+
 #include "expr/print-parts.h"
 
 /* if(C, A, if(D, B, E)) as A if C, B if D, E otherwise. */
@@ -6,58 +8,39 @@ static void
 cases(printer *p, qdot_expr e, int context)
 {
     const qdot_pool *pool = p->pool;
+    const qdot_formula_id outer = print_begin_bracket(p, context >= BASE);
 
-    if (context >= BASE)
-        open_bracket(p);
-    print_text(p, styled(p, "", "", "\\begin{cases} ",
-                         "<mrow><mo>{</mo><mtable columnalign=\"left\"><mtr><mtd>"));
-    for (;; e = ARGS(pool, e)[2]) {
-        bool more = NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == QDOT_IF;
-
-        child(p, more ? ARGS(pool, e)[1] : e, TOP);
-        print_text(p, more ? styled(p, "", "", " & \\text{if } ",
-                                    "</mtd><mtd><mtext>if&#xA0;</mtext>")
-                    : styled(p, "", "", " & \\text{otherwise}",
-                             "</mtd><mtd><mtext>otherwise</mtext>"));
-        if (!more)
-            break;
+    print_begin(p, QDOT_FORMULA_CASES, 0, 0);
+    for (; NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == QDOT_IF; e = ARGS(pool, e)[2]) {
+        child(p, ARGS(pool, e)[1], TOP);
         child(p, ARGS(pool, e)[0], TOP);
-        print_text(p, styled(p, "", "", " \\\\ ", "</mtd></mtr><mtr><mtd>"));
     }
-    print_text(p, styled(p, "", "", " \\end{cases}", "</mtd></mtr></mtable></mrow>"));
-    if (context >= BASE)
-        print_close_bracket(p);
+    child(p, e, TOP);
+    p->at = outer;
 }
 
 void
 qdot_print_function(printer *p, qdot_expr e, int context)
 {
     qdot_fun_id id = NODE(p->pool, e)->op;
+    const char *name = qdot_fun_name(id);
+    const qdot_formula_id outer = p->at;
 
     if (is_drawn(p) && id == QDOT_IF) {
         cases(p, e, context);
         return;
     }
-
     if (is_drawn(p) && (id == QDOT_ABS || id == QDOT_FLOOR)) {
-        print_text(p, id == QDOT_ABS ? styled(p, "", "", "\\left|", "<mrow><mo>|</mo>")
-                              : styled(p, "", "", "\\left\\lfloor ", "<mrow><mo>⌊</mo>"));
+        print_begin(p, QDOT_FORMULA_BRACKET, id == QDOT_ABS ? QDOT_BRACKET_BARS : QDOT_BRACKET_FLOOR, 0);
         child(p, ARGS(p->pool, e)[0], TOP);
-        print_text(p, id == QDOT_ABS
-                   ? styled(p, "", "", "\\right|", "<mo>|</mo></mrow>")
-                   : styled(p, "", "", "\\right\\rfloor ", "<mo>⌋</mo></mrow>"));
+        p->at = outer;
         return;
     }
-    if (p->style == QDOT_LATEX && qdot_print_latex_word(id) != NULL) {
-        print_text(p, qdot_print_latex_word(id));
-    } else {
-        print_text(p, styled(p, "", "", "\\operatorname{", "<mi>"));
-        print_text(p, qdot_fun_name(id));
-        print_text(p, styled(p, "", "", "}", "</mi><mo>&#x2061;</mo>"));
-    }
-    open_bracket(p);
-    children(p, e, 0, NODE(p->pool, e)->n, comma(p));
-    print_close_bracket(p);
+    print_begin(p, QDOT_FORMULA_APPLY, 0, 0);
+    qdot_formula_add_text(p->out, p->at, QDOT_TEXT_FUNCTION, name, strlen(name));
+    print_begin_bracket(p, true);
+    children(p, e, 0, NODE(p->pool, e)->n);
+    p->at = outer;
 }
 
 /* --- undefined functions ------------------------------------------------------------------------ */
@@ -67,10 +50,11 @@ static void
 print_arguments(printer *p, qdot_expr e, bool declared)
 {
     const qdot_ufun *f = &p->pool->ufuns.at[NODE(p->pool, e)->op];
+    const qdot_formula_id outer =
+        print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, QDOT_FORMULA_FIXED);
 
-    print_text(p, styled(p, "(", "(", "(", "<mo>&#x2061;</mo><mrow><mo>(</mo>"));
-    children(p, declared ? f->formals : e, 0, f->arity, comma(p));
-    print_text(p, styled(p, ")", ")", ")", "<mo>)</mo></mrow>"));
+    children(p, declared ? f->formals : e, 0, f->arity);
+    p->at = outer;
 }
 
 static uint32_t
@@ -91,79 +75,87 @@ derivative_plain(printer *p, qdot_expr e, bool moved)
     uint32_t n = f->arity;
 
     if (moved)
-        print_text(p, "subs(");
+        qdot_print_text(p, "subs(");
     for (uint32_t i = 0; i < n; i++)
         if (derivative_order(pool, e, i) > 0)
-            print_text(p, "diff(");
-    print_name_text(p, f->name);
+            qdot_print_text(p, "diff(");
+    qdot_print_spelled(p, f->name);
     print_arguments(p, e, true);
     for (uint32_t i = 0; i < n; i++) {
         if (derivative_order(pool, e, i) == 0)
             continue;
-        print_text(p, ", ");
+        qdot_print_text(p, ", ");
         child(p, ARGS(pool, f->formals)[i], TOP);
         if (derivative_order(pool, e, i) > 1) {
-            print_text(p, ", ");
+            qdot_print_text(p, ", ");
             child(p, ARGS(pool, e)[n + i], TOP);
         }
-        print_text(p, ")");
+        qdot_print_text(p, ")");
     }
     if (!moved)
         return;
     for (uint32_t i = 0; i < n; i++) {
         if (ARGS(pool, e)[i] == ARGS(pool, f->formals)[i])
             continue;
-        print_text(p, ", ");
+        qdot_print_text(p, ", ");
         child(p, ARGS(pool, f->formals)[i], TOP);
-        print_text(p, " = ");
+        qdot_print_text(p, " = ");
         child(p, ARGS(pool, e)[i], TOP);
     }
-    print_text(p, ")");
+    qdot_print_text(p, ")");
 }
 
-/* The order above `before`, which stands there: ∂², \\partial^{2}. */
+/* The order of a derivative above `sign`, or else above e: ∂², s². */
 static void
-with_order(printer *p, const char *before, qdot_expr e, uint32_t order)
+with_order(printer *p, qdot_formula_sign sign, qdot_expr e, uint32_t order)
 {
-    bool raise = p->style == QDOT_MATHML && order > 1;
+    const qdot_formula_id outer = p->at;
 
-    print_text(p, raise ? "<msup>" : "");
-    print_text(p, before);
+    if (order > 1)
+        print_begin(p, QDOT_FORMULA_POWER, 0, 0);
     if (e != QDOT_NIL)
         child(p, e, TOP);
-    print_text(p, raise ? "<mn>" : "");
-    piece(p, (struct piece){.order = order, .context = raise ? TERM : TOP});
-    print_text(p, raise ? "</mn></msup>" : "");
+    else
+        print_sign(p, sign);
+    if (order > 1)
+        qdot_print_integer(p, order);
+    p->at = outer;
 }
 
-/* \frac{\partial^{2} x}{\partial s \partial t}, where that is drawn; at other arguments these
- * behind it. */
+/* ∂²x/∂s ∂t, where that is drawn; at other arguments these behind it. */
 static void
 derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int context)
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
-    bool bracket = !moved && context >= BASE, first = true;
+    const qdot_formula_id outer = p->at;
+    qdot_formula_id apply, bar;
+    bool first = true;
 
-    if (bracket)
-        open_bracket(p);
-    print_text(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
-    with_order(p, styled(p, "", "", "\\partial", "<mo>∂</mo>"), QDOT_NIL, total);
-    print_text(p, styled(p, "", "", " ", ""));
-    print_name_text(p, f->name);
-    print_text(p, styled(p, "", "", "}{", "</mrow><mrow>"));
+    if (moved)
+        print_begin(p, QDOT_FORMULA_APPLY, 0, 0);
+    print_begin_bracket(p, !moved && context >= BASE);
+    apply = print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
+    bar = print_begin_row(p);
+    with_order(p, QDOT_SIGN_PARTIAL, QDOT_NIL, total);
+    print_sign(p, QDOT_SIGN_BLANK);
+    qdot_print_spelled(p, f->name);
+    p->at = bar;
+    print_begin_row(p);
     for (uint32_t i = 0; i < f->arity; i++) {
         if (derivative_order(pool, e, i) == 0)
             continue;
-        print_text(p, styled(p, "", "", first ? "\\partial " : " \\partial ", "<mo>∂</mo>"));
-        with_order(p, "", ARGS(pool, f->formals)[i], derivative_order(pool, e, i));
+        if (!first)
+            print_sign(p, QDOT_SIGN_BLANK);
+        print_sign(p, QDOT_SIGN_PARTIAL);
+        print_sign(p, QDOT_SIGN_BLANK);
+        with_order(p, QDOT_SIGN_PARTIAL, ARGS(pool, f->formals)[i], derivative_order(pool, e, i));
         first = false;
     }
-    print_text(p, styled(p, "", "", "}", "</mrow></mfrac>"));
-    if (bracket)
-        print_close_bracket(p);
+    p->at = apply;
     if (moved)
         print_arguments(p, e, false);
+    p->at = outer;
 }
 
 void
@@ -171,6 +163,8 @@ qdot_print_ufun(printer *p, qdot_expr e, int context)
 {
     const qdot_pool *pool = p->pool;
     const qdot_ufun *f = &pool->ufuns.at[NODE(pool, e)->op];
+    const qdot_formula_id outer = p->at;
+    qdot_formula_id apply;
     uint32_t total = 0;
     bool moved = false;
 
@@ -183,20 +177,18 @@ qdot_print_ufun(printer *p, qdot_expr e, int context)
         return;
     }
     if (total > 0 && !is_drawn(p) &&
-        (f->arity > 1 || (p->style == QDOT_PLAIN && (!moved || total > 3)))) {
+        (f->arity > 1 || (p->notation == QDOT_NOTATION_SCRIPT && (!moved || total > 3)))) {
         derivative_plain(p, e, moved);
         return;
     }
-    print_text(p, styled(p, "", "", "", total > 0 ? "<msup><mrow>" : ""));
-    print_name_text(p, f->name);
-    print_text(p, styled(p, "", "", "", total > 0 ? "</mrow><mo>" : ""));
-    for (uint32_t i = 0; i < total && total <= 3; i++)
-        print_text(p, styled(p, "'", "′", "'", "′"));
-    if (total > 3) {
-        print_text(p, styled(p, "", "⁽", "^{(", "("));
-        piece(p, (struct piece){.order = total, .context = TERM});
-        print_text(p, styled(p, "", "⁾", ")}", ")"));
+    print_begin(p, QDOT_FORMULA_APPLY, 0, 0);
+    apply = p->at;
+    if (total > 0) {
+        print_begin(p, QDOT_FORMULA_PRIMES, 0, 0);
+        qdot_formula_count(p->out, p->at, total);
     }
-    print_text(p, styled(p, "", "", "", total > 0 ? "</mo></msup>" : ""));
+    qdot_print_spelled(p, f->name);
+    p->at = apply;
     print_arguments(p, e, false);
+    p->at = outer;
 }

@@ -1,4 +1,4 @@
-/* print-name.h -- symbols and numbers as text: the leaves of print.c. */
+/* print-name.h -- styles, names alone, how numbers are printed. */
 #ifndef QDOT_EXPR_PRINT_NAME_H
 #define QDOT_EXPR_PRINT_NAME_H
 
@@ -11,20 +11,9 @@ typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;
 /* A name alone (a label, a family member) in that style: theta1 is θ₁. */
 void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out);
 
-/* theta1' as theta1', θ̇₁, \dot{\theta}_{1}. */
-void qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out);
-
 /* Whether e is a symbol that stands for a number of a run, such as `0.25#3`: what is behind # keeps it apart from
  * others of the same digits, and is not printed. */
 bool qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e);
-
-/* The LaTeX command of a function, \\arcsin; NULL if there is none. */
-const char *qdot_print_latex_word(qdot_fun_id id);
-
-/* p/q; raised: as unicode superscripts; bracket 1: a negative number in brackets, 2: a fraction
- * too. */
-void qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
-                       qdot_text *out);
 
 /* Whether x is printed as a decimal number, 9.81: its denominator has a factor 5 and no other
  * prime factors except 2; at most 40 digits if that is longer than the fraction. */
@@ -33,8 +22,5 @@ bool qdot_print_is_decimal(const fmpq_t x);
 /* Whether x is an integer, a decimal number or a single character such as ½: a root may directly
  * follow it. */
 bool qdot_print_is_compact(const fmpq_t x);
-
-/* The order of a derivative: nothing for 1, else ², ^{2}; bare 1: the number alone, ⁴, 4. */
-void qdot_print_order(uint32_t order, qdot_style style, bool bare, qdot_text *out);
 
 #endif

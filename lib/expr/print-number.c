@@ -1,4 +1,4 @@
-/* print-number.c -- numbers as text. */
+/* print-number.c -- numbers as formulas. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,18 +6,8 @@
 #include <flint/fmpz.h>
 
 #include "base/memory.h"
-#include "expr/print-name.h"
+#include "expr/print-parts.h"
 #include "expr/rational.h"
-
-static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴",
-                                          "⁵", "⁶", "⁷", "⁸", "⁹"};
-
-static void
-raised_digits(const char *digits, size_t n, qdot_text *out)
-{
-    for (size_t i = 0; i < n; i++)
-        qdot_text_add(out, superscript[digits[i] - '0']);
-}
 
 static const struct {
     int p, q;
@@ -120,20 +110,6 @@ qdot_print_is_compact(const fmpq_t x)
     return fmpz_is_one(fmpq_denref(x)) || glyph(x) != NULL || qdot_print_is_decimal(x);
 }
 
-void
-qdot_print_order(uint32_t order, qdot_style style, bool bare, qdot_text *out)
-{
-    char digits[16];
-
-    if (order == 1 && !bare)
-        return;
-    snprintf(digits, sizeof digits, "%u", order);
-    if (style == QDOT_UNICODE)
-        raised_digits(digits, strlen(digits), out);
-    else
-        qdot_text_format(out, bare ? "%s" : "^{%s}", digits);
-}
-
 static void
 small_integer(int64_t n, qdot_text *out)
 {
@@ -200,145 +176,137 @@ decimal_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
     fmpz_clear(whole);
 }
 
-/* 9.81, 0.05; below 1e-4 with a power of ten, 6.67e-11. *product: that is drawn as a product. */
+/* The digits [n] of 9.81, 0.05, or below 1e-4 of the first factor of 6.67e-11. */
 static void
-decimal_write(const fmpq_t x, const struct decimal *d, qdot_style style, qdot_text *out, bool *product)
+decimal_text(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
 {
-    static const char *const power[][2] = {
-        [QDOT_PLAIN] = {"e-", ""},
-        [QDOT_UNICODE] = {"e-", ""},
-        [QDOT_LATEX] = {" \\cdot 10^{-", "}"},
-        [QDOT_MATHML] = {"</mn><mo>⋅</mo><msup><mn>10</mn><mrow><mo>−</mo><mn>",
-                         "</mn></mrow></msup>"}};
-    qdot_text digits = {0};
-    size_t n;
+    const size_t whole = small ? 1 : n > places ? n - places : 0;
 
-    *product = false;
-    decimal_digits(fmpq_numref(x), d, &digits);
-    n = digits.n;
-    if (qdot_text_status(&digits) != QDOT_OK) {
-        out->failed = true;
+    qdot_text_add_n(out, whole > 0 ? digits : "0", whole > 0 ? whole : 1);
+    qdot_text_add(out, small && n == 1 ? "" : ".");
+    for (size_t i = n; i < places && !small; i++)
+        qdot_text_char(out, '0');
+    qdot_text_add_n(out, digits + whole, n - whole);
+}
+
+/* The size of x as a decimal number in a line. */
+static void
+line_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
+{
+    decimal_text(digits, n, places, small, out);
+    if (small)
+        qdot_text_format(out, "e-%lu", places - n + 1);
+}
+
+/* The same drawn: 6.67 10^-11. */
+static void
+drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small)
+{
+    qdot_formula *f = p->out;
+    size_t from = f->text.n;
+    qdot_formula_id power, row;
+
+    decimal_text(digits, n, places, small, &f->text);
+    qdot_formula_add_tail(f, p->at, QDOT_TEXT_NUMBER, from);
+    if (!small)
         return;
-    }
-    qdot_text_add(out, style == QDOT_MATHML ? "<mn>" : "");
-    if (d->places > n + MOST_ZEROS) {
-        *product = style == QDOT_LATEX || style == QDOT_MATHML;
-        qdot_text_char(out, digits.at[0]);
-        qdot_text_add(out, n > 1 ? "." : "");
-        qdot_text_add_n(out, digits.at + 1, n - 1);
-        qdot_text_format(out, "%s%lu%s", power[style][0], d->places - n + 1, power[style][1]);
-    } else {
-        size_t whole = n > d->places ? n - d->places : 0;
-
-        qdot_text_add_n(out, whole > 0 ? digits.at : "0", whole > 0 ? whole : 1);
-        qdot_text_char(out, '.');
-        for (size_t i = n; i < d->places; i++)
-            qdot_text_char(out, '0');
-        qdot_text_add_n(out, digits.at + whole, n - whole);
-    }
-    qdot_text_add(out, style == QDOT_MATHML && !*product ? "</mn>" : "");
-    qdot_text_clear(&digits);
+    print_sign(p, QDOT_SIGN_DOT);
+    power = qdot_formula_add(f, p->at, QDOT_FORMULA_POWER, 0, 0);
+    qdot_formula_add_text(f, power, QDOT_TEXT_NUMBER, "10", 2);
+    row = qdot_formula_add(f, power, QDOT_FORMULA_ROW, 0, 0);
+    qdot_formula_add_sign(f, row, QDOT_SIGN_NEGATIVE);
+    from = f->text.n;
+    qdot_text_format(&f->text, "%lu", places - n + 1);
+    qdot_formula_add_tail(f, row, QDOT_TEXT_NUMBER, from);
 }
 
 /* x as a decimal number, with its sign; bracket as of qdot_print_number. */
 static void
-print_decimal(const fmpq_t x, const struct decimal *d, qdot_style style, int bracket, qdot_text *out)
+print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
 {
-    bool minus = qdot_rational_sgn(x) < 0, product, wrap, mathml = style == QDOT_MATHML;
-    qdot_text text = {0};
-
-    decimal_write(x, d, style, &text, &product);
-    wrap = (bracket > 0 && minus) || (bracket == 2 && product);
-    if (wrap)
-        qdot_text_add(out, mathml ? "<mrow><mo>(</mo>" : "(");
-    else
-        qdot_text_add(out, mathml && (minus || product) ? "<mrow>" : "");
-    if (minus)
-        qdot_text_add(out, mathml ? "<mo>−</mo>" : style == QDOT_UNICODE ? "−" : "-");
-    qdot_text_add_n(out, qdot_text_str(&text), text.n);
-    if (wrap)
-        qdot_text_add(out, mathml ? "<mo>)</mo></mrow>" : ")");
-    else
-        qdot_text_add(out, mathml && (minus || product) ? "</mrow>" : "");
-    out->failed = out->failed || text.failed;
-    qdot_text_clear(&text);
-}
-
-/* <mn>3</mn>, <mfrac>...</mfrac>, its sign before it. */
-static void
-number_mathml(const fmpq_t x, int bracket, qdot_text *out)
-{
-    bool whole = fmpz_is_one(fmpq_denref(x)), minus = qdot_rational_sgn(x) < 0;
-    bool wrap = (bracket > 0 && minus) || (bracket == 2 && !whole);
-    fmpz_t top;
-
-    qdot_text_add(out, wrap ? "<mrow><mo>(</mo>" : minus ? "<mrow>" : "");
-    qdot_text_add(out, minus ? "<mo>−</mo>" : "");
-    qdot_text_add(out, whole ? "<mn>" : "<mfrac><mn>");
-    fmpz_init(top);
-    fmpz_abs(top, fmpq_numref(x));
-    integer(top, out);
-    fmpz_clear(top);
-    if (!whole) {
-        qdot_text_add(out, "</mn><mn>");
-        integer(fmpq_denref(x), out);
-    }
-    qdot_text_add(out, whole ? "</mn>" : "</mn></mfrac>");
-    qdot_text_add(out, wrap ? "<mo>)</mo></mrow>" : minus ? "</mrow>" : "");
-}
-
-void
-qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
-                  qdot_text *out)
-{
-    bool whole = fmpz_is_one(fmpq_denref(x));
-    bool wrap = (bracket > 0 && qdot_rational_sgn(x) < 0) || (bracket == 2 && !whole);
-    struct decimal d;
     const bool minus = qdot_rational_sgn(x) < 0;
-    qdot_text top = {0};
+    const qdot_formula_id outer = p->at;
+    qdot_text digits = {0};
+    bool small, product, wrap;
 
-    if (raised) { /* an integer */
-        qdot_text digits = {0};
-
-        integer(fmpq_numref(x), &digits);
-        raised_digits(qdot_text_str(&digits), digits.n, out);
+    decimal_digits(fmpq_numref(x), d, &digits);
+    if (qdot_text_status(&digits) != QDOT_OK) {
+        p->status = QDOT_ENOMEM;
         qdot_text_clear(&digits);
         return;
     }
-    if (as_decimal(x, &d)) {
-        print_decimal(x, &d, style, bracket, out);
-        return;
-    }
-    if (style == QDOT_MATHML) {
-        number_mathml(x, bracket, out);
-        return;
-    }
+    small = d->places > digits.n + MOST_ZEROS;
+    product = small && is_drawn(p);
+    wrap = (bracket > 0 && minus) || (bracket == 2 && product);
     if (wrap)
-        qdot_text_char(out, '(');
-    if (style == QDOT_UNICODE && !whole) {
-        const char *sign = glyph(x);
-
-        if (sign != NULL) {
-            qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "−" : "");
-            qdot_text_add(out, sign);
-            if (wrap)
-                qdot_text_char(out, ')');
-            return;
-        }
-    }
+        print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, QDOT_FORMULA_FIXED);
+    else if (is_drawn(p) && (minus || product))
+        print_begin(p, QDOT_FORMULA_ROW, 0, 0);
     if (minus)
-        qdot_text_add(out, style == QDOT_UNICODE ? "−" : "-");
-    qdot_text_add(out, style == QDOT_LATEX && !whole ? "\\frac{" : "");
-    integer(fmpq_numref(x), &top);
-    qdot_text_add(out, qdot_text_str(&top) + minus);
-    out->failed = out->failed || top.failed;
-    qdot_text_clear(&top);
-    if (!whole) {
-        qdot_text_add(out, style == QDOT_LATEX ? "}{" : "/");
-        integer(fmpq_denref(x), out);
-        if (style == QDOT_LATEX)
-            qdot_text_char(out, '}');
+        print_sign(p, QDOT_SIGN_NEGATIVE);
+    if (is_drawn(p)) {
+        drawn_decimal(p, digits.at, digits.n, d->places, small);
+    } else {
+        const size_t from = p->out->text.n;
+
+        line_decimal(digits.at, digits.n, d->places, small, &p->out->text);
+        qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NUMBER, from);
+    }
+    qdot_text_clear(&digits);
+    p->at = outer;
+}
+
+/* The digits of |n|. */
+static void
+print_size(printer *p, const fmpz_t n)
+{
+    qdot_text *out = &p->out->text;
+    const size_t from = out->n;
+
+    integer(n, out);
+    if (out->n > from && out->at[from] == '-') { /* its size */
+        memmove(out->at + from, out->at + from + 1, out->n - from);
+        out->n--;
+    }
+    qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NUMBER, from);
+}
+
+void
+qdot_print_integer(printer *p, uint32_t n)
+{
+    const size_t from = p->out->text.n;
+
+    small_integer(n, &p->out->text);
+    qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NUMBER, from);
+}
+
+void
+qdot_print_number(printer *p, const fmpq_t x, int bracket)
+{
+    const bool whole = fmpz_is_one(fmpq_denref(x)), minus = qdot_rational_sgn(x) < 0;
+    const bool wrap = (bracket > 0 && minus) || (bracket == 2 && !whole);
+    const char *sign = p->notation == QDOT_NOTATION_LINE && !whole ? glyph(x) : NULL;
+    const qdot_formula_id outer = p->at;
+    struct decimal d;
+
+    if (as_decimal(x, &d)) {
+        print_decimal(p, x, &d, bracket);
+        return;
     }
     if (wrap)
-        qdot_text_char(out, ')');
+        print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, QDOT_FORMULA_FIXED);
+    else if (is_drawn(p) && minus)
+        print_begin(p, QDOT_FORMULA_ROW, 0, 0);
+    if (minus)
+        print_sign(p, QDOT_SIGN_NEGATIVE);
+    if (sign != NULL) {
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NUMBER, sign, strlen(sign));
+    } else {
+        if (!whole)
+            print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
+        print_size(p, fmpq_numref(x));
+        if (!whole)
+            print_size(p, fmpq_denref(x));
+    }
+    p->at = outer;
 }

@@ -1,39 +1,31 @@
-/* print-parts.h -- inside the printers: pieces still to be written, and words by style. */
+/* print-parts.h -- inside the printers: what is still to be opened, and the node that it goes to. */
 #ifndef QDOT_EXPR_PRINT_PARTS_H
 #define QDOT_EXPR_PRINT_PARTS_H
 
 #include "expr/pool.h"
 #include "expr/print-name.h"
+#include "formula/formula.h"
 
-/* How tightly the context of a piece binds: decides whether it needs brackets. */
+/* How tightly the context of a part binds: decides whether it needs brackets. */
 enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
 
-/* A piece: a text (or a name), or an order of derivative, or an expression in its context;
- * `coefficient` not nil: times it (a NUM). */
-struct piece {
-    const char *text;
+/* An expression in its context; `coefficient` not nil: times it (a NUM). */
+struct part {
     qdot_expr e, coefficient;
     int context;
-    uint32_t order;
-    bool raised; /* a unicode superscript */
     bool turned; /* -1 times the sum e; for a product, with its difference negated */
-    bool name;   /* a name, written in the style: theta as θ */
-    bool own;    /* the piece owns the text */
-    bool ends;   /* a mark, no text: the output from `from` on is the text of e */
-    size_t from;
+    qdot_formula_id at; /* the empty SPAN that it fills */
 };
-
-typedef qdot_vec(struct piece) pieces;
 
 typedef struct {
     const qdot_pool *pool;
-    qdot_style style;
+    qdot_notation_kind notation;
     qdot_expr ascending; /* a LIST: order terms by their degree in these; nil: canonical order */
     qdot_expr below; /* a difference in denominators of several matrix entries: keeps its sign */
     bool below_turned, turning; /* it is negated; such an entry is being opened */
-    qdot_text *out;
-    pieces todo; /* a stack */
-    pieces next; /* of the node being opened, in reading order */
+    qdot_formula *out;
+    qdot_formula_id at;     /* the node to which children are appended */
+    qdot_vec(struct part) todo; /* a stack */
     qdot_status status;
 } printer;
 
@@ -58,88 +50,82 @@ turnable(const printer *p, qdot_expr e)
     return b != QDOT_NIL && b == p->below && is_over_below(p, e) ? QDOT_NIL : b;
 }
 
-static inline void
-piece(printer *p, struct piece x)
+static inline bool
+is_drawn(const printer *p)
 {
-    if (qdot_vec_push(&p->next, x) != QDOT_OK)
-        p->status = QDOT_ENOMEM;
+    return p->notation == QDOT_NOTATION_DRAWN;
 }
 
-static inline void
-print_text(printer *p, const char *text)
-{
-    piece(p, (struct piece){.text = text});
-}
+/* x is the next child: a number or a name at once, else an empty node that is opened later. (print.c) */
+void qdot_print_part(printer *p, struct part x);
 
 static inline void
 child(printer *p, qdot_expr e, int context)
 {
-    piece(p, (struct piece){.e = e, .context = context});
+    qdot_print_part(p, (struct part){.e = e, .context = context});
 }
 
 static inline void
-print_name_text(printer *p, const char *text)
+print_sign(printer *p, qdot_formula_sign sign)
 {
-    piece(p, (struct piece){.text = text, .name = true});
+    qdot_formula_add_sign(p->out, p->at, sign);
 }
 
-/* The text of this style. */
-static inline const char *
-styled(const printer *p, const char *plain, const char *unicode, const char *latex,
-       const char *mathml)
+/* A text as it stands, of a script or a line. */
+void qdot_print_text(printer *p, const char *text);
+
+/* A new child, to which children are appended from here on, until p->at is set to what is returned. */
+static inline qdot_formula_id
+print_begin(printer *p, qdot_formula_kind kind, unsigned what, unsigned flags)
 {
-    switch (p->style) {
-    case QDOT_PLAIN: return plain;
-    case QDOT_UNICODE: return unicode;
-    case QDOT_LATEX: return latex;
-    default: return mathml;
-    }
+    const qdot_formula_id outer = p->at;
+
+    p->at = qdot_formula_add(p->out, outer, kind, what, flags);
+    return outer;
 }
 
-/* Whether fractions, roots and powers are drawn, not written in a line. */
-static inline bool
-is_drawn(const printer *p)
+/* Round brackets, if they are needed. */
+static inline qdot_formula_id
+print_begin_bracket(printer *p, bool needed)
 {
-    return p->style == QDOT_LATEX || p->style == QDOT_MATHML;
+    return needed ? print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, 0) : p->at;
 }
 
-static inline void
-open_bracket(printer *p)
+/* What is one child of several: a row where that is drawn. */
+static inline qdot_formula_id
+print_begin_row(printer *p)
 {
-    print_text(p, styled(p, "(", "(", "\\left(", "<mrow><mo>(</mo>"));
+    return print_begin(p, is_drawn(p) ? QDOT_FORMULA_ROW : QDOT_FORMULA_SPAN, 0, 0);
 }
 
-static inline void
-print_close_bracket(printer *p)
+/* The same for what has one child only, which needs no node in a line. */
+static inline qdot_formula_id
+print_begin_one(printer *p)
 {
-    print_text(p, styled(p, ")", ")", "\\right)", "<mo>)</mo></mrow>"));
-}
-
-static inline const char *
-comma(const printer *p)
-{
-    return styled(p, ", ", ", ", ", ", "<mo>,</mo>");
+    return is_drawn(p) ? print_begin(p, QDOT_FORMULA_ROW, 0, 0) : p->at;
 }
 
 static inline void
-children(printer *p, qdot_expr e, uint32_t from, uint32_t to, const char *between)
+children(printer *p, qdot_expr e, uint32_t from, uint32_t to)
 {
     for (uint32_t i = from; i < to; i++) {
         if (i > from)
-            print_text(p, between);
+            print_sign(p, QDOT_SIGN_COMMA);
         child(p, ARGS(p->pool, e)[i], TOP);
     }
 }
 
+/* A name that is no symbol, that of a function. (print-symbol.c) */
+void qdot_print_spelled(printer *p, const char *name);
+void qdot_print_symbol_parts(printer *p, qdot_expr e);
+/* p/q; bracket 1: a negative number in brackets, 2: a fraction too. (print-number.c) */
+void qdot_print_number(printer *p, const fmpq_t x, int bracket);
+void qdot_print_integer(printer *p, uint32_t n);
 /* c * e, e without a coefficient (or the number 1); a context below 0: the sign is already
  * written; flip: a difference is negated instead of a minus sign. (print-product.c) */
 void qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip);
 /* (print-function.c) */
 void qdot_print_function(printer *p, qdot_expr e, int context);
 void qdot_print_ufun(printer *p, qdot_expr e, int context);
-/* The text before a base with a superscript; the exponent, negated in a denominator, and the text
- * after it. (print-product.c) */
-void qdot_print_raise(printer *p);
-void qdot_print_exponent(printer *p, qdot_expr e, bool turned);
 
 #endif

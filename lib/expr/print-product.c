@@ -1,4 +1,4 @@
-/* print-product.c -- products, powers and roots as text.
+/* print-product.c -- products, powers and roots as formulas.
  *
  * The root of what is positive comes apart when it is built: sqrt(k/m) is k^(1/2) m^(-1/2). It is
  * written as one root again, which reads back as the same product.
@@ -33,73 +33,99 @@ below(const qdot_pool *pool, qdot_expr e)
 static void
 say_number(printer *p, const fmpz_t n, const fmpz_t d)
 {
-    qdot_text text = {0};
     fmpq_t x;
 
     fmpq_init(x);
     fmpz_abs(fmpq_numref(x), n);
     if (d != NULL)
         fmpz_set(fmpq_denref(x), d);
-    qdot_print_number(x, p->style, false, 0, &text);
+    qdot_print_number(p, x, 0);
     fmpq_clear(x);
-    if (qdot_text_status(&text) != QDOT_OK) {
-        p->status = QDOT_ENOMEM;
-        qdot_text_clear(&text);
-        return;
-    }
-    piece(p, (struct piece){.text = text.at, .own = true});
 }
 
-void
-qdot_print_raise(printer *p)
+/* A number as an exponent, in LaTeX with a slash: r^{1/3}; size: without its sign. */
+static void
+number_exponent(printer *p, const fmpq *x, bool size)
 {
-    if (p->style == QDOT_MATHML)
-        print_text(p, "<msup><mrow>");
+    fmpq_t c;
+
+    fmpq_init(c);
+    qdot_rational_set(c, x);
+    if (size)
+        fmpq_abs(c, c);
+    if (!fmpz_is_one(fmpq_denref(c)) && !qdot_print_is_decimal(c)) {
+        const bool minus = qdot_rational_sgn(c) < 0;
+        qdot_formula_id outer = p->at;
+
+        if (minus) {
+            outer = print_begin_row(p);
+            print_sign(p, QDOT_SIGN_NEGATIVE);
+        }
+        print_begin(p, QDOT_FORMULA_FRACTION, 0, QDOT_FORMULA_SLANTED);
+        fmpz_abs(fmpq_numref(c), fmpq_numref(c));
+        say_number(p, fmpq_numref(c), NULL);
+        say_number(p, fmpq_denref(c), NULL);
+        p->at = outer;
+    } else {
+        qdot_print_number(p, c, 0);
+    }
+    fmpq_clear(c);
+}
+
+/* The exponent, negated where it stands below; without brackets in a line if it is bare. */
+static void
+exponent_part(printer *p, qdot_expr e, bool turned, bool bare)
+{
+    const fmpq *x = qdot_expr_rational(p->pool, e);
+    const qdot_formula_id outer = print_begin_one(p);
+
+    if (!is_drawn(p))
+        print_begin_bracket(p, !bare);
+    if (x != NULL && is_drawn(p))
+        number_exponent(p, x, turned);
+    else
+        child(p, e, turned ? MAGNITUDE : TOP);
+    p->at = outer;
+}
+
+/* What a power begins with is to be appended from here on; p->at is to be set to what is returned. integer: the
+ * exponent is a positive integer, which a line has as superscripts. */
+static qdot_formula_id
+power_begin(printer *p, bool integer)
+{
+    return print_begin(p, QDOT_FORMULA_POWER, 0,
+                       integer && p->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_RAISED : 0);
+}
+
+static bool
+exponent_is_integer(const qdot_pool *pool, qdot_expr e, bool turned)
+{
+    const fmpq *x = qdot_expr_rational(pool, e);
+
+    return x != NULL && fmpz_is_one(fmpq_denref(x)) && (qdot_rational_sgn(x) > 0 || turned);
 }
 
 /* An exponent, its sign turned where it stands below. */
-void
-qdot_print_exponent(printer *p, qdot_expr e, bool turned)
+static void
+print_exponent(printer *p, qdot_expr e, bool turned)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool positive = x != NULL && (qdot_rational_sgn(x) > 0 || turned);
-    bool integer = positive && fmpz_is_one(fmpq_denref(x));
-    bool bare = integer || (positive && qdot_print_is_decimal(x)); /* without brackets */
-    struct piece number = {.e = e, .context = turned ? MAGNITUDE : TOP};
+    bool integer = exponent_is_integer(pool, e, turned), bare = integer; /* without brackets */
 
-    if (turned && x == NULL) {
-        /* -n as n: the coefficient's sign is left out */
-        number.context = MAGNITUDE;
+    if (integer && p->notation == QDOT_NOTATION_LINE) {
+        say_number(p, fmpq_numref(x), NULL);
+        return;
+    }
+    if (x != NULL)
+        bare = integer || ((qdot_rational_sgn(x) > 0 || turned) && qdot_print_is_decimal(x));
+    else if (turned) /* -n as n: the coefficient's sign is left out */
         bare = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
                ARGS(pool, e)[2] == QDOT_ONE &&
                NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
-    } else if (x == NULL) {
+    else
         bare = NODE(pool, e)->kind == QDOT_SYM;
-    }
-    if (is_drawn(p)) {
-        print_text(p, styled(p, "", "", "^{", "</mrow><mrow>"));
-        if (p->style == QDOT_LATEX && x != NULL && !fmpz_is_one(fmpq_denref(x)) &&
-            !qdot_print_is_decimal(x)) {
-            print_text(p, !turned && qdot_rational_sgn(x) < 0 ? "-" : "");
-            say_number(p, fmpq_numref(x), NULL); /* r^{1/3} */
-            print_text(p, "/");
-            say_number(p, fmpq_denref(x), NULL);
-        } else {
-            piece(p, number);
-        }
-        print_text(p, styled(p, "", "", "}", "</mrow></msup>"));
-        return;
-    }
-    if (p->style == QDOT_UNICODE && integer) {
-        number.raised = true;
-        piece(p, number);
-        return;
-    }
-    print_text(p, bare ? "^" : "^(");
-    piece(p, number);
-    if (!bare)
-        print_text(p, ")");
+    exponent_part(p, e, turned, bare);
 }
 
 static bool
@@ -112,15 +138,17 @@ is_circular(const qdot_pool *pool, qdot_expr e)
 static void
 power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
 {
-    qdot_print_raise(p);
-    print_text(p, styled(p, "", "", "\\", "<mi>"));
-    print_text(p, qdot_fun_name(NODE(p->pool, b)->op));
-    print_text(p, styled(p, "", "", "", "</mi>"));
-    qdot_print_exponent(p, e, turned);
-    print_text(p, styled(p, "", "", "", "<mo>&#x2061;</mo>"));
-    open_bracket(p);
-    children(p, b, 0, NODE(p->pool, b)->n, comma(p));
-    print_close_bracket(p);
+    const char *name = qdot_fun_name(NODE(p->pool, b)->op);
+    const qdot_formula_id all = print_begin(p, QDOT_FORMULA_APPLY, 0, 0),
+                          apply = power_begin(p, exponent_is_integer(p->pool, e, turned)), power = print_begin_one(p);
+
+    qdot_formula_add_text(p->out, p->at, QDOT_TEXT_FUNCTION, name, strlen(name));
+    p->at = power;
+    print_exponent(p, e, turned);
+    p->at = apply;
+    print_begin_bracket(p, true);
+    children(p, b, 0, NODE(p->pool, b)->n);
+    p->at = all;
 }
 
 /* Whether e is 1/2 or -1/2. */
@@ -155,7 +183,7 @@ base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
 {
     turned |= exponent_is_even(x) && NODE(p->pool, b)->kind == QDOT_SUM &&
               (NODE(p->pool, b)->sign & QDOT_LE0);
-    piece(p, (struct piece){.e = b, .context = context, .turned = turned});
+    qdot_print_part(p, (struct part){.e = b, .context = context, .turned = turned});
 }
 
 /* b^e, or b^-e below the bar; flip: of -b, e odd. */
@@ -165,23 +193,25 @@ print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool 
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
     bool half = is_sqrt(pool, e) && (down || qdot_rational_sgn(x) > 0);
+    qdot_formula_id outer, power;
 
-    if (half && p->style == QDOT_UNICODE && is_bare(pool, b)) {
-        print_text(p, "√");
+    if (half) {
+        outer = print_begin(p, QDOT_FORMULA_ROOT, 0,
+                            p->notation == QDOT_NOTATION_LINE && is_bare(pool, b) ? QDOT_FORMULA_BARE : 0);
         child(p, b, TOP);
-    } else if (half) {
-        print_text(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
-        child(p, b, TOP);
-        print_text(p, styled(p, ")", ")", "}", "</msqrt>"));
+        p->at = outer;
     } else if (down ? e == QDOT_MINUS_ONE : e == QDOT_ONE) {
         base(p, b, x, flip, context);
-    } else if (p->style != QDOT_PLAIN && is_circular(pool, b) && x != NULL &&
+    } else if (p->notation != QDOT_NOTATION_SCRIPT && is_circular(pool, b) && x != NULL &&
                fmpz_is_one(fmpq_denref(x)) && (down || qdot_rational_sgn(x) > 0)) {
         power_of_function(p, b, e, down);
     } else {
-        qdot_print_raise(p);
+        outer = power_begin(p, exponent_is_integer(pool, e, down));
+        power = print_begin_one(p);
         base(p, b, x, flip, BASE);
-        qdot_print_exponent(p, e, down);
+        p->at = power;
+        print_exponent(p, e, down);
+        p->at = outer;
     }
 }
 
@@ -274,38 +304,24 @@ forget_root(struct root *r)
     fmpq_clear(r->number);
 }
 
-/* What joins two factors. */
-static const char *
-times_text(const printer *p)
-{
-    return styled(p, "*", "\u202F", " ", "<mo>&#x2062;</mo>");
-}
-
-static const char *
-dot_text(const printer *p)
-{
-    return styled(p, "*", "·", " \\cdot ", "<mo>⋅</mo>");
-}
-
 /* b^k, k the numerator of twice x. */
 static void
 under_root(printer *p, qdot_expr b, qdot_expr x, int context)
 {
     ulong k = fmpz_get_ui(fmpq_numref(RATIONAL(p->pool, x)));
     uint32_t power = (uint32_t)((slong)k < 0 ? -k : k);
+    qdot_formula_id outer, row;
 
     if (power == 1) {
         child(p, b, context);
         return;
     }
-    qdot_print_raise(p);
+    outer = power_begin(p, true);
+    row = print_begin_one(p);
     child(p, b, BASE);
-    print_text(p, styled(p, "^", "", "", "</mrow><mn>"));
-    piece(p, (struct piece){.order = power,
-                            .context = p->style == QDOT_PLAIN || p->style == QDOT_MATHML
-                                           ? TERM
-                                           : TOP});
-    print_text(p, styled(p, "", "", "", "</mn></msup>"));
+    p->at = row;
+    qdot_print_integer(p, power);
+    p->at = outer;
 }
 
 /* One side of the fraction under the root. */
@@ -326,7 +342,7 @@ root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t cou
             (below(pool, x) == r->above) != down)
             continue;
         if (!first || shown)
-            print_text(p, times_text(p));
+            print_sign(p, QDOT_SIGN_TIMES);
         under_root(p, b, x,
                    is_drawn(p) && count + shown == 1 ? TOP
                    : down && count + shown == 1      ? BASE
@@ -343,6 +359,7 @@ open_root(printer *p, qdot_expr e, const struct root *r)
     uint32_t count[2] = {0, 0};
     bool below_bar = !r->decimal && !fmpz_is_one(fmpq_denref(r->number));
     bool fraction, several;
+    qdot_formula_id outer, bar;
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
@@ -352,18 +369,19 @@ open_root(printer *p, qdot_expr e, const struct root *r)
     }
     fraction = count[1] > 0 || below_bar;
     several = count[1] + below_bar > 1 && !is_drawn(p);
-    print_text(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
-    if (fraction)
-        print_text(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
-    root_side(p, e, r, false, count[0], fraction);
+    outer = print_begin(p, QDOT_FORMULA_ROOT, 0, 0);
     if (fraction) {
-        print_text(p, styled(p, "/", "/", "}{", "</mrow><mrow>"));
-        print_text(p, several ? "(" : "");
+        print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
+        bar = print_begin_row(p);
+        root_side(p, e, r, false, count[0], fraction);
+        p->at = bar;
+        print_begin_row(p);
+        print_begin_bracket(p, several);
         root_side(p, e, r, true, count[1], fraction);
-        print_text(p, several ? ")" : "");
-        print_text(p, styled(p, "", "", "}", "</mrow></mfrac>"));
+    } else {
+        root_side(p, e, r, false, count[0], fraction);
     }
-    print_text(p, styled(p, ")", ")", "}", "</msqrt>"));
+    p->at = outer;
 }
 
 /* --- products --------------------------------------------------------------------------------- */
@@ -383,13 +401,13 @@ count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool dow
 }
 
 /* What joins a number to the factor b^e after it. */
-static const char *
+static qdot_formula_sign
 joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
     if (NODE(p->pool, b)->kind != QDOT_NUM)
-        return times_text(p);
-    return is_sqrt(p->pool, e) && qdot_print_is_compact(number) ? times_text(p) /* 2 √3 */
-                                                                : dot_text(p);
+        return QDOT_SIGN_TIMES;
+    return is_sqrt(p->pool, e) && qdot_print_is_compact(number) ? QDOT_SIGN_TIMES /* 2 √3 */
+                                                                : QDOT_SIGN_DOT;
 }
 
 /* Where a factor stands: of parameters, the roots of their sums behind them, functions and the
@@ -416,7 +434,7 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
 
     if (NODE(pool, e)->kind != QDOT_PROD) {
         if (number != NULL)
-            print_text(p, joint(p, number, e, QDOT_ONE));
+            print_sign(p, joint(p, number, e, QDOT_ONE));
         child(p, e, context);
         return;
     }
@@ -429,9 +447,9 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
             (under ? i != r->last || r->above == down : below(pool, x) != down))
             continue;
         if (first && number != NULL)
-            print_text(p, under ? times_text(p) : joint(p, number, b, x));
+            print_sign(p, under ? QDOT_SIGN_TIMES : joint(p, number, b, x));
         else if (!first)
-            print_text(p, NODE(pool, b)->kind == QDOT_NUM && !under ? dot_text(p) : times_text(p));
+            print_sign(p, NODE(pool, b)->kind == QDOT_NUM && !under ? QDOT_SIGN_DOT : QDOT_SIGN_TIMES);
         if (under)
             open_root(p, e, r);
         else
@@ -479,17 +497,19 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
                        ? written > 1 || minus || e == QDOT_ONE || up + down > 0
                        : context == FACTOR && (minus || down > 0 || fraction);
 
+    const qdot_formula_id outer = print_begin_bracket(p, bracket);
+    qdot_formula_id bar;
+
     p->turning = turning;
-    if (bracket)
-        open_bracket(p);
     if (minus)
-        print_text(p, styled(p, "-", "−", "-", "<mo>−</mo>"));
-    if (frac)
-        print_text(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
+        print_sign(p, QDOT_SIGN_NEGATIVE);
+    if (down > 0)
+        print_begin(p, QDOT_FORMULA_FRACTION, 0, 0);
+    bar = down > 0 ? print_begin_row(p) : p->at;
     if (number && r.any) {
         say_number(p, fmpq_numref(x), inside ? NULL : fmpq_denref(x));
     } else if (number) {
-        piece(p, (struct piece){.e = c, .context = inside ? NUMERATOR : MAGNITUDE});
+        child(p, c, inside ? NUMERATOR : MAGNITUDE);
     }
     if (up > 0)
         factors(p, e, &r, false, number ? x : NULL,
@@ -499,21 +519,20 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
                                          : context,
                 turned);
     if (down > 0) {
-        print_text(p, frac ? styled(p, "", "", "}{", "</mrow><mrow>") : several ? "/(" : "/");
+        p->at = bar;
+        print_begin_row(p);
+        print_begin_bracket(p, several);
         if (inside && r.any)
             say_number(p, fmpq_denref(x), NULL);
         else if (inside)
-            piece(p, (struct piece){.e = c, .context = DENOMINATOR});
+            child(p, c, DENOMINATOR);
         factors(p, e, &r, true, inside ? x : NULL,
                 frac && down == 1 && !inside ? TOP
                 : several || frac            ? FACTOR
                                              : BASE,
                 turned);
-        if (frac || several)
-            print_text(p, frac ? styled(p, "", "", "}", "</mrow></mfrac>") : ")");
     }
-    if (bracket)
-        print_close_bracket(p);
+    p->at = outer;
     p->turning = false;
     forget_root(&r);
 }

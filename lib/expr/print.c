@@ -1,16 +1,18 @@
-/* print.c -- expressions as text: a stack of pieces still to be written, no recursion.
+/* print.c -- expressions as formulas, and these as text: a stack of what is still to be opened, no recursion.
  *
- * Each node is opened into pieces (texts and children, in reading order); names and numbers are
- * written by print-name.c.
+ * Each node is opened into children of a node of the formula; those that are expressions are empty and wait on the
+ * stack. Names and numbers are made by print-symbol.c and print-number.c.
  */
 #include "expr/print.h"
 
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/print-formula.h"
 #include "expr/print-parts.h"
 #include "expr/printed.h"
 #include "expr/walk.h"
+#include "formula/write.h"
 
 /* --- sums ------------------------------------------------------------------------------------- */
 
@@ -29,12 +31,10 @@ term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
     bool flip = minus && turnable(p, t) != QDOT_NIL;
 
     if (minus && !flip)
-        print_text(p, leads ? styled(p, "-", "−", "-", "<mo>−</mo>")
-                     : styled(p, " - ", " − ", " - ", "<mo>−</mo>"));
+        print_sign(p, leads ? QDOT_SIGN_NEGATIVE : QDOT_SIGN_MINUS);
     else if (!leads)
-        print_text(p, styled(p, " + ", " + ", " + ", "<mo>+</mo>"));
-    piece(p,
-          (struct piece){.e = t, .coefficient = c, .context = MAGNITUDE, .turned = flip});
+        print_sign(p, QDOT_SIGN_PLUS);
+    qdot_print_part(p, (struct part){.e = t, .coefficient = c, .context = MAGNITUDE, .turned = flip});
 }
 
 /* Terms stand in their order, the number last. But constants stand before what coordinates enter
@@ -229,6 +229,7 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
     const qdot_expr *args = ARGS(p->pool, e);
     uint32_t few[34], n = NODE(p->pool, e)->n / 2 + 2, count;
     uint32_t *order = n > 34 ? qdot_malloc(n * sizeof *order) : few;
+    const qdot_formula_id outer = print_begin_bracket(p, context >= FACTOR);
 
     if (order == NULL) {
         p->status = QDOT_ENOMEM;
@@ -237,8 +238,6 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
     count = p->ascending != QDOT_NIL && context < FACTOR
                 ? arrange_by_degree(p, e, order)
                                      : arrange(p, e, turned, order);
-    if (context >= FACTOR)
-        open_bracket(p);
     for (uint32_t k = 0; k < count; k++) {
         uint32_t i = order[k];
 
@@ -247,8 +246,7 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
         else
             term(p, args[i + 1], args[i], turned, k == 0);
     }
-    if (context >= FACTOR)
-        print_close_bracket(p);
+    p->at = outer;
     if (order != few)
         qdot_free(order);
 }
@@ -259,26 +257,18 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
 static void
 open_relation(printer *p, qdot_expr e, int context)
 {
-    static const char *const signs[][4] = {
-        {" = ", " = ", " = ", "<mo>=</mo>"},
-        {" < ", " < ", " < ", "<mo>&lt;</mo>"},
-        {" <= ", " ≤ ", " \\le ", "<mo>≤</mo>"},
-        {" > ", " > ", " > ", "<mo>&gt;</mo>"},
-        {" >= ", " ≥ ", " \\ge ", "<mo>≥</mo>"},
-    };
+    static const qdot_formula_sign signs[] = {QDOT_SIGN_EQUALS, QDOT_SIGN_LESS, QDOT_SIGN_AT_MOST, QDOT_SIGN_GREATER,
+                                              QDOT_SIGN_AT_LEAST};
     uint16_t op = NODE(p->pool, e)->op;
     const qdot_expr *side = ARGS(p->pool, e);
     bool turned = op != QDOT_EQ && NODE(p->pool, side[0])->holds == 0 &&
                   NODE(p->pool, side[1])->holds != 0;
-    const char *const *sign = signs[op + (turned ? 2 : 0)];
+    const qdot_formula_id outer = print_begin_bracket(p, context > TOP);
 
-    if (context > TOP)
-        open_bracket(p);
     child(p, side[turned], TERM);
-    print_text(p, styled(p, sign[0], sign[1], sign[2], sign[3]));
+    print_sign(p, signs[op + (turned ? 2 : 0)]);
     child(p, side[!turned], TERM);
-    if (context > TOP)
-        print_close_bracket(p);
+    p->at = outer;
 }
 
 /* Whether an operand of `and`, `or`, `not` needs its brackets: `not` binds tightest. */
@@ -295,23 +285,18 @@ static void
 open_logic(printer *p, qdot_expr e, int context)
 {
     const qdot_node *node = NODE(p->pool, e);
-    const char *word = node->op == QDOT_AND
-                           ? styled(p, " and ", " and ", " \\wedge ", "<mo>∧</mo>")
-                           : styled(p, " or ", " or ", " \\vee ", "<mo>∨</mo>");
+    const qdot_formula_id outer = print_begin_bracket(p, context > TOP);
 
-    if (context > TOP)
-        open_bracket(p);
     if (node->op == QDOT_NOT)
-        print_text(p, styled(p, "not ", "not ", "\\neg ", "<mo>¬</mo>"));
+        print_sign(p, QDOT_SIGN_NOT);
     for (uint32_t i = 0; i < node->n; i++) {
         qdot_expr part = ARGS(p->pool, e)[i];
 
         if (i > 0)
-            print_text(p, word);
+            print_sign(p, node->op == QDOT_AND ? QDOT_SIGN_AND : QDOT_SIGN_OR);
         child(p, part, is_bracketed(p->pool, node->op, part) ? TERM : TOP);
     }
-    if (context > TOP)
-        print_close_bracket(p);
+    p->at = outer;
 }
 
 /* (a, b); of equations (a, b) = (c, d), where it stands alone. */
@@ -327,15 +312,19 @@ open_vector(printer *p, qdot_expr e, int context)
         equations = node->kind == QDOT_REL && node->op == QDOT_EQ;
     }
     for (uint32_t side = 0; side <= equations; side++) {
-        print_text(p, side ? styled(p, " = ", " = ", " = ", "<mo>=</mo>") : "");
-        open_bracket(p);
+        qdot_formula_id outer;
+
+        if (side)
+            print_sign(p, QDOT_SIGN_EQUALS);
+        outer = print_begin_bracket(p, true);
         for (uint32_t i = 0; i < n; i++) {
             qdot_expr one = ARGS(p->pool, e)[i];
 
-            print_text(p, i > 0 ? comma(p) : "");
+            if (i > 0)
+                print_sign(p, QDOT_SIGN_COMMA);
             child(p, equations ? ARGS(p->pool, one)[side] : one, TOP);
         }
-        print_close_bracket(p);
+        p->at = outer;
     }
 }
 
@@ -343,51 +332,49 @@ static void
 open_matrix(printer *p, qdot_expr e)
 {
     const qdot_node *node = NODE(p->pool, e);
+    const qdot_formula_id outer = print_begin(p, QDOT_FORMULA_TABLE, 0, 0);
 
-    print_text(p, styled(p, "[", "[", "\\begin{pmatrix}", "<mrow><mo>(</mo><mtable><mtr><mtd>"));
-    for (uint32_t i = 0; i < node->n; i++) {
-        if (i > 0)
-            print_text(p, i % node->op
-                       ? styled(p, ", ", ", ", " & ", "</mtd><mtd>")
-                       : styled(p, "; ", "; ", " \\\\ ", "</mtd></mtr><mtr><mtd>"));
+    qdot_formula_count(p->out, p->at, node->op);
+    for (uint32_t i = 0; i < node->n; i++)
         child(p, ARGS(p->pool, e)[i], TOP);
-    }
-    /* one row must not look like a list */
-    print_text(p, styled(p, node->n == node->op ? ";]" : "]", "]", "\\end{pmatrix}",
-                         "</mtd></mtr></mtable><mo>)</mo></mrow>"));
+    p->at = outer;
 }
 
 static void
-open_node(printer *p, const struct piece *x)
+open_number(printer *p, qdot_expr e, int context)
+{
+    fmpq_t c;
+
+    fmpq_init(c);
+    qdot_rational_set(c, RATIONAL(p->pool, e));
+    if (context == MAGNITUDE)
+        fmpq_abs(c, c);
+    if (context == NUMERATOR) { /* the numerator alone */
+        fmpz_abs(fmpq_numref(c), fmpq_numref(c));
+        fmpz_one(fmpq_denref(c));
+    }
+    if (context == DENOMINATOR) { /* the denominator alone */
+        fmpz_set(fmpq_numref(c), fmpq_denref(c));
+        fmpz_one(fmpq_denref(c));
+    }
+    qdot_print_number(p, c, context >= FACTOR ? (context == BASE ? 2 : 1) : 0);
+    fmpq_clear(c);
+}
+
+static void
+open_node(printer *p, const struct part *x)
 {
     const qdot_pool *pool = p->pool;
     const qdot_node *node = NODE(pool, x->e);
-    fmpq_t c;
 
+    p->at = x->at;
     if (x->coefficient != QDOT_NIL) {
         qdot_print_scaled(p, x->coefficient, x->e, x->context, x->turned);
         return;
     }
     switch (node->kind) {
-    case QDOT_NUM:
-        fmpq_init(c);
-        qdot_rational_set(c, RATIONAL(pool, x->e));
-        if (x->context == MAGNITUDE)
-            fmpq_abs(c, c);
-        if (x->context == NUMERATOR) { /* the numerator alone */
-            fmpz_abs(fmpq_numref(c), fmpq_numref(c));
-            fmpz_one(fmpq_denref(c));
-        }
-        if (x->context == DENOMINATOR) { /* the denominator alone */
-            fmpz_set(fmpq_numref(c), fmpq_denref(c));
-            fmpz_one(fmpq_denref(c));
-        }
-        qdot_print_number(c, p->style, x->raised,
-                          x->context >= FACTOR ? (x->context == BASE ? 2 : 1) : 0,
-                          p->out);
-        fmpq_clear(c);
-        break;
-    case QDOT_SYM: qdot_print_symbol(pool, x->e, p->style, p->out); break;
+    case QDOT_NUM: open_number(p, x->e, x->context); break;
+    case QDOT_SYM: qdot_print_symbol_parts(p, x->e); break;
     case QDOT_SUM: open_sum(p, x->e, x->context, x->turned); break;
     case QDOT_PROD:
         qdot_print_scaled(p, ARGS(pool, x->e)[0], x->e, x->context, false);
@@ -398,41 +385,63 @@ open_node(printer *p, const struct piece *x)
     case QDOT_LOGIC: open_logic(p, x->e, x->context); break;
     case QDOT_VEC: open_vector(p, x->e, x->context); break;
     case QDOT_LIST:
-        print_text(p, styled(p, "[", "[", "\\left[", "<mrow><mo>[</mo>"));
-        children(p, x->e, 0, node->n, comma(p));
-        print_text(p, styled(p, "]", "]", "\\right]", "<mo>]</mo></mrow>"));
+        print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_SQUARE, 0);
+        children(p, x->e, 0, node->n);
         break;
     default: open_matrix(p, x->e);
     }
 }
 
-/* What the text of x depends on beside its node. */
-static uint32_t
-how(const printer *p, const struct piece *x)
+void
+qdot_print_text(printer *p, const char *text)
 {
-    return (uint32_t)(x->context - NUMERATOR) << 4 | (uint32_t)p->style << 2 |
-           (uint32_t)x->raised << 1 | x->turned;
+    qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NAME, text, strlen(text));
 }
 
-/* Sums, functions, spelled names are copied if they stand again, else kept when they end. */
+/* What the nodes of x depend on beside the expression. */
+static uint32_t
+how(const printer *p, const struct part *x)
+{
+    return (uint32_t)(x->context - NUMERATOR) << 3 | (uint32_t)p->notation << 1 | x->turned;
+}
+
+/* Sums, functions, names share their children with where they stand already. */
 static void
-write_node(printer *p, struct piece x)
+open_part(printer *p, struct part x)
 {
     uint8_t kind = NODE(p->pool, x.e)->kind;
-    bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL &&
-                 p->below == QDOT_NIL &&
-                 (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN ||
-                  (kind == QDOT_SYM && p->style != QDOT_PLAIN));
+    const bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL && p->below == QDOT_NIL &&
+                       (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN || kind == QDOT_SYM);
+    const qdot_formula_id of = again ? qdot_printed_find(p->pool->printed, x.e, how(p, &x)) : 0;
 
-    if (x.ends) {
-        p->status = qdot_printed_keep(p->pool->printed, x.e, how(p, &x), p->out, x.from);
-    } else if (!again) {
-        open_node(p, &x);
-    } else if (!qdot_printed_copy(p->pool->printed, x.e, how(p, &x), p->out)) {
-        x.from = p->out->n;
-        open_node(p, &x);
-        x.ends = true;
-        piece(p, x);
+    if (of != 0) {
+        qdot_formula_share(p->out, x.at, of);
+        return;
+    }
+    open_node(p, &x);
+    qdot_formula_unwrap(p->out, x.at);
+    if (again && p->status == QDOT_OK)
+        p->status = qdot_printed_keep(p->pool->printed, x.e, how(p, &x), x.at);
+}
+
+void
+qdot_print_part(printer *p, struct part x)
+{
+    const uint8_t kind = NODE(p->pool, x.e)->kind;
+
+    if (x.coefficient == QDOT_NIL && kind == QDOT_NUM &&
+        (x.context < 0 || qdot_rational_sgn(RATIONAL(p->pool, x.e)) >= 0)) {
+        open_number(p, x.e, x.context);
+        return;
+    }
+    x.at = qdot_formula_add(p->out, p->at, QDOT_FORMULA_SPAN, 0, 0);
+    if (x.coefficient == QDOT_NIL && kind == QDOT_SYM) {
+        const qdot_formula_id at = p->at;
+
+        open_part(p, x);
+        p->at = at;
+    } else if (qdot_vec_push(&p->todo, x) != QDOT_OK) {
+        p->status = QDOT_ENOMEM;
     }
 }
 
@@ -480,12 +489,35 @@ find_below(printer *p, qdot_expr e)
     }
 }
 
-static void
-free_texts(const pieces *list)
+qdot_notation_kind
+qdot_print_notation(qdot_style style)
 {
-    for (size_t i = 0; i < list->n; i++)
-        if (list->at[i].own)
-            qdot_free((char *)list->at[i].text);
+    return style == QDOT_PLAIN     ? QDOT_NOTATION_SCRIPT
+           : style == QDOT_UNICODE ? QDOT_NOTATION_LINE
+                                   : QDOT_NOTATION_DRAWN;
+}
+
+qdot_status
+qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notation_kind notation, qdot_formula *out,
+                   qdot_formula_id parent)
+{
+    printer p = {.pool = pool, .notation = notation, .ascending = in, .out = out, .at = parent};
+
+    if (e == QDOT_NIL)
+        return qdot_pool_failed(pool) ? qdot_fail_again(&pool->error) /* why there is none */
+                                      : qdot_fail(QDOT_EINVAL, "nothing to print");
+    qdot_printed_begin(pool->printed, out);
+    find_below(&p, e);
+    child(&p, e, TOP);
+    while (p.status == QDOT_OK && p.todo.n > 0) {
+        open_part(&p, p.todo.at[--p.todo.n]);
+        if (p.status == QDOT_OK)
+            p.status = out->failed ? QDOT_ENOMEM : qdot_interrupt_check();
+    }
+    qdot_free(p.todo.at);
+    if (p.status != QDOT_OK)
+        qdot_printed_forget(pool->printed); /* nodes that were not opened */
+    return p.status;
 }
 
 qdot_status
@@ -498,40 +530,19 @@ qdot_status
 qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_style style,
                   qdot_text *out)
 {
-    printer p = {.pool = pool,
-                 .style = style,
-                 .ascending = in,
-                 .out = out};
+    qdot_formula *f = qdot_printed_formula(pool->printed);
+    const qdot_formula_id all = qdot_formula_new(f, QDOT_FORMULA_SPAN, 0, 0);
+    qdot_status status = qdot_print_formula(pool, e, in, qdot_print_notation(style), f, all);
 
-    if (e == QDOT_NIL)
-        return qdot_pool_failed(pool) ? qdot_fail_again(&pool->error) /* why there is none */
-                                      : qdot_fail(QDOT_EINVAL, "nothing to print");
-    find_below(&p, e);
-    child(&p, e, TOP);
-    while (p.status == QDOT_OK && (p.next.n > 0 || p.todo.n > 0)) {
-        struct piece x;
+    return status != QDOT_OK ? status : qdot_print_written(f, all, style, out);
+}
 
-        while (p.next.n > 0 && p.status == QDOT_OK)
-            p.status = qdot_vec_push(&p.todo, p.next.at[--p.next.n]);
-        if (p.status != QDOT_OK)
-            break;
-        x = p.todo.at[--p.todo.n];
-        if (x.name)
-            qdot_print_name(pool, x.text, style, out);
-        else if (x.text != NULL)
-            qdot_text_add(out, x.text);
-        else if (x.order > 0)
-            qdot_print_order(x.order, style, x.context, out);
-        else
-            write_node(&p, x);
-        if (x.own)
-            qdot_free((char *)x.text);
-        if (p.status == QDOT_OK)
-            p.status = qdot_interrupt_check();
+qdot_status
+qdot_print_written(const qdot_formula *f, qdot_formula_id id, qdot_style style, qdot_text *out)
+{
+    switch (style) {
+    case QDOT_LATEX: return qdot_formula_write_latex(f, id, out);
+    case QDOT_MATHML: return qdot_formula_write_mathml(f, id, out);
+    default: return qdot_formula_write_line(f, id, qdot_print_notation(style), out);
     }
-    free_texts(&p.todo);
-    free_texts(&p.next);
-    qdot_free(p.todo.at);
-    qdot_free(p.next.at);
-    return p.status != QDOT_OK ? p.status : qdot_text_status(out);
 }

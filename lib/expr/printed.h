@@ -1,28 +1,33 @@
-/* printed.h -- a cache of the texts of printed subexpressions, owned by the pool.
+/* printed.h -- where expressions stand already in the formula that is being made, and a formula for those that become
+ * text at once. Owned by the pool.
  *
- * It has a slot for each hash, which keeps the newest text. `how` encodes everything except the
- * node that the text depends on: style, context, signs.
+ * It has a slot for each hash, which keeps the newest node. `how` encodes everything except the expression that the
+ * node depends on: notation, context, signs.
  */
 #ifndef QDOT_EXPR_PRINTED_H
 #define QDOT_EXPR_PRINTED_H
 
-#include "base/text.h"
 #include "expr/expr.h"
+#include "formula/formula.h"
 
 typedef struct qdot_printed qdot_printed;
 
 qdot_printed *qdot_printed_new(void); /* NULL: no memory */
 void qdot_printed_free(qdot_printed *printed);
 
-/* Empty the cache: the text of a node has changed. */
+/* Forget all nodes: what an expression says has changed. */
 void qdot_printed_forget(qdot_printed *printed);
 
-/* Append the text of e if it is kept. */
-bool qdot_printed_copy(const qdot_printed *printed, qdot_expr e, uint32_t how, qdot_text *out);
+/* The formula for what becomes text; what stands in it stays while it is small. */
+qdot_formula *qdot_printed_formula(qdot_printed *printed);
 
-/* Keep the text of `out` from `from` on, unless it is too short or too long to be worth it.
- * Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_printed_keep(qdot_printed *printed, qdot_expr e, uint32_t how,
-                                              const qdot_text *out, size_t from);
+/* From here on nodes are those of `formula`: those of another one are forgotten. */
+void qdot_printed_begin(qdot_printed *printed, qdot_formula *formula);
+
+/* The node of e; 0: none is known. */
+qdot_formula_id qdot_printed_find(const qdot_printed *printed, qdot_expr e, uint32_t how);
+
+/* Keep it. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_printed_keep(qdot_printed *printed, qdot_expr e, uint32_t how, qdot_formula_id id);
 
 #endif

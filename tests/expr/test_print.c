@@ -2,6 +2,8 @@
 #include "expr/kit.h"
 #include "expr/reader.h"
 
+#include "expr/print-formula.h"
+
 static void
 says(qdot_expr e, const char *plain, const char *unicode, const char *latex)
 {
@@ -396,6 +398,49 @@ nothing_cannot_be_printed(void **state)
     qdot_text_clear(&out);
 }
 
+/* What stands twice is shared in each formula, the caller's and that of texts, whichever was made before; a failure
+ * leaves nothing half done behind. */
+static void
+formulas_share_what_stands_twice(void **state)
+{
+    const qdot_style styles[] = {QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML};
+
+    (void)state;
+    for (int trial = 0; trial < 2000; trial++) {
+        formula spec = formula_random(4 + (int)random_below(STEPS - 4), 0);
+        qdot_expr e = formula_build(&spec, &p);
+        const qdot_style style = styles[trial % 4];
+        qdot_formula f = {0};
+        qdot_text alone = {0}, twice = {0};
+        qdot_formula_id all;
+
+        if (qdot_pool_check(p.pool) != QDOT_OK || qdot_expr_size(p.pool, e) > 200)
+            continue;
+        assert_int_equal(qdot_print(p.pool, e, style, &alone), QDOT_OK);
+        if (trial % 3 == 0) {
+            qdot_memory_fail_at((long)random_below(12));
+            (void)qdot_print(p.pool, e, styles[(trial + 1) % 4], &twice);
+            qdot_memory_fail_at(-1);
+            qdot_text_clear(&twice);
+        }
+        all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(
+                qdot_print_formula(p.pool, e, QDOT_NIL, qdot_print_notation(style), &f, all), QDOT_OK);
+            assert_int_equal(qdot_print(p.pool, e, style, &twice), QDOT_OK);
+            assert_string_equal(qdot_text_str(&twice), qdot_text_str(&alone));
+            qdot_text_truncate(&twice, 0);
+        }
+        assert_int_equal(qdot_print_written(&f, all, style, &twice), QDOT_OK);
+        assert_int_equal(twice.n, 2 * alone.n);
+        assert_memory_equal(twice.at, alone.at, alone.n);
+        assert_memory_equal(twice.at + alone.n, alone.at, alone.n);
+        qdot_text_clear(&alone);
+        qdot_text_clear(&twice);
+        qdot_formula_clear(&f);
+    }
+}
+
 int
 main(void)
 {
@@ -415,6 +460,7 @@ main(void)
         TEST(undefined_functions_read_back),
         TEST(values_of_every_kind_are_written),
         TEST(nothing_cannot_be_printed),
+        TEST(formulas_share_what_stands_twice),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -314,7 +314,7 @@ check_text(qdot_session *session, const qdot_decision *decision)
         for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
             qdot_text_add(&line, i == 0 ? " at " : ", ");
             status =
-                qdot_formula(session, qdot_expr_arg(pool, decision->at, i), &line);
+                qdot_formula_marked(session, qdot_expr_arg(pool, decision->at, i), &line);
         }
         if (isfinite(decision->left) && isfinite(decision->right)) {
             double apart = fabs(decision->left - decision->right);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "expr/walk.h"
+#include "formula/write.h"
 
 typedef struct {
     qdot_session *session;
@@ -240,16 +241,6 @@ next(writer *w)
     return QDOT_OK;
 }
 
-void
-qdot_formula_escape(const char *text, size_t n, qdot_text *out)
-{
-    for (; n > 0; text++, n--)
-        if (*text == '&' || *text == '<')
-            qdot_text_add(out, *text == '&' ? "&amp;" : "&lt;");
-        else
-            qdot_text_char(out, *text);
-}
-
 qdot_status
 qdot_formula_name(qdot_session *session, const char *name, qdot_text *out)
 {
@@ -292,7 +283,7 @@ qdot_formula_bracket(const qdot_session *session, bool open, qdot_text *out)
 }
 
 qdot_status
-qdot_formula(qdot_session *session, qdot_expr e, qdot_text *out)
+qdot_formula_marked(qdot_session *session, qdot_expr e, qdot_text *out)
 {
     qdot_formula_bracket(session, true, out);
     QDOT_TRY(qdot_formula_print(session, e, session->style, out));

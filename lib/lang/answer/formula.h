@@ -14,12 +14,10 @@ QDOT_MUST_CHECK qdot_status qdot_formula_print(qdot_session *session, qdot_expr 
 QDOT_MUST_CHECK qdot_status qdot_formula_name(qdot_session *session, const char *name,
                                               qdot_text *out);
 /* Append e in the style of the session, as a formula within a text: MathML inside <math>. */
-QDOT_MUST_CHECK qdot_status qdot_formula(qdot_session *session, qdot_expr e,
+QDOT_MUST_CHECK qdot_status qdot_formula_marked(qdot_session *session, qdot_expr e,
                                          qdot_text *out);
 /* The same by parts: what begins and ends a formula, and the sign = between two. */
 void qdot_formula_bracket(const qdot_session *session, bool open, qdot_text *out);
 const char *qdot_formula_equals(const qdot_session *session);
-/* Append a text [n] that stands between tags. */
-void qdot_formula_escape(const char *text, size_t n, qdot_text *out);
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/terminal.h"
 #include "base/utf8.h"
 #include "base/wrap.h"
+#include "formula/write.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/write.h"
 #include "show/formula-page.h"

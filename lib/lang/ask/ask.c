@@ -98,7 +98,7 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
     qdot_text_format(&text, "%s: ", name);
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
         qdot_text_add(&text, i > 0 ? ", " : "");
-        status = qdot_formula(session, qdot_expr_arg(session->pool, list, i), &text);
+        status = qdot_formula_marked(session, qdot_expr_arg(session->pool, list, i), &text);
     }
     return qdot_sheet_end(session, &sheet, name, status, &text);
 }
@@ -189,10 +189,10 @@ print_point(qdot_session *session, qdot_expr equations, qdot_text *line)
 
         qdot_text_add(line, i > 0 ? ", " : "");
         if (!qdot_measured_occurs(session, value)) {
-            QDOT_TRY(qdot_formula(session, one, line));
+            QDOT_TRY(qdot_formula_marked(session, one, line));
             continue;
         }
-        QDOT_TRY(qdot_formula(session, qdot_expr_arg(pool, one, 0), line));
+        QDOT_TRY(qdot_formula_marked(session, qdot_expr_arg(pool, one, 0), line));
         QDOT_TRY(qdot_session_number(session, value, &x, &error));
         qdot_text_add(line, " = ");
         qdot_number_text_known(line, x, error);
@@ -332,7 +332,7 @@ print_one(qdot_cursor *c, qdot_text *line)
     if (is_texts(session->pool, value))
         return add_texts(session, value, line);
     if (!qdot_measured_occurs(session, value))
-        return qdot_formula(session, value, line);
+        return qdot_formula_marked(session, value, line);
     if (qdot_value_kind_are_equations(session->pool, value))
         return print_point(session, value, line);
     digits = qdot_digits_of(session, value);
@@ -551,10 +551,10 @@ print_sources(qdot_session *session, qdot_text *out)
             QDOT_TRY(qdot_pool_check(session->pool));
             if (part == QDOT_ZERO)
                 continue;
-            QDOT_TRY(qdot_formula(session, q, out));
+            QDOT_TRY(qdot_formula_marked(session, q, out));
             qdot_text_format(out, ", %s%s%s: ", source.kind, source.name != NULL ? " " : "",
                              source.name != NULL ? source.name : "");
-            QDOT_TRY(qdot_formula(session, part, out));
+            QDOT_TRY(qdot_formula_marked(session, part, out));
             qdot_text_char(out, '\n');
         }
     if (out->n == 0)
@@ -616,7 +616,7 @@ print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
     qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
 
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_formula(session, one->coordinate, text));
+    QDOT_TRY(qdot_formula_marked(session, one->coordinate, text));
     qdot_text_add(text, ": ");
     qdot_formula_bracket(session, true, text);
     QDOT_TRY(qdot_print(pool, p, session->style, text));
@@ -628,7 +628,7 @@ print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
         return QDOT_OK;
     }
     qdot_text_add(text, " changes at the rate ");
-    return qdot_formula(session, one->rate, text);
+    return qdot_formula_marked(session, one->rate, text);
 }
 
 /* With --json the momenta are values too: `p[theta] = ...` by the name of

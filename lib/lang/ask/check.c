@@ -75,7 +75,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
     QDOT_TRY(qdot_decide_proportional(pool, a, b, known, decision, &factor, &may_vanish));
     if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
         return QDOT_OK;
-    status = qdot_formula(session, factor, &text);
+    status = qdot_formula_marked(session, factor, &text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session,
                                     "the equations differ by the factor %s: where it is "

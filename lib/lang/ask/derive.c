@@ -194,7 +194,7 @@ relation(derivation *d, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
     indent(d);
-    QDOT_TRY(qdot_formula(d->session, e, &d->text));
+    QDOT_TRY(qdot_formula_marked(d->session, e, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
 }
@@ -234,7 +234,7 @@ derivation_turning(derivation *d, const qdot_body *b)
     if (b->angle == QDOT_NIL || qdot_expr_kind(d->session->pool, b->angle) == QDOT_NUM)
         return QDOT_OK;
     derivation_label(d, "angle", b->name, NULL, NULL);
-    QDOT_TRY(qdot_formula(d->session, b->angle, &d->text));
+    QDOT_TRY(qdot_formula_marked(d->session, b->angle, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
 }

@@ -131,7 +131,7 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
         }
         if (!is_bound(pool, one) ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
-            QDOT_TRY(qdot_formula(session, one, out));
+            QDOT_TRY(qdot_formula_marked(session, one, out));
             continue;
         }
         qdot_formula_bracket(session, true, out);
@@ -177,10 +177,10 @@ print_equation(qdot_session *session, const qdot_equilibrium *e, uint32_t k,
     double value;
 
     if (!e->numeric)
-        return qdot_formula(session, one, out);
+        return qdot_formula_marked(session, one, out);
     QDOT_TRY(
         qdot_session_number(session, qdot_expr_arg(session->pool, one, 1), &value, NULL));
-    QDOT_TRY(qdot_formula(session, qdot_expr_arg(session->pool, one, 0), out));
+    QDOT_TRY(qdot_formula_marked(session, qdot_expr_arg(session->pool, one, 0), out));
     qdot_text_add(out, " = ");
     qdot_number_text(out, value, 0);
     return qdot_text_status(out);

@@ -1,0 +1,172 @@
+/* print-symbol.c -- names and symbols as formulas. */
+#include "formula/name.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/print-formula.h"
+#include "expr/print-parts.h"
+
+static bool
+name_is_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
+              const char *digits, size_t n_digits)
+{
+    qdot_text other = {0};
+    bool is;
+
+    qdot_text_add_n(&other, name, letters);
+    qdot_text_format(&other, pattern, (int)n_digits, digits);
+    is = qdot_text_status(&other) != QDOT_OK ||
+         qdot_symbol_is_known(pool, qdot_text_str(&other));
+    qdot_text_clear(&other);
+    return is;
+}
+
+/* Whether x[1], x_1 may stand as x₁, which is else x1, else x[1]: no name that comes before is
+ * there. */
+static bool
+index_is_lowered(const qdot_pool *pool, const char *name)
+{
+    qdot_name_digits d;
+
+    return qdot_name_index(name, &d) &&
+           (pool == NULL ||
+            (!name_is_known(pool, name, d.letters, "%.*s", d.at, d.n) &&
+             (d.brackets || !name_is_known(pool, name, d.letters, "[%.*s]", d.at, d.n))));
+}
+
+/* A name with dots or primes, as a child of the parent. */
+static void
+symbol_add_name(qdot_formula *f, qdot_formula_id parent, const qdot_pool *pool, const char *name, uint32_t order,
+         qdot_notation_kind notation)
+{
+    const size_t from = f->text.n;
+
+    if (notation == QDOT_NOTATION_DRAWN) {
+        qdot_formula_add_name(f, parent, name, order);
+        return;
+    }
+    if (notation == QDOT_NOTATION_SCRIPT)
+        qdot_text_add(&f->text, name);
+    else
+        qdot_name_line(name, order, index_is_lowered(pool, name), &f->text);
+    qdot_formula_add_tail(f, parent, QDOT_TEXT_NAME, from);
+}
+
+void
+qdot_print_spelled(printer *p, const char *name)
+{
+    symbol_add_name(p->out, p->at, p->pool, name, 0, p->notation);
+}
+
+void
+qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out)
+{
+    qdot_formula f = {0};
+    qdot_formula_id all;
+
+    if (style == QDOT_PLAIN) {
+        qdot_text_add(out, name);
+        return;
+    }
+    if (style == QDOT_UNICODE) {
+        qdot_name_line(name, 0, index_is_lowered(pool, name), out);
+        return;
+    }
+    all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
+    qdot_formula_add_name(&f, all, name, 0);
+    if (qdot_formula_status(&f) != QDOT_OK || qdot_print_written(&f, all, style, out) != QDOT_OK)
+        out->failed = true;
+    qdot_formula_clear(&f);
+}
+
+/* --- symbols ---------------------------------------------------------------------------------- */
+
+/* Where the digits end in the name of a symbol that stands for a number; NULL: it stands for none. */
+static const char *
+number_end(const qdot_symbol *s)
+{
+    return s->class == QDOT_FORMAL ? strchr(s->name, '#') : NULL;
+}
+
+bool
+qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_SYM && number_end(qdot_expr_symbol(pool, e)) != NULL;
+}
+
+/* The digits, in a drawn formula with their power of ten: 1.5 10^-9. */
+static void
+number_digits(printer *p, const char *name, size_t length)
+{
+    const char *power = is_drawn(p) ? memchr(name, 'e', length) : NULL;
+    const size_t digits = power != NULL ? (size_t)(power - name) : length;
+    qdot_formula_id raised;
+
+    qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NUMBER, name, digits);
+    if (power == NULL)
+        return;
+    power += power[1] == '+' ? 2 : 1;
+    print_sign(p, QDOT_SIGN_POINT);
+    raised = qdot_formula_add(p->out, p->at, QDOT_FORMULA_POWER, 0, 0);
+    qdot_formula_add_text(p->out, raised, QDOT_TEXT_NUMBER, "10", 2);
+    qdot_formula_add_text(p->out, raised, QDOT_TEXT_NUMBER, power, length - (size_t)(power - name));
+}
+
+/* A symbol that stands for a number, such as `-1.5e-9#3`: what stands before the #, in brackets where it has a sign or
+ * would stand beside another number without a sign between. */
+static void
+number_name(printer *p, const char *name, size_t length)
+{
+    const qdot_formula_id outer = p->at;
+
+    if (p->notation != QDOT_NOTATION_SCRIPT || *name == '-')
+        print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, QDOT_FORMULA_FIXED);
+    number_digits(p, name, length);
+    p->at = outer;
+}
+
+/* A symbol about a coordinate: p with the coordinate below, dq, delta q. */
+static void
+about_coordinate(printer *p, const qdot_symbol *s, const char *name)
+{
+    const bool momentum = s->class == QDOT_MOMENTUM;
+    const qdot_formula_id outer = p->at;
+
+    if (!is_drawn(p)) {
+        const size_t from = p->out->text.n;
+
+        qdot_text_add(&p->out->text, momentum ? "p[" : s->class == QDOT_DELTA ? "δ" : "d");
+        qdot_name_line(name, s->order, index_is_lowered(p->pool, name), &p->out->text);
+        qdot_text_add(&p->out->text, momentum ? "]" : "");
+        qdot_formula_add_tail(p->out, p->at, QDOT_TEXT_NAME, from);
+        return;
+    }
+    print_begin(p, momentum ? QDOT_FORMULA_INDEX : QDOT_FORMULA_ROW, 0, 0);
+    if (s->class == QDOT_DELTA)
+        print_sign(p, QDOT_SIGN_DELTA);
+    else
+        qdot_print_text(p, momentum ? "p" : "d");
+    symbol_add_name(p->out, p->at, p->pool, name, s->order, p->notation);
+    p->at = outer;
+}
+
+void
+qdot_print_symbol_parts(printer *p, qdot_expr e)
+{
+    const qdot_symbol *s = qdot_expr_symbol(p->pool, e);
+    const char *mark = number_end(s);
+    const char *name =
+        s->base != QDOT_NIL ? qdot_expr_symbol(p->pool, s->base)->name : s->name;
+
+    if (s->class == QDOT_WORDS)
+        qdot_formula_add_text(p->out, p->at, QDOT_TEXT_WORDS, s->name, strlen(s->name));
+    else if (mark != NULL)
+        number_name(p, s->name, (size_t)(mark - s->name));
+    else if (p->notation == QDOT_NOTATION_SCRIPT)
+        qdot_print_text(p, s->name);
+    else if (s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL || s->class == QDOT_DELTA)
+        about_coordinate(p, s, name);
+    else
+        symbol_add_name(p->out, p->at, p->pool, name, s->order, p->notation);
+}

@@ -1,0 +1,139 @@
+/* formula.h -- a formula as a tree: what stands beside, above and below what.
+ *
+ *     -b/(2 a)  drawn     SPAN(SIGN minus, FRACTION(ROW(NAME b), ROW(NUMBER 2, SIGN times, NAME a)))
+ *               in a line  SPAN(SIGN minus, FRACTION(SPAN(NAME b), BRACKET(NUMBER 2, SIGN times, NAME a)))
+ *
+ * Nodes are numbered; node 0 is nil. Children of a node form a circular list, so two nodes may share one: the tree is
+ * a directed acyclic graph, as the expression is that it was made of. A tree is made for one notation, because
+ * brackets depend on it; it knows nothing of expressions.
+ *
+ * Nil absorbs: where memory runs out the formula is marked as failed, nil is returned, and what is done with nil does
+ * nothing. Ask once, at the end (qdot_formula_status), as of a qdot_text.
+ *
+ * Tests  tests/formula/test_formula.c
+ */
+#ifndef QDOT_FORMULA_FORMULA_H
+#define QDOT_FORMULA_FORMULA_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+/* How what a tree says is written: as the language reads it, for the eye in a line, and with fractions, roots and
+ * powers drawn (LaTeX, MathML, boxes). */
+typedef enum { QDOT_NOTATION_SCRIPT, QDOT_NOTATION_LINE, QDOT_NOTATION_DRAWN } qdot_notation_kind;
+
+typedef uint32_t qdot_formula_id;
+
+typedef enum {
+    QDOT_FORMULA_SPAN,     /* one behind the other, as if they stood in the parent */
+    QDOT_FORMULA_ROW,      /* one behind the other, as one thing */
+    QDOT_FORMULA_TEXT,     /* a leaf, with its role */
+    QDOT_FORMULA_SIGN,     /* a leaf, a row of sign.def */
+    QDOT_FORMULA_FRACTION, /* above, below */
+    QDOT_FORMULA_ROOT,     /* the square root of all children */
+    QDOT_FORMULA_POWER,    /* base, exponent */
+    QDOT_FORMULA_INDEX,    /* base, what stands below the line */
+    QDOT_FORMULA_ACCENT,   /* one child with n dots above */
+    QDOT_FORMULA_PRIMES,   /* one child with n primes behind */
+    QDOT_FORMULA_BRACKET,  /* all children in brackets of a shape */
+    QDOT_FORMULA_TABLE,    /* cells, n in a row, in brackets */
+    QDOT_FORMULA_CASES,    /* value, condition, value, condition, ..., value otherwise */
+    QDOT_FORMULA_APPLY     /* a function, its bracket */
+} qdot_formula_kind;
+
+/* Of a TEXT. */
+typedef enum {
+    QDOT_TEXT_NAME,     /* a name; where formulas are drawn its letters for the eye, θ, its indices apart */
+    QDOT_TEXT_NUMBER,   /* an integer or a decimal number without its sign */
+    QDOT_TEXT_FUNCTION, /* the name of a function */
+    QDOT_TEXT_WORDS     /* a text for people */
+} qdot_formula_role;
+
+/* Of a BRACKET. */
+typedef enum {
+    QDOT_BRACKET_ROUND,
+    QDOT_BRACKET_SQUARE,
+    QDOT_BRACKET_BARS,
+    QDOT_BRACKET_FLOOR
+} qdot_formula_shape;
+
+/* Signs and letters of the writers. */
+typedef enum {
+#define QDOT_SIGN(name, plain, unicode, latex, mathml) QDOT_SIGN_##name,
+#include "formula/sign.def"
+#undef QDOT_SIGN
+    QDOT_SIGNS
+} qdot_formula_sign;
+
+/* Flags. */
+enum {
+    QDOT_FORMULA_SLANTED = 1, /* FRACTION of numbers, an exponent: LaTeX writes it with a slash */
+    QDOT_FORMULA_RAISED = 2,  /* POWER in a line: the exponent is an integer, written by superscripts */
+    QDOT_FORMULA_BARE = 4,    /* ROOT in a line: √x, without brackets */
+    QDOT_FORMULA_FIXED = 8    /* BRACKET: in LaTeX of the height of a line */
+};
+
+typedef struct {
+    uint8_t kind, what, flags; /* what: role, sign, shape */
+    qdot_formula_id next;      /* the next child of the parent, of the last one the first; 0: in no list */
+    uint32_t child;            /* the last child, 0: none; of a TEXT where its bytes begin */
+    uint32_t n;                /* bytes, dots, primes, cells in a row */
+} qdot_formula_node;
+
+/* Start with `qdot_formula f = {0};`, free with qdot_formula_clear. */
+typedef struct {
+    qdot_vec(qdot_formula_node) nodes; /* [0] is nil */
+    qdot_text text;                    /* of the TEXT nodes */
+    bool failed;
+    uint32_t stamp; /* of the cache that has nodes of this formula (expr/printed) */
+} qdot_formula;
+
+void qdot_formula_clear(qdot_formula *f);
+/* Forget all nodes, keep the memory. */
+void qdot_formula_empty(qdot_formula *f);
+
+/* QDOT_ENOMEM if anything failed for want of memory. */
+QDOT_MUST_CHECK qdot_status qdot_formula_status(const qdot_formula *f);
+
+/* A node without children, in no list. */
+qdot_formula_id qdot_formula_new(qdot_formula *f, qdot_formula_kind kind, unsigned what, unsigned flags);
+
+/* child, in no list yet, becomes the last one of parent. */
+void qdot_formula_append(qdot_formula *f, qdot_formula_id parent, qdot_formula_id child);
+
+/* The same at once; returned is the child. */
+qdot_formula_id qdot_formula_add(qdot_formula *f, qdot_formula_id parent, qdot_formula_kind kind, unsigned what,
+                                 unsigned flags);
+qdot_formula_id qdot_formula_add_sign(qdot_formula *f, qdot_formula_id parent, qdot_formula_sign sign);
+qdot_formula_id qdot_formula_add_text(qdot_formula *f, qdot_formula_id parent, qdot_formula_role role,
+                                      const char *text, size_t n);
+/* The text is what was appended to f->text from byte `from` on. */
+qdot_formula_id qdot_formula_add_tail(qdot_formula *f, qdot_formula_id parent, qdot_formula_role role, size_t from);
+
+/* Set the number of dots, primes, cells in a row. */
+void qdot_formula_count(qdot_formula *f, qdot_formula_id id, uint32_t n);
+
+/* Node `to` becomes what node `of` is, with the same children. */
+void qdot_formula_share(qdot_formula *f, qdot_formula_id to, qdot_formula_id of);
+
+/* A SPAN with one child that is no SPAN, which may be filled later, becomes that child. */
+void qdot_formula_unwrap(qdot_formula *f, qdot_formula_id id);
+
+/* A node by its number; nil has no children. */
+static inline const qdot_formula_node *
+qdot_formula_at(const qdot_formula *f, qdot_formula_id id)
+{
+    return f->nodes.at + id;
+}
+
+/* Whether children hang at a node. */
+static inline bool
+qdot_formula_is_leaf(const qdot_formula_node *node)
+{
+    return node->kind == QDOT_FORMULA_TEXT || node->kind == QDOT_FORMULA_SIGN;
+}
+
+#endif

@@ -1,0 +1,30 @@
+/* name.h -- names as they are spelled, in formulas: theta1 is θ₁, omega_0 ω₀, A[1,2] A with 1, 2 below.
+ *
+ * Tests  tests/formula/test_name.c
+ */
+#ifndef QDOT_FORMULA_NAME_H
+#define QDOT_FORMULA_NAME_H
+
+#include "formula/formula.h"
+
+/* The name of the Greek letter, of two bytes, that stands there: "theta" of "θ"; NULL: none. */
+const char *qdot_name_greek(const char *letter);
+
+/* An index of digits: x_1, x[1]. */
+typedef struct {
+    size_t letters; /* before it */
+    const char *at; /* the digits */
+    size_t n;
+    bool brackets; /* x[1] */
+} qdot_name_digits;
+
+/* Whether a name has no other index than digits behind `_` or in brackets: it may be written as x₁. */
+bool qdot_name_index(const char *name, qdot_name_digits *index);
+
+/* Append the name in a line, with dots or primes for a derivative: θ̇₁. lowered: an index of digits is written so. */
+void qdot_name_line(const char *name, uint32_t order, bool lowered, qdot_text *out);
+
+/* Append the name to the parent, drawn. */
+void qdot_formula_add_name(qdot_formula *f, qdot_formula_id parent, const char *name, uint32_t order);
+
+#endif

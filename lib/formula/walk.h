@@ -1,0 +1,40 @@
+/* walk.h -- a formula passed through in reading order, without recursion.
+ *
+ * Each node is entered, then its children one after the other, then it is left. A leaf is only entered.
+ *
+ * Tests  tests/formula/test_formula.c
+ */
+#ifndef QDOT_FORMULA_WALK_H
+#define QDOT_FORMULA_WALK_H
+
+#include "formula/formula.h"
+
+/* A node whose children are passed through. */
+typedef struct {
+    qdot_formula_id id, child; /* child: the latest one; 0: none yet */
+    uint32_t k;                /* its number */
+} qdot_formula_frame;
+
+typedef struct qdot_formula_walk qdot_formula_walk;
+
+struct qdot_formula_walk {
+    const qdot_formula *formula;
+    qdot_vec(qdot_formula_frame) open; /* the nodes around the present one, outermost first */
+    void *user;
+    qdot_status (*enter)(qdot_formula_walk *walk, const qdot_formula_node *node);
+    /* Between the children k - 1 and k > 0 of a node that is no SPAN; NULL: nothing is done there. */
+    qdot_status (*between)(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k);
+    qdot_status (*leave)(qdot_formula_walk *walk, const qdot_formula_node *node);
+};
+
+/* Pass through the node and all below it. Errors: QDOT_ENOMEM, QDOT_EINTR, what the functions return. */
+QDOT_MUST_CHECK qdot_status qdot_formula_pass(qdot_formula_walk *walk, qdot_formula_id id);
+
+/* The node around the present one; NULL: none. */
+static inline const qdot_formula_node *
+qdot_formula_outer(const qdot_formula_walk *walk)
+{
+    return walk->open.n > 0 ? qdot_formula_at(walk->formula, walk->open.at[walk->open.n - 1].id) : NULL;
+}
+
+#endif

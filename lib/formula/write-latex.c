@@ -1,0 +1,174 @@
+/* write-latex.c -- formulas in LaTeX. */
+#include <inttypes.h>
+#include <string.h>
+
+#include "formula/name.h"
+#include "formula/walk.h"
+#include "formula/write.h"
+
+static const char *const signs[] = {
+#define QDOT_SIGN(name, plain, unicode, latex, mathml) latex,
+#include "formula/sign.def"
+#undef QDOT_SIGN
+};
+
+/* Functions that have a command. */
+static const struct {
+    const char *name, *command;
+} functions[] = {
+    {"sin", "\\sin"},     {"cos", "\\cos"},     {"tan", "\\tan"},     {"sec", "\\sec"},   {"csc", "\\csc"},
+    {"cot", "\\cot"},     {"asin", "\\arcsin"}, {"acos", "\\arccos"}, {"atan", "\\arctan"}, {"sinh", "\\sinh"},
+    {"cosh", "\\cosh"},   {"tanh", "\\tanh"},   {"exp", "\\exp"},     {"log", "\\log"},   {"min", "\\min"},
+    {"max", "\\max"},
+};
+
+static void
+latex_add_function(qdot_text *out, const char *name, size_t n)
+{
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        if (strncmp(functions[i].name, name, n) == 0 && functions[i].name[n] == '\0') {
+            qdot_text_add(out, functions[i].command);
+            return;
+        }
+    qdot_text_add(out, "\\operatorname{");
+    qdot_text_add_n(out, name, n);
+    qdot_text_char(out, '}');
+}
+
+/* Greek letters as commands; several letters in roman type. */
+static void
+latex_add_name(qdot_text *out, const char *name, size_t n)
+{
+    if (n > 1 && qdot_name_greek(name) != NULL) {
+        for (size_t i = 0; i + 1 < n; i += 2) {
+            qdot_text_add(out, i > 0 ? " \\" : "\\");
+            qdot_text_add(out, qdot_name_greek(name + i));
+        }
+        return;
+    }
+    if (n == 1) {
+        qdot_text_char(out, *name);
+        return;
+    }
+    qdot_text_add(out, "\\mathrm{");
+    for (size_t i = 0; i < n; i++) {
+        qdot_text_add(out, name[i] == '_' ? "\\" : "");
+        qdot_text_char(out, name[i]);
+    }
+    qdot_text_char(out, '}');
+}
+
+static void
+latex_add_text(qdot_text *out, const qdot_formula_node *node, const char *text)
+{
+    if (node->what == QDOT_TEXT_NAME)
+        latex_add_name(out, text, node->n);
+    else if (node->what == QDOT_TEXT_FUNCTION)
+        latex_add_function(out, text, node->n);
+    else
+        qdot_text_add_n(out, text, node->n);
+}
+
+static const char *const dots[] = {"", "\\dot{", "\\ddot{", "\\dddot{", "\\ddddot{"};
+
+enum { MOST_DOTS = 4 };
+
+static qdot_status
+latex_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
+{
+    static const char *const opening[] = {"\\left(", "\\left[", "\\left|", "\\left\\lfloor "};
+    qdot_text *out = walk->user;
+
+    switch (node->kind) {
+    case QDOT_FORMULA_TEXT: latex_add_text(out, node, walk->formula->text.at + node->child); break;
+    case QDOT_FORMULA_SIGN: qdot_text_add(out, signs[node->what]); break;
+    case QDOT_FORMULA_FRACTION: qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : "\\frac{"); break;
+    case QDOT_FORMULA_ROOT: qdot_text_add(out, "\\sqrt{"); break;
+    case QDOT_FORMULA_ACCENT: qdot_text_add(out, node->n <= MOST_DOTS ? dots[node->n] : ""); break;
+    case QDOT_FORMULA_BRACKET:
+        qdot_text_add(out, node->flags & QDOT_FORMULA_FIXED ? "(" : opening[node->what]);
+        break;
+    case QDOT_FORMULA_TABLE: qdot_text_add(out, "\\begin{pmatrix}"); break;
+    case QDOT_FORMULA_CASES: qdot_text_add(out, "\\begin{cases} "); break;
+    default: break;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+latex_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
+{
+    qdot_text *out = walk->user;
+
+    switch (node->kind) {
+    case QDOT_FORMULA_FRACTION:
+        qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "/" : "}{");
+        break;
+    case QDOT_FORMULA_POWER: qdot_text_add(out, "^{"); break;
+    case QDOT_FORMULA_INDEX: qdot_text_add(out, "_{"); break;
+    case QDOT_FORMULA_TABLE: qdot_text_add(out, k % node->n ? " & " : " \\\\ "); break;
+    case QDOT_FORMULA_CASES: qdot_text_add(out, k % 2 ? " & \\text{if } " : " \\\\ "); break;
+    default: break;
+    }
+    return QDOT_OK;
+}
+
+/* Behind a base with an index: the order of a derivative that dots do not show. */
+static void
+latex_add_order(qdot_text *out, const qdot_formula_node *accent)
+{
+    if (accent->kind == QDOT_FORMULA_ACCENT && accent->n > MOST_DOTS)
+        qdot_text_format(out, "^{(%" PRIu32 ")}", accent->n);
+}
+
+static void
+leave_accent(const qdot_formula_walk *walk, const qdot_formula_node *node, qdot_text *out)
+{
+    const qdot_formula_node *outer = qdot_formula_outer(walk);
+
+    if (node->n > 0 && node->n <= MOST_DOTS)
+        qdot_text_char(out, '}');
+    else if (outer == NULL || outer->kind != QDOT_FORMULA_INDEX)
+        latex_add_order(out, node);
+}
+
+static qdot_status
+latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
+{
+    static const char *const closing[] = {"\\right)", "\\right]", "\\right|", "\\right\\rfloor "};
+    qdot_text *out = walk->user;
+
+    switch (node->kind) {
+    case QDOT_FORMULA_FRACTION: qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : "}"); break;
+    case QDOT_FORMULA_ROOT:
+    case QDOT_FORMULA_POWER: qdot_text_char(out, '}'); break;
+    case QDOT_FORMULA_INDEX:
+        qdot_text_char(out, '}');
+        latex_add_order(out, qdot_formula_at(walk->formula, qdot_formula_at(walk->formula, node->child)->next));
+        break;
+    case QDOT_FORMULA_ACCENT: leave_accent(walk, node, out); break;
+    case QDOT_FORMULA_PRIMES:
+        for (uint32_t i = 0; i < node->n && node->n <= 3; i++)
+            qdot_text_char(out, '\'');
+        if (node->n > 3)
+            qdot_text_format(out, "^{(%" PRIu32 ")}", node->n);
+        break;
+    case QDOT_FORMULA_BRACKET:
+        qdot_text_add(out, node->flags & QDOT_FORMULA_FIXED ? ")" : closing[node->what]);
+        break;
+    case QDOT_FORMULA_TABLE: qdot_text_add(out, "\\end{pmatrix}"); break;
+    case QDOT_FORMULA_CASES: qdot_text_add(out, " & \\text{otherwise} \\end{cases}"); break;
+    default: break;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out)
+{
+    qdot_formula_walk walk = {
+        .formula = f, .user = out, .enter = latex_enter, .between = latex_between, .leave = latex_leave};
+
+    QDOT_TRY(qdot_formula_pass(&walk, id));
+    return qdot_text_status(out);
+}

@@ -1,0 +1,25 @@
+/* write.h -- formulas as text: a writer for each language.
+ *
+ * A tree for a script or a line is written by the first function, one that is drawn by the others.
+ *
+ * Tests  tests/formula/test_write.c
+ */
+#ifndef QDOT_FORMULA_WRITE_H
+#define QDOT_FORMULA_WRITE_H
+
+#include "formula/formula.h"
+
+/* Append the node, QDOT_NOTATION_SCRIPT or QDOT_NOTATION_LINE. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_formula_write_line(const qdot_formula *f, qdot_formula_id id,
+                                                    qdot_notation_kind notation, qdot_text *out);
+
+/* The same in LaTeX, for its mathematics mode. */
+QDOT_MUST_CHECK qdot_status qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
+
+/* The same in presentation MathML, the contents of <math>. */
+QDOT_MUST_CHECK qdot_status qdot_formula_write_mathml(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
+
+/* Append text that stands between tags, & and < as entities. */
+void qdot_formula_escape(const char *text, size_t n, qdot_text *out);
+
+#endif

@@ -1,0 +1,164 @@
+/* test_write.c -- formulas in each language. */
+#include "kit.h"
+
+#include "base/interrupt.h"
+#include "formula/write.h"
+
+static void
+says(qdot_formula_id id, const char *latex, const char *mathml)
+{
+    qdot_text out = {0};
+
+    assert_int_equal(qdot_formula_status(&f), QDOT_OK);
+    assert_int_equal(qdot_formula_write_latex(&f, id, &out), QDOT_OK);
+    assert_string_equal(qdot_text_str(&out), latex);
+    qdot_text_truncate(&out, 0);
+    assert_int_equal(qdot_formula_write_mathml(&f, id, &out), QDOT_OK);
+    assert_string_equal(qdot_text_str(&out), mathml);
+    qdot_text_clear(&out);
+}
+
+/* In a script, unless that has another tree, and in a line for the eye. */
+static void
+stands_in_a_line(qdot_formula_id id, const char *script, const char *line)
+{
+    qdot_text out = {0};
+
+    assert_int_equal(qdot_formula_status(&f), QDOT_OK);
+    assert_int_equal(qdot_formula_write_line(&f, id, QDOT_NOTATION_SCRIPT, &out), QDOT_OK);
+    if (script != NULL)
+        assert_string_equal(qdot_text_str(&out), script);
+    qdot_text_truncate(&out, 0);
+    assert_int_equal(qdot_formula_write_line(&f, id, QDOT_NOTATION_LINE, &out), QDOT_OK);
+    assert_string_equal(qdot_text_str(&out), line);
+    qdot_text_clear(&out);
+}
+
+static void
+texts_have_their_role(void **state)
+{
+    (void)state;
+    says(NAME("x"), "x", "<mi>x</mi>");
+    says(NAME("θ"), "\\theta", "<mi>θ</mi>");
+    says(NAME("δθ"), "\\delta \\theta", "<mi>δθ</mi>");
+    says(NAME("V_max"), "\\mathrm{V\\_max}", "<mi>V_max</mi>");
+    says(NUMBER("12"), "12", "<mn>12</mn>");
+    says(FUNCTION("asin"), "\\arcsin", "<mi>asin</mi>");
+    says(FUNCTION("si"), "\\operatorname{si}", "<mi>si</mi>");
+    says(text(QDOT_TEXT_WORDS, "a & b < c"), "a & b < c", "<mtext>a &amp; b &lt; c</mtext>");
+}
+
+static void
+fractions_roots_and_powers_are_drawn(void **state)
+{
+    (void)state;
+    says(OVER(NUMBER("1"), NUMBER("2")), "\\frac{1}{2}", "<mfrac><mn>1</mn><mn>2</mn></mfrac>");
+    says(POWER(ROW(NAME("x")),
+               ROW(node(QDOT_FORMULA_FRACTION, 0, QDOT_FORMULA_SLANTED, NUMBER("1"), NUMBER("3"), END))),
+         "x^{1/3}",
+         "<msup><mrow><mi>x</mi></mrow><mrow><mfrac><mn>1</mn><mn>3</mn></mfrac></mrow></msup>");
+    says(ROOT(NUMBER("2"), sign(QDOT_SIGN_TIMES), NAME("a")), "\\sqrt{2 a}",
+         "<msqrt><mn>2</mn><mo>&#x2062;</mo><mi>a</mi></msqrt>");
+    says(APPLY(POWER(ROW(FUNCTION("sin")), ROW(NUMBER("2"))), ROUND(NAME("x"))), "\\sin^{2}\\left(x\\right)",
+         "<msup><mrow><mi>sin</mi></mrow><mrow><mn>2</mn></mrow></msup><mo>&#x2061;</mo><mrow><mo>(</mo><mi>x</mi>"
+         "<mo>)</mo></mrow>");
+}
+
+/* Dots up to the fourth in LaTeX, the third in MathML; then the order stands behind the index. */
+static void
+derivatives_have_dots_primes_and_orders(void **state)
+{
+    (void)state;
+    says(DOTS(1, NAME("θ")), "\\dot{\\theta}", "<mover><mi>θ</mi><mo>˙</mo></mover>");
+    says(INDEX(DOTS(2, NAME("q")), ROW(NUMBER("1"))), "\\ddot{q}_{1}",
+         "<msub><mover><mi>q</mi><mo>¨</mo></mover><mrow><mn>1</mn></mrow></msub>");
+    says(DOTS(4, NAME("q")), "\\ddddot{q}", "<msup><mi>q</mi><mrow><mo>(</mo><mn>4</mn><mo>)</mo></mrow></msup>");
+    says(DOTS(5, NAME("q")), "q^{(5)}", "<msup><mi>q</mi><mrow><mo>(</mo><mn>5</mn><mo>)</mo></mrow></msup>");
+    says(INDEX(DOTS(5, NAME("q")), ROW(NUMBER("1"))), "q_{1}^{(5)}",
+         "<msub><msup><mi>q</mi><mrow><mo>(</mo><mn>5</mn><mo>)</mo></mrow></msup><mrow><mn>1</mn></mrow></msub>");
+    says(PRIMES(2, NAME("f")), "f''", "<msup><mrow><mi>f</mi></mrow><mo>′′</mo></msup>");
+    says(PRIMES(4, NAME("f")), "f^{(4)}", "<msup><mrow><mi>f</mi></mrow><mo>(4)</mo></msup>");
+}
+
+static void
+brackets_have_shapes_and_sizes(void **state)
+{
+    (void)state;
+    says(SQUARE(NAME("a"), sign(QDOT_SIGN_COMMA), NAME("b")), "\\left[a, b\\right]",
+         "<mrow><mo>[</mo><mi>a</mi><mo>,</mo><mi>b</mi><mo>]</mo></mrow>");
+    says(BARS(NAME("a")), "\\left|a\\right|", "<mrow><mo>|</mo><mi>a</mi><mo>|</mo></mrow>");
+    says(FIXED(sign(QDOT_SIGN_NEGATIVE), NUMBER("2")), "(-2)",
+         "<mrow><mo>(</mo><mo>−</mo><mn>2</mn><mo>)</mo></mrow>");
+}
+
+static void
+tables_and_cases_have_cells(void **state)
+{
+    (void)state;
+    says(TABLE(2, NUMBER("1"), NUMBER("2"), NUMBER("3"), NUMBER("4")), "\\begin{pmatrix}1 & 2 \\\\ 3 & 4\\end{pmatrix}",
+         "<mrow><mo>(</mo><mtable><mtr><mtd><mn>1</mn></mtd><mtd><mn>2</mn></mtd></mtr><mtr><mtd><mn>3</mn></mtd><mtd>"
+         "<mn>4</mn></mtd></mtr></mtable><mo>)</mo></mrow>");
+    says(CASES(NAME("a"), NAME("b"), NAME("c")),
+         "\\begin{cases} a & \\text{if } b \\\\ c & \\text{otherwise} \\end{cases}",
+         "<mrow><mo>{</mo><mtable columnalign=\"left\"><mtr><mtd><mi>a</mi></mtd><mtd><mtext>if&#xA0;</mtext><mi>b</mi>"
+         "</mtd></mtr><mtr><mtd><mi>c</mi></mtd><mtd><mtext>otherwise</mtext></mtd></mtr></mtable></mrow>");
+    stands_in_a_line(TABLE(2, NUMBER("1"), NUMBER("2"), NUMBER("3"), NUMBER("4")), "[1, 2; 3, 4]", "[1, 2; 3, 4]");
+    stands_in_a_line(TABLE(2, NUMBER("1"), NUMBER("2")), "[1, 2;]", "[1, 2]");
+}
+
+static void
+a_line_has_slashes_and_superscripts(void **state)
+{
+    (void)state;
+    stands_in_a_line(SPAN(sign(QDOT_SIGN_NEGATIVE),
+                          OVER(NAME("a"), ROUND(NUMBER("2"), sign(QDOT_SIGN_TIMES), NAME("b")))),
+                     "-a/(2*b)", "−a/(2\u202Fb)");
+    stands_in_a_line(POWER(NAME("x"), ROUND(sign(QDOT_SIGN_NEGATIVE), NUMBER("2"))), "x^(-2)", "x^(−2)");
+    stands_in_a_line(POWER(NAME("x"), NUMBER("102")), "x^102", "x^102");
+    stands_in_a_line(node(QDOT_FORMULA_POWER, 0, QDOT_FORMULA_RAISED, NAME("x"), NUMBER("102"), END), NULL, "x¹⁰²");
+    stands_in_a_line(ROOT(NAME("x"), sign(QDOT_SIGN_PLUS), NUMBER("1")), "sqrt(x + 1)", "√(x + 1)");
+    stands_in_a_line(node(QDOT_FORMULA_ROOT, 0, QDOT_FORMULA_BARE, NUMBER("2"), END), NULL, "√2");
+    stands_in_a_line(APPLY(PRIMES(2, NAME("f")), ROUND(NAME("t"))), "f''(t)", "f′′(t)");
+    stands_in_a_line(PRIMES(12, NAME("f")), NULL, "f⁽¹²⁾");
+}
+
+static void
+memory_that_runs_out_is_told(void **state)
+{
+    const qdot_formula_id id = OVER(ROOT(NAME("θ")), INDEX(NAME("x"), ROW(NUMBER("1"))));
+    qdot_status (*const writers[])(const qdot_formula *, qdot_formula_id, qdot_text *) = {
+        qdot_formula_write_latex, qdot_formula_write_mathml};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++) {
+        qdot_status status = QDOT_ENOMEM;
+        long n;
+
+        for (n = 0; status != QDOT_OK; n++) {
+            qdot_text out = {0};
+
+            qdot_memory_fail_at(n);
+            status = writers[i](&f, id, &out);
+            qdot_memory_fail_at(-1);
+            assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
+            qdot_text_clear(&out);
+        }
+        assert_true(n > 2);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(texts_have_their_role),
+        TEST(fractions_roots_and_powers_are_drawn),
+        TEST(derivatives_have_dots_primes_and_orders),
+        TEST(brackets_have_shapes_and_sizes),
+        TEST(tables_and_cases_have_cells),
+        TEST(a_line_has_slashes_and_superscripts),
+        TEST(memory_that_runs_out_is_told),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
