@@ -229,7 +229,7 @@ qdot_definition_statement(assignment *a, const qdot_statement *row)
     const qdot_token *right = a->equals + 1;
     bool stated = s->lagrangian != QDOT_NIL;
 
-    if (row->run == NULL || a->name + 1 != a->equals) /* with arguments it is a function */
+    if (!qdot_statement_is_built(row) || a->name + 1 != a->equals) /* with arguments it is a function */
         return false;
     if ((stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0)) ||
         ((strcmp(word, "lagrangian") == 0 || strcmp(word, "hamiltonian") == 0) &&

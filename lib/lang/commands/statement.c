@@ -3,42 +3,43 @@
 
 #include <string.h>
 
-#define DECLARE "declaring a scene"
-#define ASK "asking"
-#define NUMBERS "numbers"
-#define WORKBENCH "workbench"
+#define DECLARE QDOT_DECLARING
+#define ASK QDOT_ASKING
+#define NUMBERS QDOT_NUMBERS
+#define WORKBENCH QDOT_WORKBENCH
 
-static const qdot_statement table[] = {
+static const qdot_statement *const table[] = {
 #define ROW(word, group, usage, summary, example, handler, alone)                        \
-    {word, group, usage, summary, example, handler, alone},
+    &(const qdot_statement){word, group, usage, summary, example, NULL, alone, NULL, handler},
 #define UNBUILT(word, group, usage, summary, example)                                    \
-    {word, group, usage, summary, example, NULL, false},
+    &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL, NULL},
+#define STATEMENT(word) &qdot_statement_##word,
 #include "lang/commands/statement.def"
 };
 
 bool
 qdot_statement_declares(const qdot_statement *row)
 {
-    return strcmp(row->group, DECLARE) == 0;
+    return strcmp(row->group, QDOT_DECLARING) == 0;
 }
 
 bool
 qdot_statement_asks(const qdot_statement *row)
 {
-    return strcmp(row->group, ASK) == 0;
+    return strcmp(row->group, QDOT_ASKING) == 0;
 }
 
 const qdot_statement *
 qdot_statement_at(size_t i)
 {
-    return i < sizeof table / sizeof *table ? &table[i] : NULL;
+    return i < sizeof table / sizeof *table ? table[i] : NULL;
 }
 
 const qdot_statement *
 qdot_statement_find(const char *word)
 {
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        if (strcmp(table[i].word, word) == 0)
-            return &table[i];
+        if (strcmp(table[i]->word, word) == 0)
+            return table[i];
     return NULL;
 }

@@ -1,23 +1,17 @@
 /* statement.h -- the table of statements of the language, for parsing, completion and help.
  *
- * A statement is a row of statement.def. Its handler gets a cursor after the statement's word,
- * reads its operands, checks that nothing is left (qdot_cursor_expect_end) and only then
- * acts, so that a statement that fails changes nothing. script.c handles a trailing `for` and
- * blocks: a handler sees each pass as a separate statement that ends before `for`.
+ * A statement has its row at the begin of its file (lang/syntax/row.h), and statement.def names it.
+ * Those that are not moved yet have their row there: such a handler gets a cursor after the
+ * statement's word, reads its operands, checks that nothing is left (qdot_cursor_expect_end) and
+ * only then acts. script.c handles a trailing `for` and blocks: a handler sees each pass as a
+ * separate statement that ends before `for`.
  *
  * Tests  tests/script/, tests/bad/, tests/lang/session/test_session.c
  */
 #ifndef QDOT_LANG_STATEMENT_H
 #define QDOT_LANG_STATEMENT_H
 
-#include "lang/language/cursor.h"
-
-typedef struct {
-    const char *word, *group;
-    const char *usage, *summary, *example;
-    qdot_status (*run)(qdot_cursor *c); /* NULL: not built yet */
-    bool alone; /* a value of the language that prints more if it is the whole statement */
-} qdot_statement;
+#include "lang/syntax/row.h"
 
 /* Row of a word, NULL if there is none; row i, NULL past the end. Rows of a group are
  * together. */
@@ -32,9 +26,11 @@ bool qdot_statement_asks(const qdot_statement *row);
 #define ROW(word, group, usage, summary, example, handler, alone)                        \
     qdot_status handler(qdot_cursor *c);
 #define UNBUILT(word, group, usage, summary, example)
+#define STATEMENT(word) extern const qdot_statement qdot_statement_##word;
 #include "lang/commands/statement.def"
 #undef ROW
 #undef UNBUILT
+#undef STATEMENT
 qdot_status qdot_declare_definition(qdot_cursor *c); /* NAME = EXPR, at the name */
 qdot_status qdot_ask_expression(qdot_cursor *c);     /* at its first token */
 

@@ -1,11 +1,11 @@
-/* read.c -- the readers of statements: an operand of a kind, parsed and evaluated. */
+/* read.c -- the readers of statements: an operand of a kind, parsed and evaluated, at once or apart. */
 #include "lang/language/read.h"
 
 #include <string.h>
 
 #include "base/memory.h"
-#include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
+#include "lang/language/compiled.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
@@ -13,60 +13,70 @@
 #include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 
+/* --- programs ------------------------------------------------------------------------ */
+
+qdot_status
+qdot_compiled_parse(qdot_cursor *c, qdot_parse_extent extent, qdot_compiled *program)
+{
+    qdot_status status;
+
+    *program = (qdot_compiled){.from = c->at};
+    status = qdot_parse(c, extent, &program->code);
+    program->to = c->at;
+    return status;
+}
+
+void
+qdot_compiled_free(qdot_compiled *program)
+{
+    qdot_free(program->code.list.at);
+    *program = (qdot_compiled){0};
+}
+
 /* What an expression may go along. */
 typedef enum { NOTHING, MOTION } course;
 
 /* Along a motion coordinates move: what a loop holds them at is where they start. */
 static qdot_status
-read_expression(qdot_cursor *c, qdot_parse_extent extent, course along, qdot_expr *value,
-                qdot_expr *over, const char **run)
+evaluate_program(qdot_cursor *c, const qdot_compiled *program, course along, qdot_expr *value,
+                 qdot_expr *over, const char **run)
 {
-    qdot_postfix_list program = {0};
-    qdot_status status = qdot_parse(c, extent, &program);
-
-    if (status == QDOT_OK)
-        status = qdot_evaluate(c, &program, value, over, run);
-    qdot_free(program.list.at);
-    if (status == QDOT_OK && c->session->declares) { /* a scene is declared in velocities, with exact numbers */
+    c->error_at = program->from->start;
+    QDOT_TRY(qdot_evaluate(c, &program->code, value, over, run));
+    if (c->session->declares) { /* a scene is declared in velocities, with exact numbers */
         *value = qdot_momenta_to_velocities(c->session, qdot_measured_as_rationals(c->session, *value));
-        status = qdot_value_kind_check(c->session->pool, *value);
-    } else if (status == QDOT_OK && c->session->held.n > 0) {
-        *value = along == MOTION ? qdot_held_parameters(c->session, *value)
-                                 : qdot_held_apply(c->session, *value);
-        status = qdot_value_kind_check(c->session->pool, *value);
+        return qdot_value_kind_check(c->session->pool, *value);
     }
-    return status;
+    if (c->session->held.n == 0)
+        return QDOT_OK;
+    *value = along == MOTION ? qdot_held_parameters(c->session, *value)
+                             : qdot_held_apply(c->session, *value);
+    return qdot_value_kind_check(c->session->pool, *value);
 }
 
 qdot_status
-qdot_read_value(qdot_cursor *c, qdot_expr *value)
+qdot_compiled_value(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value)
 {
-    return read_expression(c, QDOT_PARSE_VALUE, NOTHING, value, NULL, NULL);
+    return evaluate_program(c, program, NOTHING, value, NULL, NULL);
 }
 
 qdot_status
-qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
+qdot_compiled_named(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value, qdot_expr *over)
 {
-    return read_expression(c, QDOT_PARSE_VALUE, NOTHING, value, over, NULL);
+    return evaluate_program(c, program, NOTHING, value, over, NULL);
 }
 
 qdot_status
-qdot_read_side(qdot_cursor *c, qdot_expr *value)
+qdot_compiled_motion(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value)
 {
-    return read_expression(c, QDOT_PARSE_SIDE, NOTHING, value, NULL, NULL);
+    return evaluate_program(c, program, MOTION, value, NULL, NULL);
 }
 
 qdot_status
-qdot_read_motion(qdot_cursor *c, qdot_expr *value)
-{
-    return read_expression(c, QDOT_PARSE_SIDE, MOTION, value, NULL, NULL);
-}
-
-qdot_status
-qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
+qdot_compiled_member(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value, const char **run)
 {
     *run = NULL;
-    return read_expression(c, QDOT_PARSE_SIDE, MOTION, value, NULL, run);
+    return evaluate_program(c, program, MOTION, value, NULL, run);
 }
 
 /* Fail at `at`: a value of the wrong kind. */
@@ -96,23 +106,21 @@ refuse_member(qdot_cursor *c, const qdot_token *start, qdot_expr value)
 }
 
 qdot_status
-qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
+qdot_compiled_scalar(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value)
 {
-    const qdot_token *start = c->at;
-
-    QDOT_TRY(qdot_read_side(c, value));
+    QDOT_TRY(qdot_compiled_value(c, program, value));
     if (!is_number(c->session->pool, *value))
-        return wrong_kind(c, start, "a number", *value);
-    return refuse_member(c, start, *value);
+        return wrong_kind(c, program->from, "a number", *value);
+    return refuse_member(c, program->from, *value);
 }
 
 qdot_status
-qdot_read_point(qdot_cursor *c, qdot_expr *value)
+qdot_compiled_point(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value)
 {
-    const qdot_token *start = c->at;
+    const qdot_token *start = program->from;
     const qdot_pool *pool = c->session->pool;
 
-    QDOT_TRY(qdot_read_side(c, value));
+    QDOT_TRY(qdot_compiled_value(c, program, value));
     QDOT_TRY(refuse_member(c, start, *value));
     if (qdot_expr_kind(pool, *value) == QDOT_VEC) {
         if (qdot_expr_count(pool, *value) <= 3)
@@ -127,25 +135,118 @@ qdot_read_point(qdot_cursor *c, qdot_expr *value)
 }
 
 qdot_status
-qdot_read_number(qdot_cursor *c, double *value)
+qdot_compiled_number(qdot_cursor *c, const qdot_compiled *program, double *value)
 {
-    const qdot_token *start = c->at;
     qdot_expr e;
 
-    QDOT_TRY(qdot_read_scalar(c, &e));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_compiled_scalar(c, program, &e));
+    c->error_at = program->from->start;
     return qdot_session_number(c->session, e, value, NULL);
+}
+
+qdot_status
+qdot_compiled_integer(qdot_cursor *c, const qdot_compiled *program, long *value)
+{
+    qdot_expr e;
+
+    QDOT_TRY(qdot_compiled_scalar(c, program, &e));
+    c->error_at = program->from->start;
+    return qdot_session_integer(c->session, e, value);
+}
+
+/* --- parsed and evaluated at once ------------------------------------------------------ */
+
+typedef qdot_status (*compiled_reader)(qdot_cursor *c, const qdot_compiled *program, qdot_expr *value);
+
+static qdot_status
+read_by(qdot_cursor *c, qdot_parse_extent extent, compiled_reader reader, qdot_expr *value)
+{
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, extent, &program);
+
+    if (status == QDOT_OK)
+        status = reader(c, &program, value);
+    qdot_compiled_free(&program);
+    return status;
+}
+
+qdot_status
+qdot_read_value(qdot_cursor *c, qdot_expr *value)
+{
+    return read_by(c, QDOT_PARSE_VALUE, qdot_compiled_value, value);
+}
+
+qdot_status
+qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
+{
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_VALUE, &program);
+
+    if (status == QDOT_OK)
+        status = qdot_compiled_named(c, &program, value, over);
+    qdot_compiled_free(&program);
+    return status;
+}
+
+qdot_status
+qdot_read_side(qdot_cursor *c, qdot_expr *value)
+{
+    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_value, value);
+}
+
+qdot_status
+qdot_read_motion(qdot_cursor *c, qdot_expr *value)
+{
+    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_motion, value);
+}
+
+qdot_status
+qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
+{
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
+
+    *run = NULL;
+    if (status == QDOT_OK)
+        status = qdot_compiled_member(c, &program, value, run);
+    qdot_compiled_free(&program);
+    return status;
+}
+
+qdot_status
+qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
+{
+    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_scalar, value);
+}
+
+qdot_status
+qdot_read_point(qdot_cursor *c, qdot_expr *value)
+{
+    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_point, value);
+}
+
+qdot_status
+qdot_read_number(qdot_cursor *c, double *value)
+{
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
+
+    if (status == QDOT_OK)
+        status = qdot_compiled_number(c, &program, value);
+    qdot_compiled_free(&program);
+    return status;
 }
 
 qdot_status
 qdot_read_integer(qdot_cursor *c, long *value)
 {
-    const qdot_token *start = c->at;
-    qdot_expr e;
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
 
-    QDOT_TRY(qdot_read_scalar(c, &e));
-    c->error_at = start->start;
-    return qdot_session_integer(c->session, e, value);
+    if (status == QDOT_OK)
+        status = qdot_compiled_integer(c, &program, value);
+    qdot_compiled_free(&program);
+    return status;
 }
 
 qdot_status
@@ -201,22 +302,16 @@ qdot_read_name(qdot_cursor *c, const char **name)
 }
 
 qdot_status
-qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
+qdot_read_jet_of(qdot_cursor *c, const qdot_token *start, const char *name, uint32_t order,
+                 qdot_expr *jet)
 {
-    const qdot_token *start = c->at;
     qdot_pool *pool = c->session->pool;
-    const qdot_name *entry;
-    const char *name;
-    uint32_t order = 0;
+    const qdot_name *entry = qdot_names_find(c->session->names, name);
 
-    if (start->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "a coordinate");
-    QDOT_TRY(qdot_read_name(c, &name));
-    entry = qdot_names_find(c->session->names, name);
+    c->error_at = start->start;
     if (entry == NULL || !qdot_expr_is_coordinate(pool, entry->value)) {
         const char *near = entry == NULL ? qdot_hints_nearest(c->session, name) : name;
 
-        c->error_at = start->start;
         if (near == NULL || strcmp(near, name) != 0)
             return qdot_hints_unknown_coordinate(c, start, name);
         (void)qdot_fail(QDOT_ENAME, "`%.200s` is not a coordinate", name);
@@ -224,13 +319,23 @@ qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
                    ? qdot_hint("set %.200s = ...", name)
                    : QDOT_ENAME;
     }
-    *jet = entry->value;
+    *jet = order > 0 ? qdot_symbol_jet(pool, entry->value, order) : entry->value;
+    return qdot_value_kind_check(pool, *jet);
+}
+
+qdot_status
+qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
+{
+    const qdot_token *start = c->at;
+    const char *name;
+    uint32_t order = 0;
+
+    if (start->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, "a coordinate");
+    QDOT_TRY(qdot_read_name(c, &name));
     while (c->at->glued && qdot_cursor_accept_op(c, "'"))
         order++;
-    if (order > 0)
-        *jet = qdot_symbol_jet(pool, *jet, order);
-    c->error_at = start->start;
-    return qdot_value_kind_check(pool, *jet);
+    return qdot_read_jet_of(c, start, name, order, jet);
 }
 
 qdot_status

@@ -33,6 +33,9 @@ QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from,
 QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);
 /* name or name[...] followed by primes, of a declared coordinate: the jet symbol. */
 QDOT_MUST_CHECK qdot_status qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet);
+/* The jet of order `order` of the coordinate of that name, which stands at `start`. */
+QDOT_MUST_CHECK qdot_status qdot_read_jet_of(qdot_cursor *c, const qdot_token *start,
+                                             const char *name, uint32_t order, qdot_expr *jet);
 /* As qdot_read_side, of a motion: a coordinate that a loop holds stays itself. */
 QDOT_MUST_CHECK qdot_status qdot_read_motion(qdot_cursor *c, qdot_expr *value);
 /* The same, perhaps along a run, `a.theta` or `a.(expr)`: *run its label, else NULL. */

@@ -7,7 +7,7 @@
 #include "base/utf8.h"
 #include "lang/files/redirect.h"
 #include "lang/commands/statement.h"
-#include "lang/commands/usage.h"
+#include "lang/syntax/usage.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/session/labels.h"
@@ -148,7 +148,7 @@ offer_tables(completion *c, unsigned kinds)
         if (qdot_quantity_at(i)->example[0] != '\0')
             offer(c, qdot_quantity_at(i)->name);
     for (size_t i = 0; (kinds & STATEMENTS) != 0 && qdot_statement_at(i) != NULL; i++)
-        if (qdot_statement_at(i)->run != NULL)
+        if (qdot_statement_is_built(qdot_statement_at(i)))
             offer(c, qdot_statement_at(i)->word);
     for (size_t i = 0; (kinds & METHODS) != 0 && qdot_ode_method_at(i) != NULL; i++)
         offer(c, qdot_ode_method_at(i)->name);
@@ -244,72 +244,16 @@ complete_argument(completion *c, const qdot_token *first, const qdot_token *open
 
 /* --- within a statement ---------------------------------------------------------------- */
 
-/* What the holes of usage texts take: the row of that statement, last word before and hole. NULL,
- * or an entry left out, is any. */
-static const struct {
-    const char *statement, *before, *hole;
-    unsigned kinds;
-} holes[] = {
-    {"set", NULL, "NAME", PARAMETERS},
-    {"set", NULL, "F(ARGUMENTS)", FUNCTIONS},
-    {NULL, "with", "NAME", PARAMETERS | COORDINATES},
-    {NULL, "then", "NAME", PARAMETERS | COORDINATES},
-    {NULL, "vs", "NAME", PARAMETERS | COORDINATES},
-    {"sweep", "sweep", "NAME", PARAMETERS | COORDINATES},
-    {"fit", "fit", "NAME", PARAMETERS | COORDINATES},
-    {NULL, "method", "NAME", METHODS},
-    {"show", NULL, "NAME", NAMES | LABELS | RUNS},
-    {"remove", NULL, "NAME", LABELS},
-    {"remove", NULL, "KIND", KINDS},
-    {NULL, NULL, "NAME", NOTHING}, /* a new one */
-    {NULL, NULL, "LABEL", CONSTRAINTS},
-    {NULL, NULL, "Q", COORDINATES},
-    {NULL, NULL, "Q'", COORDINATES},
-    {NULL, NULL, "COORDINATE", COORDINATES},
-    {NULL, NULL, "PARTICLE", PARTICLES},
-    {NULL, NULL, "BODY", BODIES},
-    {NULL, NULL, "RUN", RUNS},
-    {NULL, NULL, "WORD", STATEMENTS | BUILTINS | QUANTITIES | METHODS},
-    {NULL, "between", NULL, PARTICLES | BODIES | DEFINED},
-    {NULL, NULL, "EQUILIBRIUM", QUANTITIES},
-    {NULL, NULL, "LO", NOTHING},
-    {NULL, NULL, "HI", CONSTANT},
-    {NULL, NULL, "VALUE", CONSTANT},
-    {NULL, "tol", "E", CONSTANT},
-    {NULL, "mass", "M", CONSTANT},
-    {NULL, NULL, "T0..T1", CONSTANT},
-    {NULL, NULL, "DT", CONSTANT},
-    {NULL, NULL, "N", NOTHING},
-    {NULL, NULL, "K", NOTHING},
-    {NULL, NULL, "W", NOTHING},
-    {NULL, NULL, "H", NOTHING},
-    {NULL, NULL, "TEXT", NOTHING},
-    {NULL, NULL, "0", NOTHING},
-    {NULL, NULL, "...", NOTHING},
+/* What the holes of usage texts take. */
+#define HOLE(statement, before, text, class, expected, kinds) kinds,
+static const unsigned hole_kinds[] = {
+#include "lang/syntax/holes.def"
 };
-
-static bool
-fits(const char *row, const char *text)
-{
-    return row == NULL || strcmp(row, text) == 0;
-}
-
-static unsigned
-hole_kinds(const char *statement, const qdot_usage_node *hole)
-{
-    /* values and their kin stand beside the quoted texts of `print` */
-    if (hole->text[0] == '"')
-        return NOTHING;
-    for (size_t i = 0; i < sizeof holes / sizeof *holes; i++)
-        if (fits(holes[i].statement, statement) && fits(holes[i].before, hole->before) &&
-            fits(holes[i].hole, hole->text))
-            return holes[i].kinds;
-    return EXPRESSION;
-}
+#undef HOLE
 
 /* What the usage says may stand at the end of what was read. */
 static void
-offer_usage(completion *c, const char *statement, const qdot_usage *u)
+offer_usage(completion *c, const qdot_usage *u)
 {
     unsigned kinds = 0;
 
@@ -319,7 +263,7 @@ offer_usage(completion *c, const char *statement, const qdot_usage *u)
         if (node->kind == QDOT_USAGE_WORD && !u->state[i].inside)
             offer(c, node->text);
         else if (node->kind == QDOT_USAGE_HOLE && !u->state[i].inside)
-            kinds |= hole_kinds(statement, node);
+            kinds |= hole_kinds[node->hole];
         else if (node->kind == QDOT_USAGE_HOLE && !u->operand)
             kinds |= EXPRESSION;
     }
@@ -342,13 +286,13 @@ complete_statement(completion *c, const qdot_token *first, const qdot_token *end
     if (row != NULL &&
         qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row))) {
         qdot_usage_read(&u, first, end);
-        offer_usage(c, row->word, &u);
+        offer_usage(c, &u);
     }
     if ((row == NULL || row->alone ||
          (end > first + 1 && qdot_token_is(first + 1, "="))) &&
         qdot_usage_begin(&u, "", "EXPR | NAME = EXPR", true)) {
         qdot_usage_read(&u, first, end);
-        offer_usage(c, "", &u);
+        offer_usage(c, &u);
     }
 }
 

@@ -1,6 +1,6 @@
 /* complete.h -- completions at a place of a text, for the prompt.
  *
- * What may stand there and no more: within a statement by its usage (commands/usage.h), within
+ * What may stand there and no more: within a statement by its usage (syntax/usage.h), within
  * `NAME[` by what its entries go by, elsewhere in brackets the words of an expression.
  *
  * Tests  tests/lang/workbench/test_complete.c

@@ -53,7 +53,7 @@ overview(qdot_text *text, size_t width)
     running values = {.width = width, .column = 1}, functions = values;
 
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++) {
-        if (row->run == NULL)
+        if (!qdot_statement_is_built(row))
             continue;
         if (strcmp(group, row->group) != 0)
             qdot_text_format(text, "%s%s\n", i > 0 ? "\n" : "", row->group);
@@ -116,7 +116,7 @@ look_up_option(qdot_text *text, const char *word)
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++)
         if (qdot_has_word(row->usage, word)) {
             explain(text, row->usage, row->summary, row->example);
-            if (row->run == NULL)
+            if (!qdot_statement_is_built(row))
                 qdot_text_add(text, "    not built yet\n");
         }
 }
@@ -132,7 +132,7 @@ look_up(qdot_text *text, const char *word)
 
     if (statement != NULL) {
         explain(text, statement->usage, statement->summary, statement->example);
-        if (statement->run == NULL)
+        if (!qdot_statement_is_built(statement))
             qdot_text_add(text, "    not built yet\n");
     }
     if (quantity != NULL) {

@@ -5,7 +5,7 @@
 
 #include "base/utf8.h"
 #include "lang/commands/statement.h"
-#include "lang/commands/usage.h"
+#include "lang/syntax/usage.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
 #include "lang/source/source.h"

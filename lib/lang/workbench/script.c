@@ -26,6 +26,7 @@
 #include "lang/session/held.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
+#include "lang/syntax/match.h"
 
 enum { FEW = 5 }; /* tokens at the begin of a statement */
 
@@ -42,6 +43,7 @@ typedef struct {
     size_t n;
     uint32_t *match; /* of each `{` its `}`; NULL where the source has no block */
     qdot_vec(frame) frames;
+    qdot_vec(qdot_usage *) usages; /* of the statements met so far */
     size_t error_at;
 } engine;
 
@@ -88,14 +90,56 @@ is_unknown_word(const qdot_session *session, const qdot_token *name)
            !qdot_token_is_word(name, "not") && !qdot_cursor_knows(session, name->text);
 }
 
+/* The compiled usage of the row; NULL: there is no memory. */
+static const qdot_usage *
+find_usage(engine *x, const qdot_statement *row)
+{
+    qdot_usage *usage;
+
+    for (size_t i = 0; i < x->usages.n; i++)
+        if (strcmp(x->usages.at[i]->word, row->word) == 0)
+            return x->usages.at[i];
+    usage = qdot_malloc(sizeof *usage);
+    if (usage == NULL || !qdot_usage_compile(usage, row->word, row->usage) ||
+        qdot_vec_push(&x->usages, usage) != QDOT_OK) {
+        qdot_free(usage);
+        return NULL;
+    }
+    return usage;
+}
+
+/* The statement at the cursor, read by its usage. */
 static qdot_status
-carry_out_row(qdot_cursor *c, const qdot_statement *row)
+carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
+{
+    const qdot_usage *usage = find_usage(x, row);
+    qdot_record record;
+    qdot_status status;
+
+    if (usage == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_match(c, row, usage, &record);
+    if (status == QDOT_OK)
+        status = row->handler(&record);
+    c->at = record.cursor.at;
+    c->error_at = record.cursor.error_at;
+    qdot_record_free(&record);
+    return status;
+}
+
+static qdot_status
+carry_out_row(engine *x, qdot_cursor *c, const qdot_statement *row)
 {
     qdot_status status;
 
     c->session->declares = qdot_statement_declares(row);
     qdot_short_names_forget(c->session);
-    status = row->run(c);
+    if (row->handler != NULL) {
+        status = carry_out_record(x, c, row);
+    } else {
+        c->at++;
+        status = row->run(c);
+    }
     if (c->session->declares)
         status = qdot_short_names_tell(c->session, status);
     c->session->declares = false;
@@ -103,7 +147,7 @@ carry_out_row(qdot_cursor *c, const qdot_statement *row)
 }
 
 static qdot_status
-dispatch(qdot_cursor *c)
+dispatch(engine *x, qdot_cursor *c)
 {
     const qdot_form form = qdot_statement_form(c->session, c->at);
 
@@ -112,12 +156,11 @@ dispatch(qdot_cursor *c)
     } else if (form == QDOT_FORM_WORD) {
         const qdot_statement *row = qdot_statement_find(c->at->text);
 
-        if (row->run == NULL) {
+        if (!qdot_statement_is_built(row)) {
             c->error_at = c->at->start;
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
         }
-        c->at++;
-        QDOT_TRY(carry_out_row(c, row));
+        QDOT_TRY(carry_out_row(x, c, row));
     } else if (is_unknown_word(c->session, c->at)) {
         return unknown_word(c);
     } else if (form == QDOT_FORM_COMPARISON) {
@@ -145,19 +188,19 @@ asks(const qdot_session *session, const qdot_token *first)
 
 /* One pass of a loop that may hold parameters and coordinates. */
 static qdot_status
-dispatch_held(qdot_cursor *c)
+dispatch_held(engine *x, qdot_cursor *c)
 {
     qdot_session *session = c->session;
     qdot_scene_saved kept = {0};
     qdot_status status = QDOT_OK;
 
     if (session->held.n == 0 || !asks(session, c->at))
-        return dispatch(c);
+        return dispatch(x, c);
     status = qdot_held_check(session);
     if (status == QDOT_OK)
         status = qdot_held_scene_begin(session, &kept);
     if (status == QDOT_OK)
-        status = dispatch(c);
+        status = dispatch(x, c);
     qdot_held_scene_end(session, &kept);
     return status;
 }
@@ -187,7 +230,7 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
     c->error_at = x->tokens[to + 1].start;
     QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
     x->tokens[to].kind = QDOT_TOKEN_END;
-    status = dispatch_held(c);
+    status = dispatch_held(x, c);
     x->tokens[to].kind = QDOT_TOKEN_NAME;
     if (status == QDOT_OK)
         c->error_at = x->tokens[to + 1].start;
@@ -221,7 +264,7 @@ statement(engine *x, size_t i)
 
     (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
     if (status == QDOT_OK)
-        status = to == NULL ? dispatch_held(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
+        status = to == NULL ? dispatch_held(x, &c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     qdot_progress_clear();
     if (status == QDOT_OK)
         status = qdot_sheet_flush(x->session);
@@ -614,6 +657,9 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
         qdot_answer_error(session, x.source, x.error_at);
     if (status == QDOT_EINTR)
         qdot_interrupt_clear();
+    for (size_t i = 0; i < x.usages.n; i++)
+        qdot_free(x.usages.at[i]);
+    qdot_free(x.usages.at);
     qdot_free(x.frames.at);
     qdot_free(x.match);
     qdot_source_free(x.source);

@@ -74,7 +74,7 @@ look_at_all(search *s)
     const qdot_builtin *builtin;
 
     for (size_t i = 0; (statement = qdot_statement_at(i)) != NULL; i++)
-        if (statement->run != NULL && qdot_quantity_find(statement->word) == NULL)
+        if (qdot_statement_is_built(statement) && qdot_quantity_find(statement->word) == NULL)
             search_look(s, statement->word, statement->usage, statement->summary,
                         statement->example);
     for (size_t i = 0; (quantity = qdot_quantity_at(i)) != NULL; i++)

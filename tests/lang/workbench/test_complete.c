@@ -5,7 +5,7 @@
 #include "lang/workbench/complete.h"
 #include "lang/files/redirect.h"
 #include "lang/commands/statement.h"
-#include "lang/commands/usage.h"
+#include "lang/syntax/usage.h"
 #include "lang/source/source.h"
 
 static const char scene[] =

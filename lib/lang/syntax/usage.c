@@ -1,7 +1,9 @@
 /* usage.c -- what may stand next in a statement, by the usage text of its row. */
-#include "lang/commands/usage.h"
+#include "lang/syntax/usage.h"
 
 #include <ctype.h>
+
+#include "lang/syntax/holes.h"
 
 /* --- the tokens of a usage text ------------------------------------------------------ */
 
@@ -21,6 +23,8 @@ typedef struct {
     int n;
     char before[QDOT_USAGE_TEXT]; /* the last word compiled */
     unsigned options;
+    int depth;          /* of brackets around what is compiled */
+    int tail, tail_end; /* the alternatives that end what is compiled; equal: none */
     bool failed;
 } compiler;
 
@@ -72,7 +76,7 @@ next_piece(compiler *c, const char *at, bool blank)
         add_piece(c, HOLE, at, (size_t)(end - at));
     } else if (*at == '(' && strchr(end, ')') != NULL) {
         end = strchr(end, ')') + 1;
-        add_piece(c, HOLE, "(...)", 5);
+        add_piece(c, HOLE, at, (size_t)(end - at));
     } else if (isdigit((unsigned char)*at)) {
         add_piece(c, HOLE, at, 1);
     } else if (*at == '[' || *at == ']') {
@@ -104,6 +108,7 @@ emit(compiler *c, int kind, const char *text)
     node->kind = kind;
     strcpy(node->text, text);
     strcpy(node->before, c->before);
+    node->hole = kind == QDOT_USAGE_HOLE ? qdot_hole_find(c->word, c->before, text) : -1;
     return u->n++;
 }
 
@@ -164,31 +169,119 @@ compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separato
     lead_to_end(c, start, last);
 }
 
-/* A run of options [a] [b] [c], each at most once, in any order; returns what is behind it. */
+/* What may come in any order: options and clauses. */
+enum { MEMBERS = 24 };
+typedef struct {
+    struct {
+        int from, to;   /* its pieces */
+        int first;      /* of alternatives of which one must be there; -1: an option */
+    } at[MEMBERS];
+    int n;
+} members;
+
+static void
+add_member(compiler *c, members *m, int from, int to, int first)
+{
+    if (m->n >= MEMBERS) {
+        c->failed = true;
+        return;
+    }
+    m->at[m->n].from = from;
+    m->at[m->n].to = to;
+    m->at[m->n++].first = first;
+}
+
+/* Options [a] [b] [c]; returns what is behind them. */
 static int
-compile_options(compiler *c, int i, int to)
+gather_options(compiler *c, int i, int to, members *m)
+{
+    int k;
+
+    for (; i < to && c->piece[i].kind == OPEN; i = k) {
+        k = behind_group(c, i, to);
+        add_member(c, m, i + 1, k - 1, -1);
+    }
+    return i;
+}
+
+/* Whether a clause `word HOLE` begins at i, no alternative of it. */
+static bool
+is_clause(const compiler *c, int i, int to)
+{
+    return i + 1 < to && c->piece[i].kind == WORD && c->piece[i + 1].kind == HOLE &&
+           strcmp(c->piece[i].text, c->word) != 0;
+}
+
+/* Clauses from i on, with the options among them; i: there are less than two. */
+static int
+gather_clauses(compiler *c, int i, int to, members *m)
+{
+    const int start = i;
+    int clauses = 0, k;
+
+    while (i < to) {
+        if (c->piece[i].kind == OPEN) {
+            i = gather_options(c, i, to, m);
+            continue;
+        }
+        if (!is_clause(c, i, to))
+            break;
+        for (k = i + 1; k < to && c->piece[k].kind != WORD && c->piece[k].kind != OPEN; k++)
+            if (c->piece[k].kind != HOLE && strcmp(c->piece[k].text, ",") != 0)
+                return start;
+        add_member(c, m, i, k, m->n);
+        clauses++;
+        i = k;
+    }
+    return clauses < 2 ? start : i;
+}
+
+/* The alternatives that end the clauses, [a|b|c). */
+static void
+gather_tail(compiler *c, members *m)
+{
+    const int first = m->n;
+
+    for (int i = c->tail; i < c->tail_end;) {
+        const int end = piece_find(c, i, c->tail_end, BAR, NULL);
+
+        add_member(c, m, i, end, first);
+        i = end + 1;
+    }
+    c->tail = c->tail_end;
+}
+
+/* The members, each at most once, in any order. */
+static void
+compile_members(compiler *c, const members *m)
 {
     const int start = c->u->n;
     char before[QDOT_USAGE_TEXT];
-    int n = 0, k;
 
-    for (k = i; k < to && c->piece[k].kind == OPEN; k = behind_group(c, k, to), n++)
-        (void)emit(c, QDOT_USAGE_FORK, "");
-    (void)emit(c, QDOT_USAGE_FORK, ""); /* to the end */
+    for (int k = 0; k <= m->n; k++)
+        (void)emit(c, QDOT_USAGE_FORK, ""); /* the last to the end */
     strcpy(before, c->before);
-    for (int option = start; option < start + n; option++, i = k) {
-        k = behind_group(c, i, to);
-        c->u->node[option].next = c->u->n;
-        c->u->node[option].other = option + 1;
-        c->u->node[option].enters = (uint64_t)1 << (c->options++ & 63);
+    for (int k = 0; k < m->n && !c->failed; k++) {
+        const uint64_t own = (uint64_t)1 << (c->options++ & 63);
+
+        c->u->node[start + k].next = c->u->n;
+        c->u->node[start + k].other = start + k + 1;
+        c->u->node[start + k].enters = own;
+        for (int i = m->at[k].first; i >= 0 && i < m->n; i++)
+            if (m->at[i].first == m->at[k].first)
+                c->u->node[start + i].needs |= own;
+        for (int i = 0; i < k && m->at[k].first >= 0; i++)
+            if (m->at[i].first < 0)
+                c->u->node[start + i].later |= own;
         strcpy(c->before, before);
-        compile(c, i + 1, k - 1);
+        c->depth++;
+        compile(c, m->at[k].from, m->at[k].to);
+        c->depth--;
         c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = start;
     }
-    c->u->node[start + n].next = c->u->n;
+    c->u->node[start + m->n].next = c->u->n;
     strcpy(c->before, before);
     c->failed = c->failed || c->options > 64;
-    return i;
 }
 
 /* The list X, Y, ... of the pieces [from, comma), which end before the last comma. */
@@ -249,9 +342,15 @@ compile_sequence(compiler *c, int i, int to)
     while (i < to && !c->failed) {
         const piece *p = &c->piece[i];
         const int comma = p->kind == HOLE ? end_of_list(c, i, to) : i;
-        int fork;
+        members m = {.n = 0};
+        int fork, behind = p->kind == WORD && c->depth == 0 ? gather_clauses(c, i, to, &m) : i;
 
-        if (comma > i) {
+        if (behind > i) {
+            if (behind == to)
+                gather_tail(c, &m);
+            compile_members(c, &m);
+            i = behind;
+        } else if (comma > i) {
             compile_list(c, i, comma);
             i = comma + 2;
         } else if (p->kind == WORD && i + 1 < to && c->piece[i + 1].kind == MORE &&
@@ -265,7 +364,9 @@ compile_sequence(compiler *c, int i, int to)
                    (p->kind == HOLE && i + 1 < to && c->piece[i + 1].kind == TIGHT)) {
             i = compile_words(c, i, to);
         } else if (p->kind == OPEN) {
-            i = compile_options(c, i, to);
+            m.n = 0;
+            i = gather_options(c, i, to, &m);
+            compile_members(c, &m);
         } else if (p->kind == SIGN) {
             (void)emit(c, QDOT_USAGE_SIGN, p->text);
             i++;
@@ -276,9 +377,12 @@ compile_sequence(compiler *c, int i, int to)
             c->u->node[fork].other = c->u->n;
             i++;
         } else if (p->kind == HOLE) {
-            (void)emit(c, QDOT_USAGE_HOLE, p->text);
+            const int hole = emit(c, QDOT_USAGE_HOLE, p->text);
+
             i++;
-            if (i + 1 < to && strcmp(c->piece[i].text, "==") == 0)
+            if (i + 1 < to && (strcmp(c->piece[i].text, "==") == 0 ||
+                               (strcmp(c->piece[i].text, "=") == 0 &&
+                                qdot_hole_at(c->u->node[hole].hole)->class == QDOT_HOLE_EQUATION)))
                 i += 2;
         } else {
             c->failed = true;
@@ -299,8 +403,13 @@ compile_tail(compiler *c, int from, int to)
     if (bar == to) {
         compile_sequence(c, from, to);
     } else if (last > from) {
+        c->tail = last;
+        c->tail_end = to;
         compile_sequence(c, from, last);
-        compile_cut(c, last, to, BAR, NULL);
+        last = c->tail;
+        c->tail = c->tail_end = 0;
+        if (last < to)
+            compile_cut(c, last, to, BAR, NULL);
     } else {
         compile_cut(c, from, to, BAR, NULL);
     }
@@ -359,12 +468,35 @@ add_state(qdot_usage *u, int node, bool inside, uint64_t taken)
         if (u->operand)
             add_state(u, at->next, false, taken);
     } else if (at->kind == QDOT_USAGE_FORK) {
+        const bool missing = at->needs != 0 && (taken & at->needs) == 0;
+
         taken &= ~at->forgets;
-        if ((taken & at->enters) == 0)
+        if ((taken & (at->enters | at->needs | at->later)) == 0)
             add_state(u, at->next, false, taken | at->enters);
-        if (at->other >= 0)
+        if (at->other >= 0 && !(missing && u->node[at->other].needs != at->needs))
             add_state(u, at->other, false, taken);
     }
+}
+
+static void
+compile_usage(compiler *c, const char *usage)
+{
+    c->u->n = c->u->states = 0;
+    c->u->word = c->word;
+    c->u->operand = false;
+    cut_into_pieces(c, usage);
+    if (!c->failed)
+        compile(c, 0, c->n);
+}
+
+bool
+qdot_usage_compile(qdot_usage *u, const char *word, const char *usage)
+{
+    compiler c = {.u = u, .word = word};
+
+    compile_usage(&c, usage);
+    (void)emit(&c, QDOT_USAGE_END, "");
+    return !c.failed;
 }
 
 bool
@@ -372,11 +504,7 @@ qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answer
 {
     compiler c = {.u = u, .word = word};
 
-    u->n = u->states = 0;
-    u->operand = false;
-    cut_into_pieces(&c, usage);
-    if (!c.failed)
-        compile(&c, 0, c.n);
+    compile_usage(&c, usage);
     cut_into_pieces(&c, answers ? "[to \"FILE\"] [for NAME = A..B, NAME = A..B, ...]"
                                 : "[for NAME = A..B, NAME = A..B, ...]");
     if (!c.failed)

@@ -10,8 +10,13 @@
  *                   with the statement's word replaces the usage from the last word before the
  *                   first bar: `force F on PARTICLE | at POINT`
  *     X, Y, ...     a list, of X and Y in any order
+ *     (X, Y)        as many expressions, in brackets
  *     [| run ...]   the sign, behind which the statement begins again
  *     , : = < > ==  themselves; around `==` the two sides are read as one expression
+ *
+ * Two or more clauses `word HOLE` outside of brackets may come in any order too, with the options
+ * among them: `particle NAME mass M at R`. Each must be there; of alternatives that end them,
+ * `angle A | rotation MATRIX`, one. TAB offers them as they are written.
  *
  * Every statement may go on with `for NAME = A..B`, and one that answers with `to "FILE"`.
  *
@@ -39,7 +44,10 @@ typedef struct {
     } kind;
     char text[QDOT_USAGE_TEXT], before[QDOT_USAGE_TEXT];
     int next, other;  /* nodes; other < 0 but for a FORK: none */
+    int hole;         /* HOLE: its row of holes.def */
     uint64_t enters;  /* FORK: the option that `next` begins; it may be taken once */
+    uint64_t needs;   /* FORK of a clause: the clauses of which one must be there */
+    uint64_t later;   /* FORK of an option among clauses: the clauses written behind it */
     uint64_t forgets; /* FORK: the options of an item of a list, which begins anew */
 } qdot_usage_node;
 
@@ -51,6 +59,7 @@ typedef struct {
 } qdot_usage_state;
 
 typedef struct {
+    const char *word; /* the statement's */
     qdot_usage_node node[QDOT_USAGE_NODES];
     int n;
     qdot_usage_state state[QDOT_USAGE_STATES]; /* what the tokens so far allow */
@@ -61,6 +70,8 @@ typedef struct {
 /* Compile; `word` is the statement's, "" where the usage has none. answers: `to "FILE"` may follow.
  * false: too large, or no usage text; nothing may be asked then. */
 bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers);
+/* Compile without what may follow any statement. */
+bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage);
 
 /* Go on by the tokens [from, to) of the statement, the first its word. Those within brackets that are closed go with the opening one. */
 void qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to);

@@ -1,0 +1,18 @@
+/* dissipation.c -- `dissipation`: a term of the Rayleigh function. */
+#include "lang/commands/statement.h"
+#include "lang/declare/objects.h"
+
+static qdot_status
+dissipation_declare(qdot_record *r)
+{
+    return qdot_object_term(r, qdot_record_hole(r, NULL, "D"), QDOT_DISSIPATION);
+}
+
+const qdot_statement qdot_statement_dissipation = {
+    .word = "dissipation",
+    .group = QDOT_DECLARING,
+    .usage = "dissipation [NAME:] D",
+    .summary = "a term of the Rayleigh function: Q has -dD/dq'",
+    .example = "dissipation c*theta'^2/2",
+    .handler = dissipation_declare,
+};

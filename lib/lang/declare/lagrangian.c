@@ -1,0 +1,24 @@
+/* lagrangian.c -- `lagrangian`: the Lagrangian itself. */
+#include "lang/commands/statement.h"
+#include "lang/syntax/record.h"
+
+static qdot_status lagrangian_declare(qdot_record *r);
+
+const qdot_statement qdot_statement_lagrangian = {
+    .word = "lagrangian",
+    .group = QDOT_DECLARING,
+    .usage = "lagrangian L",
+    .summary = "state the Lagrangian itself, in place of particles and bodies",
+    .example = "lagrangian m*x'^2/2 - k*x^2/2",
+    .handler = lagrangian_declare,
+};
+
+static qdot_status
+lagrangian_declare(qdot_record *r)
+{
+    qdot_expr L;
+
+    QDOT_TRY(qdot_record_scalar(r, qdot_record_hole(r, NULL, "L"), &L));
+    r->cursor.error_at = r->start->start;
+    return qdot_scene_lagrangian(r->cursor.session->scene, L);
+}

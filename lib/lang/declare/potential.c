@@ -1,0 +1,18 @@
+/* potential.c -- `potential`: a term of the potential energy. */
+#include "lang/commands/statement.h"
+#include "lang/declare/objects.h"
+
+static qdot_status
+potential_declare(qdot_record *r)
+{
+    return qdot_object_term(r, qdot_record_hole(r, NULL, "V"), QDOT_POTENTIAL);
+}
+
+const qdot_statement qdot_statement_potential = {
+    .word = "potential",
+    .group = QDOT_DECLARING,
+    .usage = "potential [NAME:] V",
+    .summary = "a term of the potential energy",
+    .example = "potential k*r^2/2",
+    .handler = potential_declare,
+};

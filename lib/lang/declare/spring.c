@@ -1,0 +1,35 @@
+/* spring.c -- `spring`: K/2 (d - L)^2 between two places. */
+#include "lang/commands/statement.h"
+#include "lang/commands/value-check.h"
+#include "lang/commands/warnings.h"
+#include "lang/declare/objects.h"
+
+static qdot_status spring_declare(qdot_record *r);
+
+const qdot_statement qdot_statement_spring = {
+    .word = "spring",
+    .group = QDOT_DECLARING,
+    .usage = "spring [NAME] between A, B stiffness K [rest L]",
+    .form = "spring NAME between A, B stiffness K rest L",
+    .summary = "V = K/2 (d - L)^2, d the distance of A and B (particles, points, vectors)",
+    .example = "spring s1 between bob, (0, 0) stiffness k rest L0",
+    .handler = spring_declare,
+};
+
+static qdot_status
+spring_declare(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    const qdot_filled *rest = qdot_record_hole(r, "rest", NULL);
+    qdot_link link = {.rest = QDOT_ZERO};
+
+    QDOT_TRY(qdot_object_ends(r, &link));
+    QDOT_TRY(qdot_record_scalar(r, qdot_record_hole(r, "stiffness", NULL), &link.stiffness));
+    if (rest != NULL) {
+        QDOT_TRY(qdot_record_scalar(r, rest, &link.rest));
+        QDOT_TRY(qdot_value_check_rest(session, link.name, link.rest));
+    }
+    r->cursor.error_at = r->start->start;
+    QDOT_TRY(qdot_scene_spring(session->scene, &link));
+    return qdot_warnings_twice(session, QDOT_SPRING);
+}

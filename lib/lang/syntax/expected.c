@@ -1,0 +1,117 @@
+/* expected.c -- what to say of a token that does not fit. */
+#include "lang/syntax/expected.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "lang/syntax/holes.h"
+
+static const struct {
+    const char *statement, *before, *what, *hint;
+} rows[] = {
+#define EXPECTED(statement, before, what, hint) {statement, before, what, hint},
+#include "lang/syntax/expected.def"
+};
+#undef EXPECTED
+
+/* Add the nodes that may come first at `node`. */
+static void
+expected_collect(qdot_expected *list, int node, bool taken)
+{
+    const qdot_usage_node *at = &list->usage->node[node];
+
+    if (at->kind == QDOT_USAGE_FORK) {
+        expected_collect(list, at->next, taken);
+        if (at->other >= 0)
+            expected_collect(list, at->other, taken);
+        return;
+    }
+    list->hole = list->hole || at->kind == QDOT_USAGE_HOLE;
+    list->given = list->given || (taken && at->kind == QDOT_USAGE_WORD &&
+                                  qdot_token_is_word(list->token, at->text));
+    for (int i = 0; i < list->n; i++)
+        if (list->node[i] == node)
+            return;
+    if (list->n < QDOT_EXPECTED_NODES)
+        list->node[list->n++] = node;
+}
+
+void
+qdot_expected_add(qdot_expected *list, int node, uint64_t taken)
+{
+    const qdot_usage_node *at = &list->usage->node[node];
+
+    if (at->kind != QDOT_USAGE_FORK)
+        expected_collect(list, node, false);
+    else if ((taken & at->enters) != 0)
+        expected_collect(list, at->next, true);
+}
+
+/* The first node of that kind, by the order of the usage; NULL: none. */
+static const qdot_usage_node *
+expected_first(const qdot_expected *list, int kind)
+{
+    int first = -1;
+
+    for (int i = 0; i < list->n; i++)
+        if ((int)list->usage->node[list->node[i]].kind == kind &&
+            (first < 0 || list->node[i] < first))
+            first = list->node[i];
+    return first >= 0 ? &list->usage->node[first] : NULL;
+}
+
+/* Whether a node that is listed before has the word too. */
+static bool
+is_said(const qdot_expected *list, int node)
+{
+    for (int i = 0; i < list->n; i++)
+        if (list->node[i] < node &&
+            list->usage->node[list->node[i]].kind == QDOT_USAGE_WORD &&
+            strcmp(list->usage->node[list->node[i]].text, list->usage->node[node].text) == 0)
+            return true;
+    return false;
+}
+
+/* `a`, `b` or `c`, in the order of the usage. */
+static void
+list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
+{
+    const char *word[QDOT_EXPECTED_NODES];
+    int n = 0;
+    size_t length = 0;
+
+    for (int node = 0; node < list->usage->n; node++)
+        for (int i = 0; i < list->n; i++)
+            if (list->node[i] == node && list->usage->node[node].kind == QDOT_USAGE_WORD &&
+                !is_said(list, node))
+                word[n++] = list->usage->node[node].text;
+    for (int i = 0; i < n && length < QDOT_EXPECTED_TEXT; i++)
+        length += (size_t)snprintf(what + length, QDOT_EXPECTED_TEXT - length, "%s`%s`",
+                                   i == 0 ? "" : i + 1 < n ? ", " : " or ", word[i]);
+}
+
+const char *
+qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
+{
+    const qdot_usage_node *word = expected_first(list, QDOT_USAGE_WORD),
+                          *sign = expected_first(list, QDOT_USAGE_SIGN),
+                          *hole = expected_first(list, QDOT_USAGE_HOLE);
+
+    if (word != NULL)
+        for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+            if (strcmp(rows[i].statement, list->usage->word) == 0 &&
+                strcmp(rows[i].before, word->before) == 0) {
+                snprintf(what, QDOT_EXPECTED_TEXT, "%s", rows[i].what);
+                return rows[i].hint;
+            }
+    if (word != NULL)
+        list_words(list, what);
+    else if (expected_first(list, QDOT_USAGE_END) != NULL)
+        snprintf(what, QDOT_EXPECTED_TEXT, "the end of the statement");
+    else if (sign != NULL)
+        snprintf(what, QDOT_EXPECTED_TEXT, "`%s`", sign->text);
+    else
+        snprintf(what, QDOT_EXPECTED_TEXT, "%s",
+                 hole != NULL ? qdot_hole_at(hole->hole)->expected : "the end of the statement");
+    return NULL;
+}

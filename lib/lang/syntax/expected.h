@@ -1,0 +1,30 @@
+/* expected.h -- what to say of a token that does not fit.
+ *
+ *   words of options and clauses, as the usage names them    "`tol`, `method` or `as`"
+ *   else the end, if it may come                             "the end of the statement"
+ *   else a sign, else what the hole takes                    "`=`", "a name"
+ *
+ * A row of expected.def replaces that for a statement, behind a word of it.
+ */
+#ifndef QDOT_LANG_EXPECTED_H
+#define QDOT_LANG_EXPECTED_H
+
+#include "lang/syntax/usage.h"
+
+enum { QDOT_EXPECTED_TEXT = 160, QDOT_EXPECTED_NODES = 32 };
+
+typedef struct {
+    const qdot_usage *usage;
+    const qdot_token *token; /* the one that does not fit */
+    int node[QDOT_EXPECTED_NODES]; /* what may come, options that are taken too */
+    int n;
+    bool given; /* the token is the word of an option that is taken */
+    bool hole;  /* a hole may stand there */
+} qdot_expected;
+
+/* Add what may come at that node of the usage. */
+void qdot_expected_add(qdot_expected *list, int node, uint64_t taken);
+/* What belongs there; returns a hint that goes with it, or NULL. */
+const char *qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT]);
+
+#endif

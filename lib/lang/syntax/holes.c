@@ -1,0 +1,36 @@
+/* holes.c -- what the holes of usage texts take. */
+#include "lang/syntax/holes.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+static const qdot_hole rows[] = {
+#define HOLE(statement, before, text, class, expected, kinds)                            \
+    {statement, before, text, QDOT_HOLE_##class, expected},
+#include "lang/syntax/holes.def"
+};
+#undef HOLE
+
+static bool
+hole_fits(const char *row, const char *text)
+{
+    return row == NULL || strcmp(row, text) == 0;
+}
+
+int
+qdot_hole_find(const char *statement, const char *before, const char *text)
+{
+    const char *kind = text[0] == '"' ? "\"...\"" : text[0] == '(' ? "(...)" : text;
+    int i = 0;
+
+    while (!hole_fits(rows[i].statement, statement) || !hole_fits(rows[i].before, before) ||
+           !hole_fits(rows[i].text, kind))
+        i++; /* the last row fits all */
+    return i;
+}
+
+const qdot_hole *
+qdot_hole_at(int row)
+{
+    return &rows[row];
+}

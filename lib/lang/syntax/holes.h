@@ -1,0 +1,33 @@
+/* holes.h -- what the holes of usage texts take.
+ *
+ * A hole is named by its usage: EXPR, NAME, T0..T1, "FILE". Its row of holes.def says how it is
+ * read, what is said where something else stands there, and what TAB offers.
+ */
+#ifndef QDOT_LANG_HOLES_H
+#define QDOT_LANG_HOLES_H
+
+/* How the tokens of a hole are read; what they mean is asked when the statement is carried out. */
+typedef enum {
+    QDOT_HOLE_SIDE,       /* an expression up to a relation, `and`, `or` */
+    QDOT_HOLE_VALUE,      /* an expression, with these */
+    QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
+    QDOT_HOLE_RANGE,      /* SIDE..SIDE */
+    QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), as many as the hole names */
+    QDOT_HOLE_NAME,       /* name or name[SIDE, ...] */
+    QDOT_HOLE_COORDINATE, /* the same with primes */
+    QDOT_HOLE_CALL,       /* name(name, ...) */
+    QDOT_HOLE_WORD,       /* a single name */
+    QDOT_HOLE_TEXT        /* a text in quotes */
+} qdot_hole_class;
+
+typedef struct {
+    const char *statement, *before, *text; /* the row serves these only; NULL: any */
+    qdot_hole_class class;
+    const char *expected; /* what belongs there, in words */
+} qdot_hole;
+
+/* The row of a hole of that statement, behind that word of its usage; every hole has one. */
+int qdot_hole_find(const char *statement, const char *before, const char *text);
+const qdot_hole *qdot_hole_at(int row);
+
+#endif

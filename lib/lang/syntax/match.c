@@ -1,0 +1,391 @@
+/* match.c -- the tokens of a statement, read by the usage of its row.
+ *
+ * The usage is followed as a nondeterministic automaton. A place is a node that may come next; each
+ * knows the place before it, so the alternative that reaches the end tells which node every part
+ * was.
+ */
+#include "lang/syntax/match.h"
+
+#include <string.h>
+
+#include "lang/language/formals.h"
+#include "lang/syntax/expected.h"
+#include "lang/syntax/holes.h"
+#include "lang/source/lex.h"
+
+typedef struct {
+    int node;
+    uint32_t from;  /* the place of the part before */
+    uint64_t taken; /* options */
+} place;
+
+typedef struct {
+    const qdot_usage *u;
+    qdot_record *r;
+    qdot_cursor *c;
+    qdot_vec(place) places;
+    size_t first; /* of those at the present token */
+} matcher;
+
+/* --- places -------------------------------------------------------------------------- */
+
+/* Whatever may come at the node. */
+static qdot_status
+match_add_place(matcher *m, int node, uint32_t from, uint64_t taken)
+{
+    const qdot_usage_node *at = &m->u->node[node];
+
+    for (size_t i = m->first; i < m->places.n; i++)
+        if (m->places.at[i].node == node && m->places.at[i].taken == taken)
+            return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&m->places, ((place){node, from, taken})));
+    if (at->kind != QDOT_USAGE_FORK)
+        return QDOT_OK;
+    taken &= ~at->forgets;
+    if ((taken & at->enters) == 0)
+        QDOT_TRY(match_add_place(m, at->next, from, taken | at->enters));
+    return at->other >= 0 ? match_add_place(m, at->other, from, taken) : QDOT_OK;
+}
+
+static const qdot_usage_node *
+place_node(const matcher *m, size_t i)
+{
+    return &m->u->node[m->places.at[i].node];
+}
+
+static qdot_hole_class
+node_class(const qdot_usage_node *node)
+{
+    return qdot_hole_at(node->hole)->class;
+}
+
+/* Whether the token is that word or sign. */
+static bool
+node_is_token(const qdot_usage_node *node, const qdot_token *token)
+{
+    return (node->kind == QDOT_USAGE_WORD && qdot_token_is_word(token, node->text)) ||
+           (node->kind == QDOT_USAGE_SIGN && qdot_token_is(token, node->text));
+}
+
+/* Whether a sign or word that may follow the node is the token. */
+static bool
+leads_to(const qdot_usage *u, int node, const qdot_token *token)
+{
+    const qdot_usage_node *at = &u->node[node];
+
+    if (at->kind != QDOT_USAGE_FORK)
+        return node_is_token(at, token);
+    return leads_to(u, at->next, token) || (at->other >= 0 && leads_to(u, at->other, token));
+}
+
+/* --- one hole ------------------------------------------------------------------------ */
+
+static qdot_status
+read_expression(matcher *m, qdot_parse_extent extent, qdot_filled *part)
+{
+    qdot_compiled one;
+    qdot_status status = qdot_compiled_parse(m->c, extent, &one);
+
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&m->r->compiled, one);
+    if (status != QDOT_OK)
+        qdot_compiled_free(&one);
+    part->n += status == QDOT_OK;
+    return status;
+}
+
+/* name, name[i, j], with primes if it is a coordinate */
+static qdot_status
+read_name(matcher *m, const qdot_hole *hole, qdot_filled *part)
+{
+    qdot_cursor *c = m->c;
+
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, hole->expected);
+    c->at++;
+    if (c->at->glued && qdot_cursor_accept_op(c, "[")) {
+        do
+            QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+        while (qdot_cursor_accept_op(c, ","));
+        QDOT_TRY(qdot_cursor_expect_op(c, "]"));
+    }
+    part->primes = c->at;
+    if (hole->class == QDOT_HOLE_COORDINATE)
+        while (c->at->glued && qdot_cursor_accept_op(c, "'"))
+            continue;
+    return QDOT_OK;
+}
+
+/* SIDE = SIDE, or an equation by its name */
+static qdot_status
+read_equation(matcher *m, const qdot_usage_node *node, qdot_filled *part)
+{
+    qdot_cursor *c = m->c;
+
+    QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    if (qdot_cursor_accept_op(c, "=") || qdot_cursor_accept_op(c, "=="))
+        return read_expression(m, QDOT_PARSE_SIDE, part);
+    return qdot_cursor_is_end(c) || leads_to(m->u, node->next, c->at)
+               ? QDOT_OK
+               : qdot_cursor_expected(c, "`=` and the other side");
+}
+
+/* (SIDE, SIDE): as many as the usage names */
+static qdot_status
+read_tuple(matcher *m, const char *names, qdot_filled *part)
+{
+    QDOT_TRY(qdot_cursor_expect_op(m->c, "("));
+    QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    for (const char *k = strchr(names, ','); k != NULL; k = strchr(k + 1, ',')) {
+        QDOT_TRY(qdot_cursor_expect_op(m->c, ","));
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    }
+    return qdot_cursor_expect_op(m->c, ")");
+}
+
+static qdot_status
+read_call(matcher *m, const qdot_hole *hole)
+{
+    const qdot_token **names = NULL;
+    qdot_status status;
+    size_t n;
+
+    if (m->c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(m->c, hole->expected);
+    m->c->at++;
+    status = qdot_formals_read_names(m->c, &names, &n);
+    qdot_free(names);
+    return status;
+}
+
+static qdot_status
+read_token(matcher *m, const qdot_hole *hole, qdot_token_kind kind)
+{
+    if (m->c->at->kind != kind)
+        return qdot_cursor_expected(m->c, hole->expected);
+    m->c->at++;
+    return QDOT_OK;
+}
+
+static qdot_status
+read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
+{
+    const qdot_hole *hole = qdot_hole_at(node->hole);
+
+    switch (hole->class) {
+    case QDOT_HOLE_SIDE: return read_expression(m, QDOT_PARSE_SIDE, part);
+    case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
+    case QDOT_HOLE_EQUATION: return read_equation(m, node, part);
+    case QDOT_HOLE_RANGE:
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+        if (!qdot_cursor_accept_op(m->c, ".."))
+            return qdot_cursor_expected(m->c, hole->expected);
+        return read_expression(m, QDOT_PARSE_SIDE, part);
+    case QDOT_HOLE_TUPLE: return read_tuple(m, node->text, part);
+    case QDOT_HOLE_NAME:
+    case QDOT_HOLE_COORDINATE: return read_name(m, hole, part);
+    case QDOT_HOLE_CALL: return read_call(m, hole);
+    case QDOT_HOLE_WORD: return read_token(m, hole, QDOT_TOKEN_NAME);
+    default: return read_token(m, hole, QDOT_TOKEN_STRING);
+    }
+}
+
+/* --- which hole ---------------------------------------------------------------------- */
+
+/* The token behind the name that begins at t, with its brackets. */
+static const qdot_token *
+behind_name(const qdot_token *t)
+{
+    long depth = 0;
+
+    t++;
+    if (!t->glued || !qdot_token_is(t, "["))
+        return t;
+    for (; t->kind != QDOT_TOKEN_END; t++) {
+        depth += qdot_token_bracket(t);
+        if (depth == 0)
+            return t + 1;
+    }
+    return t;
+}
+
+/* Whether the class can begin with the token, where others may stand too. */
+static bool
+class_suits(const matcher *m, const qdot_usage_node *node)
+{
+    const qdot_token *t = m->c->at;
+
+    switch (node_class(node)) {
+    case QDOT_HOLE_TEXT: return t->kind == QDOT_TOKEN_STRING;
+    case QDOT_HOLE_NAME:
+        return t->kind == QDOT_TOKEN_NAME && leads_to(m->u, node->next, behind_name(t));
+    case QDOT_HOLE_CALL: return t->kind == QDOT_TOKEN_NAME && qdot_token_is(t + 1, "(");
+    case QDOT_HOLE_COORDINATE:
+    case QDOT_HOLE_WORD: return t->kind == QDOT_TOKEN_NAME;
+    default: return t->kind != QDOT_TOKEN_STRING;
+    }
+}
+
+/* The hole to be read at the token; NULL: none may stand there. */
+static const qdot_usage_node *
+hole_choose(const matcher *m)
+{
+    const qdot_usage_node *found = NULL;
+    bool several = false;
+
+    for (size_t i = m->first; i < m->places.n; i++) {
+        const qdot_usage_node *node = place_node(m, i);
+
+        if (node->kind != QDOT_USAGE_HOLE)
+            continue;
+        several = several || (found != NULL && node_class(found) != node_class(node));
+        found = node;
+    }
+    if (!several)
+        return found;
+    for (size_t i = m->first; i < m->places.n; i++)
+        if (place_node(m, i)->kind == QDOT_USAGE_HOLE && class_suits(m, place_node(m, i)))
+            return place_node(m, i);
+    return found;
+}
+
+/* --- the statement ------------------------------------------------------------------- */
+
+/* Keep the part and go on from the places whose node it may be: the token, or a hole of that class. */
+static qdot_status
+go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
+{
+    const size_t first = m->first, n = m->places.n;
+
+    QDOT_TRY(qdot_vec_push(&m->r->parts, *part));
+    m->first = n;
+    for (size_t i = first; i < n; i++) {
+        const qdot_usage_node *node = place_node(m, i);
+
+        if (hole != NULL ? node->kind == QDOT_USAGE_HOLE && node_class(node) == node_class(hole)
+                         : node_is_token(node, part->from))
+            QDOT_TRY(match_add_place(m, node->next, (uint32_t)i, m->places.at[i].taken));
+    }
+    return QDOT_OK;
+}
+
+/* Fail at the token: nothing of the usage fits it. */
+static qdot_status
+fail_at_token(matcher *m)
+{
+    qdot_expected list = {.usage = m->u, .token = m->c->at};
+    char what[QDOT_EXPECTED_TEXT];
+    const char *hint;
+    qdot_status status;
+
+    for (size_t i = m->first; i < m->places.n; i++)
+        qdot_expected_add(&list, m->places.at[i].node, m->places.at[i].taken);
+    if (list.given && !list.hole) {
+        m->c->error_at = m->c->at->start;
+        return qdot_fail(QDOT_EINVAL, "`%s` is given twice", m->c->at->text);
+    }
+    hint = qdot_expected_words(&list, what);
+    status = qdot_cursor_expected(m->c, what);
+    return hint != NULL ? qdot_hint("%s", hint) : status;
+}
+
+/* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a
+ * spring may be called `rest`. */
+static bool
+token_fits(const matcher *m)
+{
+    bool fits = false;
+
+    for (size_t i = m->first; i < m->places.n; i++) {
+        const qdot_usage_node *node = place_node(m, i);
+
+        if (node->kind == QDOT_USAGE_HOLE && node_class(node) == QDOT_HOLE_NAME && class_suits(m, node))
+            return false;
+        fits = fits || node_is_token(node, m->c->at);
+    }
+    return fits;
+}
+
+static bool
+is_at_end(const matcher *m)
+{
+    if (!qdot_cursor_is_end(m->c))
+        return false;
+    for (size_t i = m->first; i < m->places.n; i++)
+        if (place_node(m, i)->kind == QDOT_USAGE_END)
+            return true;
+    return false;
+}
+
+static qdot_status
+match_token(matcher *m, bool *end)
+{
+    qdot_filled part = {.from = m->c->at, .first = m->r->compiled.n};
+    const qdot_usage_node *hole = NULL;
+
+    *end = is_at_end(m);
+    if (*end)
+        return QDOT_OK;
+    if (token_fits(m)) {
+        m->c->at++;
+    } else {
+        hole = hole_choose(m);
+        if (hole == NULL)
+            return fail_at_token(m);
+        QDOT_TRY(read_hole(m, hole, &part));
+    }
+    part.to = m->c->at;
+    if (part.primes == NULL)
+        part.primes = part.to;
+    return go_on(m, &part, hole);
+}
+
+/* The first clause that must be there and is not among `taken`; NULL: none is missing. */
+static const qdot_usage_node *
+clause_missing(const qdot_usage *u, uint64_t taken)
+{
+    for (int i = 0; i < u->n; i++)
+        if (u->node[i].needs != 0 && (u->node[i].needs & taken) == 0)
+            return &u->node[u->node[i].next];
+    return NULL;
+}
+
+/* The parts are the nodes by which the end was reached. */
+static qdot_status
+trace_back(matcher *m)
+{
+    const qdot_usage_node *missing;
+    uint32_t at = (uint32_t)m->first;
+
+    while (place_node(m, at)->kind != QDOT_USAGE_END)
+        at++;
+    missing = clause_missing(m->u, m->places.at[at].taken);
+    for (size_t k = m->r->parts.n; k-- > 0;) {
+        at = m->places.at[at].from;
+        m->r->parts.at[k].node = place_node(m, at);
+    }
+    if (missing == NULL)
+        return QDOT_OK;
+    m->c->error_at = m->r->start->start;
+    (void)qdot_fail(QDOT_ESYNTAX, "a %s needs `%s`", m->u->word, missing->text);
+    return qdot_hint("%s", m->r->row->form != NULL ? m->r->row->form : m->r->row->usage);
+}
+
+qdot_status
+qdot_match(const qdot_cursor *c, const qdot_statement *row, const qdot_usage *u,
+           qdot_record *record)
+{
+    matcher m = {.u = u, .r = record};
+    qdot_status status;
+    bool end = false;
+
+    *record = (qdot_record){.row = row, .cursor = *c, .start = c->at + 1};
+    m.c = &record->cursor;
+    status = match_add_place(&m, 0, 0, 0);
+    while (status == QDOT_OK && !end)
+        status = match_token(&m, &end);
+    if (status == QDOT_OK)
+        status = trace_back(&m);
+    qdot_free(m.places.at);
+    return status;
+}

@@ -1,0 +1,23 @@
+/* match.h -- the tokens of a statement, read by the usage of its row.
+ *
+ * At each token a word of the usage goes before a hole, a sign before an expression. If a name and
+ * an expression may stand there, it is a name where what follows a name follows: `gravity g: ...`.
+ * Alternatives are followed side by side until the tokens tell them apart.
+ *
+ * Where no token fits, the usage says what would: its words, the end, a sign; a row of
+ * expected.def says it where a person would say it better.
+ *
+ * Tests  tests/lang/syntax/test_syntax.c
+ */
+#ifndef QDOT_LANG_MATCH_H
+#define QDOT_LANG_MATCH_H
+
+#include "lang/syntax/record.h"
+
+/* Read the statement at the cursor, whose first token is its word, up to its end. *u: of
+ * qdot_usage_compile(row); it must stay as long as the record. Free the record in any case.
+ * QDOT_ESYNTAX with the place in record->cursor.error_at. */
+QDOT_MUST_CHECK qdot_status qdot_match(const qdot_cursor *c, const qdot_statement *row,
+                                       const qdot_usage *u, qdot_record *record);
+
+#endif

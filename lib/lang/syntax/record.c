@@ -1,0 +1,243 @@
+/* record.c -- a statement as it was read: its words and holes, and the values of these. */
+#include "lang/syntax/record.h"
+
+#include <string.h>
+
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+
+void
+qdot_record_free(qdot_record *r)
+{
+    for (size_t i = 0; i < r->compiled.n; i++)
+        qdot_compiled_free(&r->compiled.at[i]);
+    qdot_free(r->compiled.at);
+    qdot_free(r->parts.at);
+    *r = (qdot_record){0};
+}
+
+/* --- what was read ------------------------------------------------------------------- */
+
+bool
+qdot_filled_is(const qdot_filled *part, const char *text)
+{
+    return strcmp(part->node->text, text) == 0;
+}
+
+const qdot_filled *
+qdot_record_word(const qdot_record *r, const char *word)
+{
+    for (size_t i = 0; i < r->parts.n; i++)
+        if (r->parts.at[i].node->kind == QDOT_USAGE_WORD && qdot_filled_is(&r->parts.at[i], word))
+            return &r->parts.at[i];
+    return NULL;
+}
+
+const qdot_filled *
+qdot_record_hole(const qdot_record *r, const char *before, const char *text)
+{
+    for (size_t i = 0; i < r->parts.n; i++) {
+        const qdot_filled *part = &r->parts.at[i];
+
+        if (part->node->kind == QDOT_USAGE_HOLE &&
+            (before == NULL || strcmp(part->node->before, before) == 0) &&
+            (text == NULL || qdot_filled_is(part, text)))
+            return part;
+    }
+    return NULL;
+}
+
+const qdot_filled *
+qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text)
+{
+    for (part++; part < r->parts.at + r->parts.n; part++)
+        if (part->node->kind == QDOT_USAGE_HOLE && qdot_filled_is(part, text))
+            return part;
+    return NULL;
+}
+
+/* --- values -------------------------------------------------------------------------- */
+
+qdot_status
+qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value)
+{
+    return qdot_compiled_value(&r->cursor, &r->compiled.at[part->first], value);
+}
+
+qdot_status
+qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value)
+{
+    return qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first], value);
+}
+
+qdot_status
+qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value)
+{
+    return qdot_compiled_point(&r->cursor, &r->compiled.at[part->first], value);
+}
+
+qdot_status
+qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value)
+{
+    return qdot_compiled_integer(&r->cursor, &r->compiled.at[part->first], value);
+}
+
+qdot_status
+qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k, qdot_expr *value)
+{
+    return qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first + k], value);
+}
+
+qdot_status
+qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion, qdot_expr *left,
+                     qdot_expr *right)
+{
+    qdot_status (*const evaluate)(qdot_cursor *, const qdot_compiled *, qdot_expr *) =
+        motion ? qdot_compiled_motion : qdot_compiled_value;
+    const qdot_compiled *sides = &r->compiled.at[part->first];
+    const qdot_pool *pool = r->cursor.session->pool;
+    qdot_expr equation;
+
+    QDOT_TRY(evaluate(&r->cursor, &sides[0], left));
+    if (part->n == 2)
+        return evaluate(&r->cursor, &sides[1], right);
+    equation = *left;
+    if (qdot_expr_kind(pool, equation) != QDOT_REL || qdot_expr_node(pool, equation)->op != QDOT_EQ)
+        return qdot_record_expected(r, part->to, "`=` and the other side");
+    *left = qdot_expr_arg(pool, equation, 0);
+    *right = qdot_expr_arg(pool, equation, 1);
+    return QDOT_OK;
+}
+
+/* name[i,j], in the arena of the source. */
+static qdot_status
+spell_name(const qdot_record *r, const char *name, size_t n, const long *index, const char **spelled)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    qdot_text_add(&text, name);
+    for (size_t i = 0; i < n; i++)
+        qdot_text_format(&text, "%c%ld", i == 0 ? '[' : ',', index[i]);
+    qdot_text_char(&text, ']');
+    status = qdot_text_status(&text);
+    *spelled = status == QDOT_OK ? qdot_arena_strndup(r->cursor.source->arena, text.at, text.n) : NULL;
+    qdot_text_clear(&text);
+    return *spelled == NULL && status == QDOT_OK ? QDOT_ENOMEM : status;
+}
+
+qdot_status
+qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name)
+{
+    long *index;
+    qdot_status status = QDOT_OK;
+
+    *name = part->from->text;
+    if (part->n == 0)
+        return QDOT_OK;
+    index = qdot_calloc(part->n, sizeof *index);
+    if (index == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < part->n && status == QDOT_OK; i++)
+        status = qdot_compiled_integer(&r->cursor, &r->compiled.at[part->first + i], &index[i]);
+    if (status == QDOT_OK)
+        status = spell_name(r, *name, part->n, index, name);
+    qdot_free(index);
+    return status;
+}
+
+/* The same of the name that the code [0, at] is, with its indices before it. */
+static qdot_status
+spell_code(qdot_record *r, const qdot_compiled *whole, size_t at, const char **name)
+{
+    const qdot_postfix *last = &whole->code.list.at[at];
+    qdot_session *session = r->cursor.session;
+    qdot_compiled indices = {.from = whole->from, .to = whole->to};
+    long index[QDOT_RECORD_INDICES];
+    qdot_expr list = QDOT_NIL;
+    qdot_status status = QDOT_OK;
+
+    *name = last->token->text;
+    if (last->n == 0 || last->n > QDOT_RECORD_INDICES) {
+        *name = last->n == 0 ? *name : NULL;
+        return QDOT_OK;
+    }
+    for (size_t i = 0; i < at && status == QDOT_OK; i++)
+        status = qdot_vec_push(&indices.code.list, whole->code.list.at[i]);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&indices.code.list,
+                               ((qdot_postfix){QDOT_POSTFIX_LIST, 0, last->n, 0, last->token}));
+    if (status == QDOT_OK)
+        status = qdot_compiled_value(&r->cursor, &indices, &list);
+    for (uint32_t i = 0; i < last->n && status == QDOT_OK; i++)
+        status = qdot_session_integer(session, qdot_expr_arg(session->pool, list, i), &index[i]);
+    if (status == QDOT_OK)
+        status = spell_name(r, *name, last->n, index, name);
+    qdot_compiled_free(&indices);
+    return status;
+}
+
+qdot_status
+qdot_record_bare_name(qdot_record *r, const qdot_filled *part, size_t k, const char **name)
+{
+    const qdot_compiled *whole = &r->compiled.at[part->first + k];
+    const size_t last = whole->code.list.n - 1;
+    const qdot_postfix *code = &whole->code.list.at[last];
+
+    *name = NULL;
+    return (code->op == QDOT_POSTFIX_NAME || code->op == QDOT_POSTFIX_INDEX_NAME) &&
+                   code->token == whole->from && code->primes == 0
+               ? spell_code(r, whole, last, name)
+               : QDOT_OK;
+}
+
+qdot_status
+qdot_record_label_in(qdot_record *r, const qdot_filled *part, const char *function, const char **label)
+{
+    const qdot_compiled *whole = &r->compiled.at[part->first];
+    const qdot_postfix *call = &whole->code.list.at[whole->code.list.n - 1];
+
+    *label = NULL;
+    if (call->op != QDOT_POSTFIX_CALL || call->token != whole->from || call->to > 0 ||
+        strcmp(call->token->text, function) != 0)
+        return QDOT_OK;
+    for (size_t i = 0; i + 1 < whole->code.list.n; i++)
+        if (whole->code.list.at[i].op == QDOT_POSTFIX_LABEL)
+            return spell_code(r, whole, i, label);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_record_coordinate(qdot_record *r, const qdot_filled *part, qdot_expr *jet)
+{
+    const char *name;
+
+    QDOT_TRY(qdot_record_name(r, part, &name));
+    return qdot_read_jet_of(&r->cursor, part->from, name, (uint32_t)(part->to - part->primes), jet);
+}
+
+const char *
+qdot_record_text(const qdot_filled *part)
+{
+    return part->from->text;
+}
+
+/* --- failures ------------------------------------------------------------------------ */
+
+void
+qdot_record_blame(qdot_record *r, const qdot_filled *part)
+{
+    r->cursor.error_at = part->from->start;
+}
+
+qdot_status
+qdot_record_expected(qdot_record *r, const qdot_token *at, const char *what)
+{
+    qdot_cursor c = r->cursor;
+    qdot_status status;
+
+    c.at = at;
+    status = qdot_cursor_expected(&c, what);
+    r->cursor.error_at = c.error_at;
+    return status;
+}

@@ -1,0 +1,88 @@
+/* record.h -- a statement as it was read: its words and holes, the holes as compiled expressions.
+ *
+ * qdot_match makes a record of the tokens of a statement; nothing is looked up or evaluated then
+ * but what decides how an expression is read (a call or a product). The handler of the statement
+ * asks for the values of the holes, as often as it likes.
+ *
+ * A hole is found by the word before it and its name in the usage text:
+ *
+ *     particle NAME mass M at R    qdot_record_hole(r, "mass", "M")
+ *
+ * Values are read as by lang/language/read.h, with the same failures at the same places. A hole
+ * that is NULL was left out: it must not be asked for its value.
+ *
+ * Tests  tests/lang/syntax/test_syntax.c
+ */
+#ifndef QDOT_LANG_RECORD_H
+#define QDOT_LANG_RECORD_H
+
+#include "lang/language/compiled.h"
+#include "lang/syntax/row.h"
+#include "lang/syntax/usage.h"
+
+enum { QDOT_RECORD_INDICES = 8 }; /* the most of a bare name */
+
+/* A word, a sign or a hole that was filled. */
+typedef struct {
+    const qdot_usage_node *node;
+    const qdot_token *from, *to; /* its tokens */
+    size_t first, n;             /* its expressions among record->compiled */
+    const qdot_token *primes;    /* those of a coordinate [primes, to) */
+} qdot_filled;
+
+typedef struct qdot_record {
+    const qdot_statement *row;
+    qdot_cursor cursor; /* session, source; where an error is; behind the statement */
+    const qdot_token *start; /* the token behind the statement's word */
+    qdot_vec(qdot_filled) parts; /* as they were written; the first is the statement's word */
+    qdot_vec(qdot_compiled) compiled;
+} qdot_record;
+
+void qdot_record_free(qdot_record *r);
+
+/* --- what was read ------------------------------------------------------------------- */
+
+/* The first of these; NULL: it is not there. before or text NULL: any. */
+const qdot_filled *qdot_record_word(const qdot_record *r, const char *word);
+const qdot_filled *qdot_record_hole(const qdot_record *r, const char *before, const char *text);
+/* The next hole behind `part` of that name, of a list; NULL: there is none. */
+const qdot_filled *qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text);
+/* What the hole is told apart by: its name in the usage text. */
+bool qdot_filled_is(const qdot_filled *part, const char *text);
+
+/* --- values -------------------------------------------------------------------------- */
+
+QDOT_MUST_CHECK qdot_status qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value);
+QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
+QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
+QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);
+/* The scalar k of a tuple. */
+QDOT_MUST_CHECK qdot_status qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k,
+                                             qdot_expr *value);
+/* The sides of an equation; of a motion: what a loop holds moves there. `A = B` or an equation by its
+ * name, else a failure behind it. */
+QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion,
+                                                 qdot_expr *left, qdot_expr *right);
+/* A name with its indices evaluated, in the source's arena. */
+QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
+/* A declared coordinate with its primes. */
+QDOT_MUST_CHECK qdot_status qdot_record_coordinate(qdot_record *r, const qdot_filled *part,
+                                                   qdot_expr *jet);
+/* The name that expression k of the part is, NAME or NAME[i, j] and nothing else; *name NULL: it is
+ * more than a name. */
+QDOT_MUST_CHECK qdot_status qdot_record_bare_name(qdot_record *r, const qdot_filled *part, size_t k,
+                                                  const char **name);
+/* The label in FUNCTION(LABEL, ...), a call and nothing else; *label NULL: it is none. */
+QDOT_MUST_CHECK qdot_status qdot_record_label_in(qdot_record *r, const qdot_filled *part,
+                                                 const char *function, const char **label);
+/* The text of a hole in quotes. */
+const char *qdot_record_text(const qdot_filled *part);
+
+/* --- failures ------------------------------------------------------------------------ */
+
+/* Put the place of an error at the begin of the part. */
+void qdot_record_blame(qdot_record *r, const qdot_filled *part);
+/* Fail at the token `at`: "expected WHAT, found ...". */
+qdot_status qdot_record_expected(qdot_record *r, const qdot_token *at, const char *what);
+
+#endif

@@ -1,0 +1,35 @@
+/* row.h -- a statement of the language: how it is written, what it does, its handler.
+ *
+ * The row stands at the begin of the statement's file. Its usage is the grammar by which the
+ * statement is read (usage.h), completed, coloured and explained; the handler gets the record of
+ * what was read and acts: a statement that fails changes nothing.
+ */
+#ifndef QDOT_LANG_ROW_H
+#define QDOT_LANG_ROW_H
+
+#include "lang/language/cursor.h"
+
+#define QDOT_DECLARING "declaring a scene"
+#define QDOT_ASKING "asking"
+#define QDOT_NUMBERS "numbers"
+#define QDOT_WORKBENCH "workbench"
+
+struct qdot_record;
+
+typedef struct {
+    const char *word, *group;
+    const char *usage, *summary, *example;
+    const char *form; /* in place of the usage in the hint that a clause is missing; NULL */
+    bool alone; /* a value of the language that prints more if it is the whole statement */
+    qdot_status (*handler)(struct qdot_record *r);
+    qdot_status (*run)(qdot_cursor *c); /* of a statement that reads its tokens itself */
+} qdot_statement;
+
+/* Whether it can be carried out. */
+static inline bool
+qdot_statement_is_built(const qdot_statement *row)
+{
+    return row->handler != NULL || row->run != NULL;
+}
+
+#endif
