@@ -1,7 +1,6 @@
-/* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
+/* ask.c -- values asked for: expressions and the parts of a scene. */
 #include "lang/ask/ask.h"
 
-#include <inttypes.h>
 #include <string.h>
 
 #include "base/number-text.h"
@@ -176,9 +175,8 @@ answer_mixed(qdot_session *session, const char *name, qdot_expr list)
     return status;
 }
 
-/* [x = 1.25 ± 3e-17, y = 2], numbers of runs with their errors. */
-static qdot_status
-print_point(qdot_session *session, qdot_expr equations, qdot_text *line)
+qdot_status
+qdot_ask_print_point(qdot_session *session, qdot_expr equations, qdot_text *line)
 {
     qdot_pool *pool = session->pool;
 
@@ -216,7 +214,7 @@ static qdot_status
 answer_point(qdot_session *session, const char *name, qdot_expr equations)
 {
     qdot_text text = {0}, errors = {0};
-    qdot_status status = print_point(session, equations, &text);
+    qdot_status status = qdot_ask_print_point(session, equations, &text);
 
     if (status == QDOT_OK)
         status = session->json ? qdot_answer_text(session, name, qdot_text_str(&text))
@@ -286,237 +284,6 @@ qdot_ask_expression(qdot_cursor *c)
         status = qdot_ask_answer(session, qdot_text_str(&name), value, over);
     qdot_text_clear(&name);
     return status;
-}
-
-/* --- print -------------------------------------------------------------------------- */
-
-/* A list of texts, each in a line of its own. */
-static bool
-is_texts(const qdot_pool *pool, qdot_expr e)
-{
-    bool list = qdot_expr_kind(pool, e) == QDOT_LIST;
-    uint32_t n = list ? qdot_expr_count(pool, e) : 0;
-
-    for (uint32_t i = 0; i < n && list; i++)
-        list = qdot_expr_is_class(pool, qdot_expr_arg(pool, e, i), QDOT_WORDS);
-    return list && n > 0;
-}
-
-static qdot_status
-add_texts(qdot_session *session, qdot_expr list, qdot_text *line)
-{
-    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list); i++) {
-        qdot_text_add(line, i > 0 ? "\n" : "");
-        QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, list, i),
-                            session->style, line));
-    }
-    return QDOT_OK;
-}
-
-/* One argument as text: a quoted one as it is, numbers of runs as numbers. */
-static qdot_status
-print_one(qdot_cursor *c, qdot_text *line)
-{
-    qdot_session *session = c->session;
-    const char *text;
-    qdot_expr value;
-    double x, error;
-    int digits;
-
-    if (c->at->kind == QDOT_TOKEN_STRING) {
-        QDOT_TRY(qdot_read_string(c, &text));
-        qdot_text_add(line, text);
-        return QDOT_OK;
-    }
-    QDOT_TRY(qdot_read_value(c, &value));
-    if (is_texts(session->pool, value))
-        return add_texts(session, value, line);
-    if (!qdot_measured_occurs(session, value))
-        return qdot_formula_marked(session, value, line);
-    if (qdot_value_kind_are_equations(session->pool, value))
-        return print_point(session, value, line);
-    digits = qdot_digits_of(session, value);
-    for (uint32_t i = 0;; i++) {
-        bool scalar = qdot_expr_is_scalar(session->pool, value);
-        qdot_expr member;
-
-        if (!scalar && i >= qdot_expr_count(session->pool, value))
-            return QDOT_OK;
-        member = scalar ? value : qdot_expr_arg(session->pool, value, i);
-        QDOT_TRY(qdot_session_number(session, member, &x, &error));
-        qdot_text_add(line, i > 0 ? ", " : "");
-        if (digits > 0)
-            QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
-        else
-            qdot_number_text_known(line, x, error);
-        if (scalar)
-            return QDOT_OK;
-    }
-}
-
-qdot_status
-qdot_ask_print(qdot_cursor *c)
-{
-    qdot_text line = {0};
-    qdot_status status = QDOT_OK;
-
-    if (!qdot_cursor_is_end(c)) {
-        do {
-            qdot_text_add(&line, line.n > 0 ? " " : "");
-            status = print_one(c, &line);
-        } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
-        if (status == QDOT_OK)
-            status = qdot_cursor_expect_end(c);
-    }
-    return qdot_answer_written(c->session, "print", status, &line);
-}
-
-/* --- names -------------------------------------------------------------------------- */
-
-/* The value that `set` or `param` gave a symbol; nil: none. */
-static qdot_expr
-set_value(const qdot_session *session, qdot_expr symbol)
-{
-    for (size_t i = 0; i < session->set_symbols.n; i++)
-        if (session->set_symbols.at[i] == symbol)
-            return session->set_values.at[i];
-    return QDOT_NIL;
-}
-
-/* A value; how large it is where it is too large to print. */
-static qdot_status
-print_value(qdot_session *session, qdot_expr value, qdot_text *out)
-{
-    uint64_t size = qdot_expr_size(session->pool, value);
-
-    if (size <= QDOT_FORMULA_OPERATIONS)
-        return qdot_print(session->pool, value, QDOT_PLAIN, out);
-    qdot_text_format(out, "... # %" PRIu64 " operations", size);
-    return QDOT_OK;
-}
-
-/* A declared name as a statement that declares it. */
-static qdot_status
-print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
-{
-    qdot_pool *pool = session->pool;
-    qdot_expr value;
-
-    switch (name->kind) {
-    case QDOT_NAME_PARAM:
-    case QDOT_NAME_COORD:
-        qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
-        QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
-        value = set_value(session, name->value);
-        if (value == QDOT_NIL)
-            return QDOT_OK;
-        qdot_text_add(out, " = ");
-        return print_value(session, value, out);
-    case QDOT_NAME_UFUN:
-        qdot_text_add(out, "function ");
-        return qdot_print(pool, name->value, QDOT_PLAIN, out);
-    case QDOT_NAME_FUNCTION: return qdot_function_print(session, name, out);
-    default:
-        qdot_text_format(out, "%s = ", name->name);
-        return print_value(session, name->value, out);
-    }
-}
-
-qdot_status
-qdot_ask_vars(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    qdot_text text = {0};
-    qdot_status status = QDOT_OK;
-
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    for (size_t i = 0; qdot_names_at(session->names, i) != NULL && status == QDOT_OK;
-         i++) {
-        qdot_text_add(&text, i > 0 ? "\n" : "");
-        status = print_name(session, qdot_names_at(session->names, i), &text);
-    }
-    if (status == QDOT_OK && text.n == 0)
-        qdot_text_add(&text, "nothing is declared");
-    return qdot_answer_written(session, "vars", status, &text);
-}
-
-/* The line of the scene that declares a label. */
-static qdot_status
-print_label(qdot_session *session, const char *label, qdot_text *out)
-{
-    qdot_text scene = {0};
-    qdot_status status = qdot_scene_print(session->scene, &scene);
-    size_t n = strlen(label);
-
-    for (const char *line = qdot_text_str(&scene); status == QDOT_OK && *line != '\0';) {
-        const char *end = strchrnul(line, '\n'), *word = strchr(line, ' ');
-
-        if (word != NULL && word < end && strncmp(word + 1, label, n) == 0 &&
-            strchr(" :", word[1 + n]) != NULL) {
-            qdot_text_add_n(out, line, (size_t)(end - line));
-            break;
-        }
-        line = *end == '\0' ? end : end + 1;
-    }
-    qdot_text_clear(&scene);
-    return status;
-}
-
-/* The statement of the run of that name; whether there is one. */
-static bool
-print_run(const qdot_session *session, const char *name, qdot_text *out)
-{
-    for (size_t i = 0; i < session->runs.n; i++)
-        if (strcmp(session->runs.at[i].name, name) == 0) {
-            qdot_text_format(out, "run %s as %s", session->runs.at[i].text, name);
-            return true;
-        }
-    return false;
-}
-
-qdot_status
-qdot_ask_show(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
-    qdot_text text = {0};
-    qdot_status status = QDOT_OK;
-    const qdot_quantity *quantity;
-    const qdot_builtin *builtin;
-    const qdot_name *known;
-    const char *name;
-
-    QDOT_TRY(qdot_read_name(c, &name));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    known = qdot_names_find(session->names, name);
-    quantity = qdot_quantity_find(name);
-    builtin = qdot_builtin_find(name);
-    if (known != NULL) {
-        status = print_name(session, known, &text);
-        if (status == QDOT_OK && known->file != NULL)
-            qdot_text_format(&text, "    # %s:%u", known->file, known->line);
-    } else if (qdot_scene_has_label(session->scene, name)) {
-        status = print_label(session, name, &text);
-    } else if (print_run(session, name, &text)) {
-        status = qdot_text_status(&text);
-    } else if (quantity != NULL) {
-        qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);
-    } else if (strcmp(name, "pi") == 0 || strcmp(name, "t") == 0) {
-        qdot_text_add(&text, name[0] == 't' ? "t: the time" : "pi: the number 3.14159...");
-    } else if (builtin != NULL) {
-        qdot_text_format(&text, "%s: %s", builtin->usage, builtin->summary);
-    } else if (qdot_statement_find(name) != NULL) {
-        qdot_text_format(&text, "%s: %s", qdot_statement_find(name)->usage,
-                         qdot_statement_find(name)->summary);
-    } else {
-        const char *near = qdot_names_nearest(session->names, name, 0, NULL);
-
-        (void)qdot_fail(QDOT_ENAME, "`%s` is not declared", name);
-        return near != NULL ? qdot_hint("did you mean `%s`?", near)
-                            : qdot_hint("`vars` lists what is declared");
-    }
-    return qdot_answer_written(session, name, status, &text);
 }
 
 /* --- the scene ---------------------------------------------------------------------- */

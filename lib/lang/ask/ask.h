@@ -9,4 +9,8 @@
 QDOT_MUST_CHECK qdot_status qdot_ask_answer(qdot_session *session, const char *name,
                                             qdot_expr value, qdot_expr over);
 
+/* Append [x = 1.25 ± 3e-17, y = 2], numbers of runs with their errors. */
+QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_session *session, qdot_expr equations,
+                                                 qdot_text *line);
+
 #endif

@@ -41,20 +41,20 @@ read_momentum(qdot_cursor *c, qdot_expr *symbol)
     return qdot_pool_check(c->session->pool);
 }
 
-/* The left side of `NAME = VALUE`: a parameter or a momentum. */
-qdot_status
-qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
+/* Whether `p[` is that of a momentum, at the token `p`. */
+static bool
+is_momentum(const qdot_session *session, const qdot_token *p)
 {
-    const qdot_token *start = c->at;
-    const qdot_name *known;
-    const char *name;
+    return qdot_token_is_word(p, "p") && p[1].glued && qdot_token_is(p + 1, "[") &&
+           !qdot_names_is_family(session->names, "p");
+}
 
-    if (qdot_cursor_is_word(c, "p") && c->at[1].glued &&
-        c->at[1].kind == QDOT_TOKEN_OPERATOR && strcmp(c->at[1].text, "[") == 0 &&
-        !qdot_names_is_family(c->session->names, "p"))
-        return read_momentum(c, symbol);
-    QDOT_TRY(qdot_read_name(c, &name));
-    known = qdot_names_find(c->session->names, name);
+/* The parameter of that name, which stands at `start`. */
+static qdot_status
+parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_expr *symbol)
+{
+    const qdot_name *known = qdot_names_find(c->session->names, name);
+
     if (known != NULL && known->kind == QDOT_NAME_PARAM) {
         *symbol = known->value;
         return QDOT_OK;
@@ -66,6 +66,19 @@ qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
     return known->kind == QDOT_NAME_COORD  ? qdot_hint("start %s = ...", name)
            : known->kind == QDOT_NAME_UFUN ? qdot_hint("set %s(...) = ...", name)
                                            : qdot_hint("%s = ... names it anew", name);
+}
+
+/* The left side of `NAME = VALUE`: a parameter or a momentum. */
+qdot_status
+qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
+{
+    const qdot_token *start = c->at;
+    const char *name;
+
+    if (is_momentum(c->session, start))
+        return read_momentum(c, symbol);
+    QDOT_TRY(qdot_read_name(c, &name));
+    return parameter_of(c, start, name, symbol);
 }
 
 static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
@@ -167,7 +180,20 @@ qdot_set_keep_measured(qdot_session *session, qdot_expr *value)
     return qdot_pool_check(session->pool);
 }
 
-/* `= VALUE`, an expression of parameters. */
+/* What was read at `start` as a value: an expression of parameters. */
+static qdot_status
+check_constant(qdot_cursor *c, const qdot_token *start, qdot_expr *value)
+{
+    QDOT_TRY(qdot_set_keep_measured(c->session, value));
+    if (qdot_expr_node(c->session->pool, *value)->holds & (motion | QDOT_HAS_TIME)) {
+        c->error_at = start->start;
+        return qdot_fail(QDOT_ETYPE,
+                         "a value holds parameters only: no coordinate, no time");
+    }
+    return QDOT_OK;
+}
+
+/* `= VALUE` */
 qdot_status
 qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
 {
@@ -176,13 +202,7 @@ qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
     start = c->at;
     QDOT_TRY(qdot_read_scalar(c, value));
-    QDOT_TRY(qdot_set_keep_measured(c->session, value));
-    if (qdot_expr_node(c->session->pool, *value)->holds & (motion | QDOT_HAS_TIME)) {
-        c->error_at = start->start;
-        return qdot_fail(QDOT_ETYPE,
-                         "a value holds parameters only: no coordinate, no time");
-    }
-    return QDOT_OK;
+    return check_constant(c, start, value);
 }
 
 qdot_status
@@ -312,6 +332,15 @@ start_from_run(qdot_cursor *c)
     return tell_parameters(session, run->name, report);
 }
 
+static qdot_status
+check_jet(qdot_cursor *c, const qdot_token *start, qdot_expr jet)
+{
+    if (qdot_expr_symbol(c->session->pool, jet)->order <= 1)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_EINVAL, "a start names coordinates and velocities");
+}
+
 /* q or q' on the left of `start` */
 qdot_status
 qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet)
@@ -319,11 +348,14 @@ qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet)
     const qdot_token *start = c->at;
 
     QDOT_TRY(qdot_read_coordinate(c, jet));
-    if (qdot_expr_symbol(c->session->pool, *jet)->order > 1) {
-        c->error_at = start->start;
-        return qdot_fail(QDOT_EINVAL, "a start names coordinates and velocities");
-    }
-    return QDOT_OK;
+    return check_jet(c, start, *jet);
+}
+
+qdot_status
+qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
+{
+    QDOT_TRY(qdot_record_coordinate(r, name, jet));
+    return check_jet(&r->cursor, name->from, *jet);
 }
 
 static bool

@@ -4,8 +4,20 @@
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
-#include "lang/language/read.h"
 #include "lang/session/labels.h"
+#include "lang/syntax/record.h"
+
+static qdot_status remove_carry_out(qdot_record *r);
+
+const qdot_statement qdot_statement_remove = {
+    .word = "remove",
+    .group = QDOT_DECLARING,
+    .usage = "remove NAME | remove KIND [K]",
+    .summary = "take a thing out of the scene again: by its label; the only one of its kind (gravity, "
+               "potential, spring, damper, dissipation, force, torque), or the K-th",
+    .example = "remove d1",
+    .handler = remove_carry_out,
+};
 
 /* A notice of what was removed because it acted on a removed thing. */
 static qdot_status
@@ -77,29 +89,25 @@ which(const qdot_scene *scene, size_t row)
 
 /* `remove potential`: the only one; `remove potential 2`. */
 static qdot_status
-remove_kind(qdot_cursor *c, const qdot_token *start, size_t row)
+remove_kind(qdot_record *r, const qdot_filled *number, size_t row)
 {
-    qdot_scene *scene = c->session->scene;
+    qdot_scene *scene = r->cursor.session->scene;
     size_t n = qdot_scene_count(scene, kinds[row].kind);
-    bool numbered = !qdot_cursor_is_end(c);
     long k = 1;
 
-    if (numbered) {
-        start = c->at;
-        QDOT_TRY(qdot_read_integer(c, &k));
-    }
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
+    r->cursor.error_at = r->start->start;
+    if (number != NULL)
+        QDOT_TRY(qdot_record_integer(r, number, &k));
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "the scene has no %s", kinds[row].plural);
-    if (k < 1 || (size_t)k > n || (n > 1 && !numbered))
+    if (k < 1 || (size_t)k > n || (n > 1 && number == NULL))
         return which(scene, row);
     return qdot_scene_remove_at(scene, kinds[row].kind, (size_t)k - 1);
 }
 
 /* The failure, with the nearest of the labels and kinds. */
 static qdot_status
-nothing_is_labelled(qdot_cursor *c, const char *label)
+nothing_is_labelled(const qdot_scene *scene, const char *label)
 {
     qdot_words words = {0};
     const char *nearest;
@@ -110,29 +118,31 @@ nothing_is_labelled(qdot_cursor *c, const char *label)
     nearest = qdot_spelling_nearest(label, words.n, words.at);
     (void)qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
     words.n = 0;
-    qdot_labels_add(c->session->scene, &words);
-    qdot_labels_add_applied(c->session->scene, &words);
+    qdot_labels_add(scene, &words);
+    qdot_labels_add_applied(scene, &words);
     status = nearest != NULL ? qdot_hint("did you mean `%s`?", nearest)
                              : qdot_labels_hint(label, &words);
     qdot_free(words.at);
     return status;
 }
 
-qdot_status
-qdot_remove(qdot_cursor *c)
+static qdot_status
+remove_carry_out(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_scene *scene = r->cursor.session->scene;
+    const qdot_filled *number = qdot_record_hole(r, NULL, "K");
     const char *label;
 
-    QDOT_TRY(qdot_read_name(c, &label));
+    QDOT_TRY(qdot_record_name(r, &r->parts.at[1], &label));
     for (size_t i = 0; i < KINDS; i++)
         if (strcmp(kinds[i].word, label) == 0 &&
-            (!qdot_cursor_is_end(c) || !qdot_scene_has_label(c->session->scene, label)))
-            return remove_kind(c, start, i);
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    if (!qdot_scene_has_label(c->session->scene, label))
-        return nothing_is_labelled(c, label);
-    QDOT_TRY(qdot_scene_remove(c->session->scene, label));
-    return tell_removed(c->session, label);
+            (number != NULL || !qdot_scene_has_label(scene, label)))
+            return remove_kind(r, number, i);
+    if (number != NULL)
+        return qdot_record_expected(r, number->from, "the end of the statement");
+    r->cursor.error_at = r->start->start;
+    if (!qdot_scene_has_label(scene, label))
+        return nothing_is_labelled(scene, label);
+    QDOT_TRY(qdot_scene_remove(scene, label));
+    return tell_removed(r->cursor.session, label);
 }

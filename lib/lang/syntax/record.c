@@ -241,3 +241,9 @@ qdot_record_expected(qdot_record *r, const qdot_token *at, const char *what)
     r->cursor.error_at = c.error_at;
     return status;
 }
+
+qdot_status
+qdot_record_no_prime(qdot_record *r, const qdot_filled *part, const char *what)
+{
+    return part->primes < part->to ? qdot_record_expected(r, part->primes, what) : QDOT_OK;
+}

@@ -82,6 +82,9 @@ const char *qdot_record_text(const qdot_filled *part);
 
 /* Put the place of an error at the begin of the part. */
 void qdot_record_blame(qdot_record *r, const qdot_filled *part);
+/* Fail at the primes of a name that takes none; what: that follows it. */
+QDOT_MUST_CHECK qdot_status qdot_record_no_prime(qdot_record *r, const qdot_filled *part,
+                                                 const char *what);
 /* Fail at the token `at`: "expected WHAT, found ...". */
 qdot_status qdot_record_expected(qdot_record *r, const qdot_token *at, const char *what);
 

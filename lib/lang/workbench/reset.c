@@ -3,6 +3,18 @@
 #include "lang/language/function.h"
 #include "lang/session/transfer.h"
 #include "lang/session/undo.h"
+#include "lang/syntax/record.h"
+
+static qdot_status reset_carry_out(qdot_record *r);
+
+const qdot_statement qdot_statement_reset = {
+    .word = "reset",
+    .group = QDOT_DECLARING,
+    .usage = "reset | reset scene | reset start | reset scale",
+    .summary = "forget everything, or the scene, the initial state, the scales",
+    .example = "reset scene",
+    .handler = reset_carry_out,
+};
 
 /* What `reset scene` forgets. */
 enum {
@@ -109,27 +121,21 @@ reset(qdot_session *session, bool everything)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_reset(qdot_cursor *c)
+static qdot_status
+reset_carry_out(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    bool scene = qdot_cursor_accept_word(c, "scene");
-    bool initial = !scene && qdot_cursor_accept_word(c, "start");
-    bool scale = !scene && !initial && qdot_cursor_accept_word(c, "scale");
+    qdot_session *session = r->cursor.session;
 
-    if (!scene && !initial && !scale && !qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, "`scene`, `start`, `scale` or the end of the statement");
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    if (initial) {
-        c->session->start_symbols.n = 0;
-        c->session->start_exactly = false;
-        c->session->start_values.n = c->session->start_errors.n = 0;
+    r->cursor.error_at = r->start->start;
+    if (qdot_record_word(r, "start") != NULL) {
+        session->start_symbols.n = 0;
+        session->start_exactly = false;
+        session->start_values.n = session->start_errors.n = 0;
         return QDOT_OK;
     }
-    if (scale) {
-        c->session->scale_symbols.n = c->session->scale_values.n = 0;
+    if (qdot_record_word(r, "scale") != NULL) {
+        session->scale_symbols.n = session->scale_values.n = 0;
         return QDOT_OK;
     }
-    return reset(c->session, !scene);
+    return reset(session, qdot_record_word(r, "scene") == NULL);
 }

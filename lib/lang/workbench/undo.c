@@ -3,18 +3,40 @@
 
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
-#include "lang/language/read.h"
 #include "lang/session/undo.h"
+#include "lang/syntax/record.h"
+
+static qdot_status undo_back(qdot_record *r);
+static qdot_status undo_again(qdot_record *r);
+
+const qdot_statement qdot_statement_undo = {
+    .word = "undo",
+    .group = QDOT_WORKBENCH,
+    .usage = "undo [N]",
+    .summary = "take back the last statement that changed the session, or the last N: declarations, "
+               "definitions, values, runs, resets; a whole `for`, block or `include` is one",
+    .example = "undo",
+    .handler = undo_back,
+};
+
+const qdot_statement qdot_statement_redo = {
+    .word = "redo",
+    .group = QDOT_WORKBENCH,
+    .usage = "redo [N]",
+    .summary = "do again what `undo` took back, until another statement changes the session",
+    .example = "redo",
+    .handler = undo_again,
+};
 
 static qdot_status
-undo_refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
+undo_refuse(const qdot_session *session, const char *word, size_t n, long wanted)
 {
     if (n > 0)
         (void)qdot_fail(QDOT_EINVAL, "%zu statement%s can be %s, not %ld", n,
                         n == 1 ? "" : "s", word, wanted);
     else
         (void)qdot_fail(QDOT_EINVAL, "there is nothing to be %s", word);
-    if (qdot_undo_is_at_floor(c->session))
+    if (qdot_undo_is_at_floor(session))
         return qdot_hint("within an included script `undo` goes back to its beginning");
     return qdot_hint(strcmp(word, "undone") == 0
                          ? "a statement that only asks changes nothing; what takes more than "
@@ -23,26 +45,23 @@ undo_refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
                            "changes the session");
 }
 
-/* `undo`, `undo N`, `redo`, `redo N` behind the word. */
+/* `undo`, `undo N`, `redo`, `redo N` */
 static qdot_status
-undo_step(qdot_cursor *c, const char *name, const char *word, bool again)
+undo_step(qdot_record *r, const char *name, const char *word, bool again)
 {
-    qdot_session *s = c->session;
-    const qdot_token *start = c->at > c->source->tokens.at ? c->at - 1 : c->at;
+    qdot_session *s = r->cursor.session;
+    const qdot_filled *number = qdot_record_hole(r, NULL, "N");
     const size_t n = qdot_undo_statements(s, again);
     long wanted = 1;
 
-    if (!qdot_cursor_is_end(c)) {
-        start = c->at;
-        QDOT_TRY(qdot_read_integer(c, &wanted));
-    }
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
+    if (number != NULL)
+        QDOT_TRY(qdot_record_integer(r, number, &wanted));
+    qdot_record_blame(r, number != NULL ? number : &r->parts.at[0]);
     if (s->loops > 0)
         return qdot_fail(QDOT_EINVAL, "`%s` has no place inside a loop", name);
     if (wanted < 1 || (size_t)wanted > n)
         return wanted < 1 ? qdot_fail(QDOT_EINVAL, "how many statements? 1, 2, ...")
-                          : undo_refuse(c, word, n, wanted);
+                          : undo_refuse(s, word, n, wanted);
     for (; wanted > 0; wanted--) {
         qdot_text line = {0};
         const char *text;
@@ -56,14 +75,14 @@ undo_step(qdot_cursor *c, const char *name, const char *word, bool again)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_undo_back(qdot_cursor *c)
+static qdot_status
+undo_back(qdot_record *r)
 {
-    return undo_step(c, "undo", "undone", false);
+    return undo_step(r, "undo", "undone", false);
 }
 
-qdot_status
-qdot_undo_again(qdot_cursor *c)
+static qdot_status
+undo_again(qdot_record *r)
 {
-    return undo_step(c, "redo", "done again", true);
+    return undo_step(r, "redo", "done again", true);
 }

@@ -1,0 +1,56 @@
+/* declared.c -- declared names as the statements that declare them. */
+#include "lang/ask/declared.h"
+
+#include <inttypes.h>
+
+#include "expr/walk.h"
+#include "lang/answer/formula.h"
+#include "lang/language/function.h"
+
+/* The value that `set` or `param` gave a symbol; nil: none. */
+static qdot_expr
+set_value(const qdot_session *session, qdot_expr symbol)
+{
+    for (size_t i = 0; i < session->set_symbols.n; i++)
+        if (session->set_symbols.at[i] == symbol)
+            return session->set_values.at[i];
+    return QDOT_NIL;
+}
+
+/* A value; how large it is where it is too large to print. */
+static qdot_status
+print_value(qdot_session *session, qdot_expr value, qdot_text *out)
+{
+    uint64_t size = qdot_expr_size(session->pool, value);
+
+    if (size <= QDOT_FORMULA_OPERATIONS)
+        return qdot_print(session->pool, value, QDOT_PLAIN, out);
+    qdot_text_format(out, "... # %" PRIu64 " operations", size);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_declared_print(qdot_session *session, const qdot_name *name, qdot_text *out)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr value;
+
+    switch (name->kind) {
+    case QDOT_NAME_PARAM:
+    case QDOT_NAME_COORD:
+        qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
+        QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
+        value = set_value(session, name->value);
+        if (value == QDOT_NIL)
+            return QDOT_OK;
+        qdot_text_add(out, " = ");
+        return print_value(session, value, out);
+    case QDOT_NAME_UFUN:
+        qdot_text_add(out, "function ");
+        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+    case QDOT_NAME_FUNCTION: return qdot_function_print(session, name, out);
+    default:
+        qdot_text_format(out, "%s = ", name->name);
+        return print_value(session, name->value, out);
+    }
+}

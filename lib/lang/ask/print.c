@@ -1,0 +1,99 @@
+/* print.c -- `print`: expressions and texts in one line. */
+#include "base/number-text.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/digits.h"
+#include "lang/answer/formula.h"
+#include "lang/ask/ask.h"
+#include "lang/commands/statement.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/value-kind.h"
+#include "lang/syntax/record.h"
+
+static qdot_status print_line(qdot_record *r);
+
+const qdot_statement qdot_statement_print = {
+    .word = "print",
+    .group = QDOT_WORKBENCH,
+    .usage = "print [EXPR, \"text\", ...]",
+    .summary = "expressions and texts in one line",
+    .example = "print \"T is\", T",
+    .handler = print_line,
+};
+
+/* A list of texts, each in a line of its own. */
+static bool
+is_texts(const qdot_pool *pool, qdot_expr e)
+{
+    bool list = qdot_expr_kind(pool, e) == QDOT_LIST;
+    uint32_t n = list ? qdot_expr_count(pool, e) : 0;
+
+    for (uint32_t i = 0; i < n && list; i++)
+        list = qdot_expr_is_class(pool, qdot_expr_arg(pool, e, i), QDOT_WORDS);
+    return list && n > 0;
+}
+
+static qdot_status
+add_texts(qdot_session *session, qdot_expr list, qdot_text *line)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list); i++) {
+        qdot_text_add(line, i > 0 ? "\n" : "");
+        QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, list, i),
+                            session->style, line));
+    }
+    return QDOT_OK;
+}
+
+/* One argument as text: a quoted one as it is, numbers of runs as numbers. */
+static qdot_status
+print_one(qdot_record *r, const qdot_filled *one, qdot_text *line)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_expr value;
+    double x, error;
+    int digits;
+
+    if (!qdot_filled_is(one, "EXPR")) {
+        qdot_text_add(line, qdot_record_text(one));
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_record_value(r, one, &value));
+    if (is_texts(session->pool, value))
+        return add_texts(session, value, line);
+    if (!qdot_measured_occurs(session, value))
+        return qdot_formula_marked(session, value, line);
+    if (qdot_value_kind_are_equations(session->pool, value))
+        return qdot_ask_print_point(session, value, line);
+    digits = qdot_digits_of(session, value);
+    for (uint32_t i = 0;; i++) {
+        bool scalar = qdot_expr_is_scalar(session->pool, value);
+        qdot_expr member;
+
+        if (!scalar && i >= qdot_expr_count(session->pool, value))
+            return QDOT_OK;
+        member = scalar ? value : qdot_expr_arg(session->pool, value, i);
+        QDOT_TRY(qdot_session_number(session, member, &x, &error));
+        qdot_text_add(line, i > 0 ? ", " : "");
+        if (digits > 0)
+            QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
+        else
+            qdot_number_text_known(line, x, error);
+        if (scalar)
+            return QDOT_OK;
+    }
+}
+
+static qdot_status
+print_line(qdot_record *r)
+{
+    qdot_text line = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 1; i < r->parts.n && status == QDOT_OK; i++) {
+        if (r->parts.at[i].node->kind != QDOT_USAGE_HOLE)
+            continue;
+        qdot_text_add(&line, line.n > 0 ? " " : "");
+        status = print_one(r, &r->parts.at[i], &line);
+    }
+    return qdot_answer_written(r->cursor.session, "print", status, &line);
+}

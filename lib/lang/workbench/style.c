@@ -1,0 +1,33 @@
+/* style.c -- `style`: how expressions are written. */
+#include "lang/commands/statement.h"
+#include "lang/syntax/record.h"
+
+static qdot_status style_choose(qdot_record *r);
+
+const qdot_statement qdot_statement_style = {
+    .word = "style",
+    .group = QDOT_WORKBENCH,
+    .usage = "style plain | unicode | flat | latex | mathml",
+    .summary = "how expressions are written",
+    .example = "style latex",
+    .handler = style_choose,
+};
+
+static qdot_status
+style_choose(qdot_record *r)
+{
+    static const struct {
+        const char *word;
+        qdot_style style;
+    } styles[] = {{"plain", QDOT_PLAIN},
+                  {"unicode", QDOT_UNICODE},
+                  {"latex", QDOT_LATEX},
+                  {"mathml", QDOT_MATHML}};
+    qdot_session *session = r->cursor.session;
+
+    session->flat = qdot_record_word(r, "flat") != NULL; /* the style stays */
+    for (size_t i = 0; i < sizeof styles / sizeof *styles; i++)
+        if (qdot_record_word(r, styles[i].word) != NULL)
+            session->style = styles[i].style;
+    return QDOT_OK;
+}

@@ -1,0 +1,19 @@
+/* timing.c -- `timing`: whether the CPU time of statements is told. */
+#include "lang/commands/statement.h"
+#include "lang/syntax/record.h"
+
+static qdot_status
+timing_switch(qdot_record *r)
+{
+    r->cursor.session->timing = qdot_record_word(r, "on") != NULL;
+    return QDOT_OK;
+}
+
+const qdot_statement qdot_statement_timing = {
+    .word = "timing",
+    .group = QDOT_WORKBENCH,
+    .usage = "timing on | off",
+    .summary = "tell the CPU time of every statement",
+    .example = "timing on",
+    .handler = timing_switch,
+};
