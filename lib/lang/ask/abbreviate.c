@@ -7,9 +7,21 @@
 #include "lang/answer/answer.h"
 #include "lang/ask/ask.h"
 #include "lang/commands/statement.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/measured.h"
+#include "lang/syntax/record.h"
+
+static qdot_status abbreviate_print(qdot_record *r);
+
+const qdot_statement qdot_statement_abbreviate = {
+    .word = "abbreviate",
+    .group = QDOT_ASKING,
+    .usage = "abbreviate EXPR",
+    .summary = "the value with names for the parts that it repeats: first the parts, D1 = ..., then what "
+               "they stand in; the names are not declared",
+    .example = "abbreviate eom",
+    .handler = abbreviate_print,
+};
 
 typedef struct {
     const qdot_session *session;
@@ -53,19 +65,18 @@ abbreviate_answer(qdot_session *session, const char *name, qdot_expr value, qdot
     return status;
 }
 
-qdot_status
-qdot_abbreviate_statement(qdot_cursor *c)
+static qdot_status
+abbreviate_print(qdot_record *r)
 {
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
+    const qdot_filled *expression = qdot_record_hole(r, NULL, "EXPR");
     qdot_text name = {0};
     qdot_expr value, over;
     qdot_status status;
 
-    QDOT_TRY(qdot_read_named(c, &value, &over));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    qdot_token_text(session, start, c->at, &name);
+    QDOT_TRY(qdot_record_named(r, expression, &value, &over));
+    r->cursor.error_at = r->start->start;
+    qdot_token_text(session, expression->from, expression->to, &name);
     status = qdot_text_status(&name);
     if (status == QDOT_OK)
         status = qdot_session_remember(session, value, over);

@@ -1,4 +1,4 @@
-/* ask.c -- values asked for: expressions and the parts of a scene. */
+/* ask.c -- values asked for: expressions. */
 #include "lang/ask/ask.h"
 
 #include <string.h>
@@ -102,8 +102,8 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
     return qdot_sheet_end(session, &sheet, name, status, &text);
 }
 
-static qdot_status
-answer_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr over)
+qdot_status
+qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr over)
 {
     uint32_t n = qdot_expr_count(session->pool, list);
     const qdot_quantity *row = qdot_quantity_find(name);
@@ -256,7 +256,7 @@ qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_e
     if (qdot_components_are(session, name, value, over))
         return qdot_components_answer(session, name, value, over);
     if (qdot_expr_kind(session->pool, value) == QDOT_LIST)
-        return answer_list(session, name, value, over);
+        return qdot_ask_list(session, name, value, over);
     return qdot_answer_expr(session, name, value);
 }
 
@@ -284,161 +284,4 @@ qdot_ask_expression(qdot_cursor *c)
         status = qdot_ask_answer(session, qdot_text_str(&name), value, over);
     qdot_text_clear(&name);
     return status;
-}
-
-/* --- the scene ---------------------------------------------------------------------- */
-
-qdot_status
-qdot_ask_scene(qdot_cursor *c)
-{
-    qdot_text text = {0};
-    qdot_status status;
-
-    if (qdot_cursor_accept_word(c, "to"))
-        return qdot_scene_file_write(c, QDOT_FILE_SCENE);
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    status = qdot_scene_print(c->session->scene, &text);
-    if (status == QDOT_OK && text.n == 0)
-        qdot_text_add(&text, "the scene is empty");
-    return qdot_answer_written(c->session, "scene", status, &text);
-}
-
-/* `theta, spring s1: part`, one line a coordinate and source. */
-static qdot_status
-print_sources(qdot_session *session, qdot_text *out)
-{
-    qdot_scene *s = session->scene;
-    qdot_force_source source;
-
-    for (size_t i = 0; i < s->coordinates.n; i++)
-        for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++) {
-            const qdot_expr q = s->coordinates.at[i];
-            const qdot_expr part = qdot_mech_source_force(s, &source, q);
-
-            QDOT_TRY(qdot_pool_check(session->pool));
-            if (part == QDOT_ZERO)
-                continue;
-            QDOT_TRY(qdot_formula_marked(session, q, out));
-            qdot_text_format(out, ", %s%s%s: ", source.kind, source.name != NULL ? " " : "",
-                             source.name != NULL ? source.name : "");
-            QDOT_TRY(qdot_formula_marked(session, part, out));
-            qdot_text_char(out, '\n');
-        }
-    if (out->n == 0)
-        qdot_text_add(out, "nothing is applied");
-    return qdot_text_status(out);
-}
-
-qdot_status
-qdot_ask_forces(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    qdot_text text = {0};
-    qdot_expr forces;
-    qdot_sheet sheet;
-
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    forces = qdot_mech_forces(session->scene);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_session_remember(session, forces,
-                                   qdot_list(session->pool,
-                                             (uint32_t)session->scene->coordinates.n,
-                                             session->scene->coordinates.at)));
-    QDOT_TRY(answer_list(session, "forces", forces, QDOT_NIL));
-    sheet = qdot_sheet_begin(session);
-    return qdot_sheet_end(session, &sheet, "forces", print_sources(session, &text), &text);
-}
-
-qdot_status
-qdot_ask_dof(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    qdot_expr value;
-    qdot_text text = {0};
-    qdot_dof dof;
-
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    QDOT_TRY(qdot_mech_dof(session->scene, &dof));
-    value = qdot_expr_int(session->pool, (long)dof.freedom);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_vec_push(&session->history, value));
-    QDOT_TRY(qdot_answer_expr(session, "dof", value));
-    qdot_text_format(&text,
-                     "coordinates %zu, constraints %zu, of them independent %zu: "
-                     "n = %zu - %zu = %zu",
-                     dof.coordinates, dof.constraints, dof.independent, dof.coordinates,
-                     dof.independent, dof.freedom);
-    if (dof.cartesian)
-        qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
-                         dof.dimension, dof.independent, dof.freedom);
-    qdot_constraints_print_redundant(session->scene, &dof, &text);
-    return qdot_answer_written(session, "dof", QDOT_OK, &text);
-}
-
-/* `theta: p[theta] = ... is conserved`, or with its rate. */
-static qdot_status
-print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
-{
-    qdot_pool *pool = session->pool;
-    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
-
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_formula_marked(session, one->coordinate, text));
-    qdot_text_add(text, ": ");
-    qdot_formula_bracket(session, true, text);
-    QDOT_TRY(qdot_print(pool, p, session->style, text));
-    qdot_text_add(text, qdot_formula_equals(session));
-    QDOT_TRY(qdot_formula_print(session, one->momentum, session->style, text));
-    qdot_formula_bracket(session, false, text);
-    if (one->rate == QDOT_NIL) {
-        qdot_text_add(text, " is conserved");
-        return QDOT_OK;
-    }
-    qdot_text_add(text, " changes at the rate ");
-    return qdot_formula_marked(session, one->rate, text);
-}
-
-/* With --json the momenta are values too: `p[theta] = ...` by the name of
- * cyclic[theta]. */
-static qdot_status
-answer_cyclic(qdot_session *session, const qdot_cyclic *one)
-{
-    qdot_pool *pool = session->pool;
-    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
-    qdot_expr equation = qdot_rel(pool, QDOT_EQ, p, one->momentum);
-    qdot_text name = {0};
-    qdot_status status;
-
-    QDOT_TRY(qdot_pool_check(pool));
-    qdot_text_format(&name, "cyclic[%s]", qdot_expr_symbol(pool, one->coordinate)->name);
-    status = qdot_text_status(&name);
-    if (status == QDOT_OK)
-        status = qdot_answer_expr(session, qdot_text_str(&name), equation);
-    qdot_text_clear(&name);
-    return status;
-}
-
-qdot_status
-qdot_ask_cyclic(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    qdot_status status = QDOT_OK;
-    qdot_text text = {0};
-    qdot_cyclic *list;
-    qdot_sheet sheet;
-    size_t n;
-
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
-    sheet = qdot_sheet_begin(session);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i > 0 ? "\n" : "");
-        status = print_cyclic(session, &list[i], &text);
-        if (status == QDOT_OK && session->json)
-            status = answer_cyclic(session, &list[i]);
-    }
-    if (n == 0)
-        qdot_text_add(&text, "no coordinate is cyclic");
-    qdot_free(list);
-    return qdot_sheet_end(session, &sheet, "cyclic", status, &text);
 }

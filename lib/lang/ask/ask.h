@@ -13,4 +13,8 @@ QDOT_MUST_CHECK qdot_status qdot_ask_answer(qdot_session *session, const char *n
 QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_session *session, qdot_expr equations,
                                                  qdot_text *line);
 
+/* Each member of a LIST, as above. */
+QDOT_MUST_CHECK qdot_status qdot_ask_list(qdot_session *session, const char *name, qdot_expr list,
+                                          qdot_expr over);
+
 #endif

@@ -8,9 +8,22 @@
 #include "lang/answer/notation.h"
 #include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
+#include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/form/common.h"
 #include "normal/simplify/simplify.h"
+
+static qdot_status derive_print(qdot_record *r);
+
+const qdot_statement qdot_statement_derive = {
+    .word = "derive",
+    .group = QDOT_ASKING,
+    .usage = "derive",
+    .summary = "the derivation from r(q) to the equations, step by step",
+    .example = "derive",
+    .alone = true,
+    .handler = derive_print,
+};
 
 typedef struct {
     qdot_session *session;
@@ -620,14 +633,13 @@ conserved_momenta(derivation *d)
     return status;
 }
 
-qdot_status
-qdot_derive_all(qdot_cursor *c)
+static qdot_status
+derive_print(qdot_record *r)
 {
-    derivation d = {.session = c->session};
-    qdot_session *session = c->session;
+    qdot_session *session = r->cursor.session;
+    derivation d = {.session = session};
     qdot_status status = QDOT_OK;
 
-    QDOT_TRY(qdot_cursor_expect_end(c));
     if (session->scene->coordinates.n == 0) {
         (void)qdot_fail(QDOT_EINVAL,
                         "there is nothing to derive: no coordinate is declared");

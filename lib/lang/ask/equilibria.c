@@ -1,4 +1,4 @@
-/* equilibria.c -- `equilibria` and `modes` as statements: with stability, with amplitudes. */
+/* equilibria.c -- `equilibria`: where the scene can rest, with stability. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,10 +9,20 @@
 #include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
-#include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/syntax/record.h"
 
-/* --- equilibria ------------------------------------------------------------------------- */
+static qdot_status equilibria_list(qdot_record *r);
+
+const qdot_statement qdot_statement_equilibria = {
+    .word = "equilibria",
+    .group = QDOT_ASKING,
+    .usage = "equilibria",
+    .summary = "where the scene can rest, with stability",
+    .example = "equilibria",
+    .alone = true,
+    .handler = equilibria_list,
+};
 
 /* a > |b| for a > b and a + b > 0, a positive (>= for both >=); else nil. */
 static qdot_expr
@@ -276,17 +286,15 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
     return qdot_answer_written(session, "equilibria", QDOT_OK, &text);
 }
 
-qdot_status
-qdot_equilibria_all(qdot_cursor *c)
+static qdot_status
+equilibria_list(qdot_record *r)
 {
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at - 1; /* the word */
+    qdot_session *session = r->cursor.session;
     qdot_equilibria all;
     qdot_expr value;
     qdot_status status;
 
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
+    r->cursor.error_at = r->start[-1].start; /* the word */
     QDOT_TRY(qdot_equilibria_find(session, &all));
     status = qdot_equilibria_list(session, &all, &value);
     if (status == QDOT_OK)
@@ -296,85 +304,5 @@ qdot_equilibria_all(qdot_cursor *c)
     if (status == QDOT_OK)
         status = answer_rest(session, &all);
     qdot_equilibria_clear(&all);
-    return status;
-}
-
-/* --- modes ----------------------------------------------------------------------------- */
-
-/* Exact, or a number: as JSON without a statement of its error. */
-static qdot_status
-answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
-{
-    qdot_text line = {0};
-    double x;
-
-    if (!numeric)
-        return qdot_answer_expr(session, name, value);
-    QDOT_TRY(qdot_session_number(session, value, &x, NULL));
-    if (session->json)
-        return qdot_answer_number(session, name, x, NAN);
-    qdot_text_format(&line, "%s = ", name);
-    qdot_number_text(&line, x, 1e-13 * fabs(x));
-    return qdot_answer_written(session, name, QDOT_OK, &line);
-}
-
-static qdot_status
-answer_modes(qdot_session *session, const qdot_modes *modes)
-{
-    size_t n = session->scene->coordinates.n;
-
-    for (size_t k = 0; k < modes->n; k++) {
-        char name[400];
-
-        snprintf(name, sizeof name, "modes[%zu]", k + 1);
-        QDOT_TRY(answer_part(session, modes->numeric, name, modes->frequency[k]));
-        for (size_t i = 0; i < n; i++) {
-            snprintf(
-                name, sizeof name, "modes[%zu, %.300s]", k + 1,
-                qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
-            QDOT_TRY(
-                answer_part(session, modes->numeric, name, modes->amplitude[k * n + i]));
-        }
-    }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_equilibria_modes(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at - 1; /* the word */
-    qdot_expr at = QDOT_NIL, value;
-    qdot_modes modes;
-    qdot_status status;
-
-    if (qdot_cursor_accept_word(c, "at")) {
-        const qdot_token *place = c->at;
-
-        QDOT_TRY(qdot_read_value(c, &at));
-        if (qdot_expr_kind(session->pool, at) == QDOT_REL)
-            at = qdot_list(session->pool, 1, &at);
-        QDOT_TRY(qdot_pool_check(session->pool));
-        for (uint32_t i = 0; i < qdot_expr_count(session->pool, at) ||
-                             qdot_expr_kind(session->pool, at) != QDOT_LIST;
-             i++)
-            if (qdot_expr_kind(session->pool, at) != QDOT_LIST ||
-                qdot_expr_kind(session->pool, qdot_expr_arg(session->pool, at, i)) !=
-                    QDOT_REL) {
-                c->error_at = place->start;
-                (void)qdot_fail(QDOT_ETYPE, "modes are asked at a list of equations");
-                return qdot_hint("modes at equilibria[1]");
-            }
-    }
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    QDOT_TRY(qdot_equilibria_modes_at(session, at, &modes));
-    value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);
-    status = qdot_pool_check(session->pool);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&session->history, value);
-    if (status == QDOT_OK)
-        status = answer_modes(session, &modes);
-    qdot_modes_clear(&modes);
     return status;
 }

@@ -1,5 +1,4 @@
-/* constraints.c -- what is asked of constraints: reactions, and whether one is holonomic
- * in disguise. */
+/* constraints.c -- what is asked of constraints: whether one is holonomic in disguise, redundant. */
 #include "lang/declare/constraints.h"
 
 #include <math.h>
@@ -14,7 +13,6 @@
 #include "lang/language/hints.h"
 #include "lang/language/read.h"
 #include "mech/dynamics/integrable.h"
-#include "mech/study/reactions.h"
 
 /* "blade", "roll[2]" */
 static void
@@ -27,85 +25,6 @@ print_constraint(const qdot_constraint *c, qdot_text *out)
                          comma + 1 + strspn(comma + 1, " "));
     else
         qdot_text_add(out, c->name);
-}
-
-/* A value between the marks of a formula. */
-static qdot_status
-formula(qdot_session *session, qdot_expr e, qdot_text *out)
-{
-    qdot_formula_bracket(session, true, out);
-    QDOT_TRY(qdot_formula_print(session, e, session->style, out));
-    qdot_formula_bracket(session, false, out);
-    return qdot_text_status(out);
-}
-
-/* --- reactions ---------------------------------------------------------------------- */
-
-static bool
-is_zero(const qdot_pool *pool, qdot_expr e)
-{
-    for (uint32_t i = 0; qdot_expr_kind(pool, e) == QDOT_VEC; i++) {
-        if (i == qdot_expr_count(pool, e))
-            return true;
-        if (qdot_expr_arg(pool, e, i) != QDOT_ZERO)
-            return false;
-    }
-    return e == QDOT_ZERO;
-}
-
-static qdot_status
-print_reaction(qdot_session *session, const qdot_reaction *r, qdot_text *out)
-{
-    qdot_pool *pool = session->pool;
-
-    if (r->name == NULL)
-        QDOT_TRY(formula(session, r->coordinate, out));
-    else
-        qdot_text_add(out, r->name);
-    if (r->name == NULL || r->torque == QDOT_NIL || !is_zero(pool, r->force)) {
-        qdot_text_add(out, r->name == NULL ? ": generalized reaction " : ": force ");
-        QDOT_TRY(formula(session, r->force, out));
-        if (r->torque == QDOT_NIL || is_zero(pool, r->torque))
-            return QDOT_OK;
-        qdot_text_add(out, " at its centre, torque ");
-    } else {
-        qdot_text_add(out, ": torque ");
-    }
-    return formula(session, r->torque, out);
-}
-
-qdot_status
-qdot_ask_reactions(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    qdot_reaction *list = NULL;
-    qdot_text text = {0};
-    qdot_sheet sheet;
-    qdot_status status;
-    qdot_expr value;
-    size_t n = 0;
-
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    if (session->scene->constraints.n == 0) {
-        (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
-        return qdot_hint("constraint rod: x^2 + y^2 = L^2");
-    }
-    value = qdot_mech_reaction_list(session->scene);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_vec_push(&session->history, value));
-    if (session->json)
-        QDOT_TRY(qdot_answer_expr(session, "reactions", value));
-    status = qdot_mech_reactions(session->scene, &list, &n);
-    sheet = qdot_sheet_begin(session);
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i > 0 ? "\n" : "");
-        status = print_reaction(session, &list[i], &text);
-    }
-    if (n == 0)
-        qdot_text_add(&text, "the constraints act on nothing");
-    status = qdot_sheet_end(session, &sheet, "reactions", status, &text);
-    qdot_free(list);
-    return status;
 }
 
 /* --- redundant ones ----------------------------------------------------------------- */
@@ -146,7 +65,7 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
 static qdot_status
 print_integral(qdot_session *session, qdot_expr integral, qdot_text *out)
 {
-    QDOT_TRY(formula(session, integral, out));
+    QDOT_TRY(qdot_formula_marked(session, integral, out));
     qdot_text_add(out, " = const");
     return QDOT_OK;
 }
@@ -157,11 +76,11 @@ print_refuted(qdot_session *session, const qdot_integrability *i, qdot_text *out
     qdot_expr at = i->decision.at;
 
     qdot_text_add(out, " is not integrable: dw along ");
-    QDOT_TRY(formula(session, i->along[0], out));
+    QDOT_TRY(qdot_formula_marked(session, i->along[0], out));
     qdot_text_add(out, " and ");
-    QDOT_TRY(formula(session, i->along[1], out));
+    QDOT_TRY(qdot_formula_marked(session, i->along[1], out));
     qdot_text_add(out, " is ");
-    QDOT_TRY(formula(session, i->component, out));
+    QDOT_TRY(qdot_formula_marked(session, i->component, out));
     if (at == QDOT_NIL || qdot_expr_count(session->pool, at) == 0)
         return QDOT_OK;
     if (isfinite(i->decision.left)) {
@@ -170,7 +89,7 @@ print_refuted(qdot_session *session, const qdot_integrability *i, qdot_text *out
     }
     for (uint32_t k = 0; k < qdot_expr_count(session->pool, at); k++) {
         qdot_text_add(out, k == 0 ? " at " : ", ");
-        QDOT_TRY(formula(session, qdot_expr_arg(session->pool, at, k), out));
+        QDOT_TRY(qdot_formula_marked(session, qdot_expr_arg(session->pool, at, k), out));
     }
     return QDOT_OK;
 }

@@ -279,19 +279,18 @@ may_overwrite(const char *path)
 }
 
 qdot_status
-qdot_scene_file_write(qdot_cursor *c, qdot_scene_file what)
+qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file what)
 {
-    const qdot_token *start = c->at;
+    const char *path = name->text;
     qdot_text text = {0};
     qdot_status status;
-    const char *path;
 
-    if (!qdot_scene_file_is(c->at))
+    if (!qdot_scene_file_is(name)) {
+        c->at = name;
         return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
-    QDOT_TRY(qdot_read_string(c, &path));
-    QDOT_TRY(qdot_cursor_expect_end(c));
+    }
     status = qdot_scene_file_text(c->session, what, &text);
-    c->error_at = start->start;
+    c->error_at = name->start;
     if (status == QDOT_OK)
         status = may_overwrite(path);
     if (status == QDOT_OK)

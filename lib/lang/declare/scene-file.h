@@ -30,8 +30,9 @@ typedef enum {
 /* Append what stands in such a file. */
 QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, qdot_scene_file what,
                                                  qdot_text *out);
-/* Behind `to`. Errors: QDOT_EIO; QDOT_EINVAL for
- * a file that does not begin as these do. */
-QDOT_MUST_CHECK qdot_status qdot_scene_file_write(qdot_cursor *c, qdot_scene_file what);
+/* To the file that the token names. Errors, placed at it: QDOT_EIO; QDOT_EINVAL for a file that does
+ * not begin as these do. */
+QDOT_MUST_CHECK qdot_status qdot_scene_file_write(qdot_cursor *c, const qdot_token *name,
+                                                  qdot_scene_file what);
 
 #endif

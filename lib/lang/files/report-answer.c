@@ -58,16 +58,16 @@ qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status statu
 }
 
 qdot_status
-qdot_report_answer_of(const qdot_cursor *cursor, qdot_status (*statement)(qdot_cursor *),
-                      qdot_text *text)
+qdot_report_answer_of(const qdot_cursor *cursor, const qdot_statement *statement, qdot_text *text)
 {
-    qdot_cursor c = *cursor;
+    qdot_record r = {.row = statement, .cursor = *cursor};
     qdot_report_answer k;
 
-    while (c.at->kind != QDOT_TOKEN_END)
-        c.at++;
-    QDOT_TRY(qdot_report_answer_begin(c.session, QDOT_MATHML, &k));
-    return qdot_report_answer_end(c.session, &k, statement(&c), text);
+    while (r.cursor.at->kind != QDOT_TOKEN_END)
+        r.cursor.at++;
+    r.start = r.cursor.at;
+    QDOT_TRY(qdot_report_answer_begin(cursor->session, QDOT_MATHML, &k));
+    return qdot_report_answer_end(cursor->session, &k, statement->handler(&r), text);
 }
 
 void

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_REPORT_ANSWER_H
 #define QDOT_LANG_REPORT_ANSWER_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 
 /* What stays of a session while an answer is taken down. */
 typedef struct {
@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_report_answer_end(qdot_session *s, qdot_report_
 
 /* Append what a statement without operands answers, in MathML. */
 QDOT_MUST_CHECK qdot_status qdot_report_answer_of(const qdot_cursor *c,
-                                                  qdot_status (*statement)(qdot_cursor *),
+                                                  const qdot_statement *statement,
                                                   qdot_text *text);
 
 /* Append a heading of the page. */

@@ -30,7 +30,7 @@ typedef struct {
 /* --- sections ----------------------------------------------------------------------- */
 
 static qdot_status
-add_answer(page *p, const char *title, qdot_status (*statement)(qdot_cursor *))
+add_answer(page *p, const char *title, const qdot_statement *statement)
 {
     qdot_text text = {0};
     qdot_status status = qdot_report_answer_of(p->c, statement, &text);
@@ -108,9 +108,9 @@ static qdot_status
 write_sections(page *p)
 {
     QDOT_TRY(add_scene(p));
-    QDOT_TRY(add_answer(p, "Derivation", qdot_derive_all));
+    QDOT_TRY(add_answer(p, "Derivation", &qdot_statement_derive));
     QDOT_TRY(add_conserved(p));
-    QDOT_TRY(add_answer(p, "Equilibria", qdot_equilibria_all));
+    QDOT_TRY(add_answer(p, "Equilibria", &qdot_statement_equilibria));
     if (p->n > 0) {
         QDOT_TRY(qdot_report_runs(p->session, p->n, p->runs, &p->page));
         if (p->work)

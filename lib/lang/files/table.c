@@ -371,6 +371,19 @@ fill_before_events(qdot_run *run, const qdot_operands *list, grid *g)
     return QDOT_OK;
 }
 
+/* `save session to "FILE.lag"`, at the name of the file. */
+static qdot_status
+save_session(qdot_cursor *c)
+{
+    const qdot_token *name = c->at;
+
+    if (!qdot_scene_file_is(name))
+        return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
+    c->at++;
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    return qdot_scene_file_write(c, name, QDOT_FILE_SESSION);
+}
+
 qdot_status
 qdot_table_save(qdot_cursor *c)
 {
@@ -392,7 +405,7 @@ qdot_table_save(qdot_cursor *c)
     if (name != NULL && strcmp(name, "session") == 0 &&
         (qdot_scene_file_is(c->at) ||
          qdot_runs_find(c->session, name, &named) != QDOT_OK))
-        return qdot_scene_file_write(c, QDOT_FILE_SESSION);
+        return save_session(c);
     file = c->at;
     QDOT_TRY(qdot_figure_file_read(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));

@@ -7,22 +7,22 @@
 #include "base/number-text.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
-#include "lang/language/read.h"
 #include "lang/slopes/orbit-run.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
 
-static qdot_status
-find_named(qdot_cursor *c, qdot_named_run **orbit)
-{
-    const qdot_token *start = c->at;
-    const char *name;
+static qdot_status floquet_print(qdot_record *r);
 
-    QDOT_TRY(qdot_read_name(c, &name));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    return qdot_orbit_run_named(c->session, name, orbit);
-}
+const qdot_statement qdot_statement_floquet = {
+    .word = "floquet",
+    .group = QDOT_NUMBERS,
+    .usage = "floquet [RUN]",
+    .summary = "the multipliers of a periodic orbit, the latest run that ends where it began, each with its error, and "
+               "whether it is stable",
+    .example = "floquet",
+    .handler = floquet_print,
+};
 
 /* re + im*i with one error; JSON: [re, im]. */
 static qdot_status
@@ -88,28 +88,29 @@ floquet_tell(qdot_session *session, const char *run, const qdot_floquet *x)
     return qdot_answer_written(session, "floquet", QDOT_OK, &text);
 }
 
-qdot_status
-qdot_floquet_statement(qdot_cursor *c)
+static qdot_status
+floquet_print(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
+    const qdot_filled *run = qdot_record_hole(r, NULL, "RUN");
     qdot_named_run *orbit = NULL;
     qdot_run_request request;
     qdot_floquet x = {0};
     qdot_status status;
+    const char *name;
 
-    if (!qdot_cursor_is_end(c)) {
-        QDOT_TRY(find_named(c, &orbit));
-    } else {
-        c->error_at = start->start;
-        QDOT_TRY(qdot_orbit_run_find(c->session, &orbit));
-    }
+    if (run != NULL)
+        QDOT_TRY(qdot_record_name(r, run, &name));
+    r->cursor.error_at = r->start->start;
+    QDOT_TRY(run != NULL ? qdot_orbit_run_named(session, name, &orbit)
+                         : qdot_orbit_run_find(session, &orbit));
     request = qdot_conditions_request(orbit->conditions);
     request.tol = qdot_run_get_report(orbit->run)->tol;
     request.method = qdot_run_get_report(orbit->run)->method;
     request.treatment = qdot_run_get_report(orbit->run)->treatment;
-    status = qdot_floquet_find(c->session->scene, orbit->run, &request, &x);
+    status = qdot_floquet_find(session->scene, orbit->run, &request, &x);
     if (status == QDOT_OK)
-        status = floquet_tell(c->session, orbit->name, &x);
+        status = floquet_tell(session, orbit->name, &x);
     qdot_floquet_clear(&x);
     return status;
 }

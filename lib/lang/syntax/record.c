@@ -65,6 +65,12 @@ qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 }
 
 qdot_status
+qdot_record_named(qdot_record *r, const qdot_filled *part, qdot_expr *value, qdot_expr *over)
+{
+    return qdot_compiled_named(&r->cursor, &r->compiled.at[part->first], value, over);
+}
+
+qdot_status
 qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 {
     return qdot_compiled_scalar(&r->cursor, &r->compiled.at[part->first], value);

@@ -33,7 +33,7 @@ typedef struct {
 typedef struct qdot_record {
     const qdot_statement *row;
     qdot_cursor cursor; /* session, source; where an error is; behind the statement */
-    const qdot_token *start; /* the token behind the statement's word */
+    const qdot_token *start; /* the token behind the statement's word, start[-1] */
     qdot_vec(qdot_filled) parts; /* as they were written; the first is the statement's word */
     qdot_vec(qdot_compiled) compiled;
 } qdot_record;
@@ -53,6 +53,9 @@ bool qdot_filled_is(const qdot_filled *part, const char *text);
 /* --- values -------------------------------------------------------------------------- */
 
 QDOT_MUST_CHECK qdot_status qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value);
+/* The same, to be named: *over: the coordinates its entries go by, or nil. */
+QDOT_MUST_CHECK qdot_status qdot_record_named(qdot_record *r, const qdot_filled *part, qdot_expr *value,
+                                              qdot_expr *over);
 QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);

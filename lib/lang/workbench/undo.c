@@ -56,7 +56,7 @@ undo_step(qdot_record *r, const char *name, const char *word, bool again)
 
     if (number != NULL)
         QDOT_TRY(qdot_record_integer(r, number, &wanted));
-    qdot_record_blame(r, number != NULL ? number : &r->parts.at[0]);
+    r->cursor.error_at = (number != NULL ? number->from : &r->start[-1])->start;
     if (s->loops > 0)
         return qdot_fail(QDOT_EINVAL, "`%s` has no place inside a loop", name);
     if (wanted < 1 || (size_t)wanted > n)

@@ -1,0 +1,85 @@
+/* cyclic.c -- `cyclic`: the coordinates absent from L, each with its momentum. */
+#include "lang/answer/answer.h"
+#include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
+#include "lang/commands/statement.h"
+#include "lang/syntax/record.h"
+
+static qdot_status cyclic_list(qdot_record *r);
+
+const qdot_statement qdot_statement_cyclic = {
+    .word = "cyclic",
+    .group = QDOT_ASKING,
+    .usage = "cyclic",
+    .summary = "the coordinates absent from L, each with its momentum",
+    .example = "cyclic",
+    .alone = true,
+    .handler = cyclic_list,
+};
+
+/* `theta: p[theta] = ... is conserved`, or with its rate. */
+static qdot_status
+print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_formula_marked(session, one->coordinate, text));
+    qdot_text_add(text, ": ");
+    qdot_formula_bracket(session, true, text);
+    QDOT_TRY(qdot_print(pool, p, session->style, text));
+    qdot_text_add(text, qdot_formula_equals(session));
+    QDOT_TRY(qdot_formula_print(session, one->momentum, session->style, text));
+    qdot_formula_bracket(session, false, text);
+    if (one->rate == QDOT_NIL) {
+        qdot_text_add(text, " is conserved");
+        return QDOT_OK;
+    }
+    qdot_text_add(text, " changes at the rate ");
+    return qdot_formula_marked(session, one->rate, text);
+}
+
+/* With --json the momenta are values too: `p[theta] = ...` by the name of
+ * cyclic[theta]. */
+static qdot_status
+answer_cyclic(qdot_session *session, const qdot_cyclic *one)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
+    qdot_expr equation = qdot_rel(pool, QDOT_EQ, p, one->momentum);
+    qdot_text name = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    qdot_text_format(&name, "cyclic[%s]", qdot_expr_symbol(pool, one->coordinate)->name);
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_answer_expr(session, qdot_text_str(&name), equation);
+    qdot_text_clear(&name);
+    return status;
+}
+
+static qdot_status
+cyclic_list(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_status status = QDOT_OK;
+    qdot_text text = {0};
+    qdot_cyclic *list;
+    qdot_sheet sheet;
+    size_t n;
+
+    QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
+    sheet = qdot_sheet_begin(session);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i > 0 ? "\n" : "");
+        status = print_cyclic(session, &list[i], &text);
+        if (status == QDOT_OK && session->json)
+            status = answer_cyclic(session, &list[i]);
+    }
+    if (n == 0)
+        qdot_text_add(&text, "no coordinate is cyclic");
+    qdot_free(list);
+    return qdot_sheet_end(session, &sheet, "cyclic", status, &text);
+}

@@ -1,0 +1,42 @@
+/* dof.c -- `dof`: coordinates, constraints, degrees of freedom. */
+#include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/declare/constraints.h"
+#include "lang/syntax/record.h"
+
+static qdot_status dof_print(qdot_record *r);
+
+const qdot_statement qdot_statement_dof = {
+    .word = "dof",
+    .group = QDOT_ASKING,
+    .usage = "dof",
+    .summary = "coordinates, independent constraints, degrees of freedom",
+    .example = "dof",
+    .alone = true,
+    .handler = dof_print,
+};
+
+static qdot_status
+dof_print(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_expr value;
+    qdot_text text = {0};
+    qdot_dof dof;
+
+    QDOT_TRY(qdot_mech_dof(session->scene, &dof));
+    value = qdot_expr_int(session->pool, (long)dof.freedom);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_vec_push(&session->history, value));
+    QDOT_TRY(qdot_answer_expr(session, "dof", value));
+    qdot_text_format(&text,
+                     "coordinates %zu, constraints %zu, of them independent %zu: "
+                     "n = %zu - %zu = %zu",
+                     dof.coordinates, dof.constraints, dof.independent, dof.coordinates,
+                     dof.independent, dof.freedom);
+    if (dof.cartesian)
+        qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
+                         dof.dimension, dof.independent, dof.freedom);
+    qdot_constraints_print_redundant(session->scene, &dof, &text);
+    return qdot_answer_written(session, "dof", QDOT_OK, &text);
+}

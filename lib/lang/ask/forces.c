@@ -1,0 +1,63 @@
+/* forces.c -- `forces`: the generalized forces, part by part. */
+#include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
+#include "lang/ask/ask.h"
+#include "lang/commands/statement.h"
+#include "lang/syntax/record.h"
+
+static qdot_status forces_print(qdot_record *r);
+
+const qdot_statement qdot_statement_forces = {
+    .word = "forces",
+    .group = QDOT_ASKING,
+    .usage = "forces",
+    .summary = "the generalized forces, part by part",
+    .example = "forces",
+    .alone = true,
+    .handler = forces_print,
+};
+
+/* `theta, spring s1: part`, one line a coordinate and source. */
+static qdot_status
+forces_print_sources(qdot_session *session, qdot_text *out)
+{
+    qdot_scene *s = session->scene;
+    qdot_force_source source;
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++) {
+            const qdot_expr q = s->coordinates.at[i];
+            const qdot_expr part = qdot_mech_source_force(s, &source, q);
+
+            QDOT_TRY(qdot_pool_check(session->pool));
+            if (part == QDOT_ZERO)
+                continue;
+            QDOT_TRY(qdot_formula_marked(session, q, out));
+            qdot_text_format(out, ", %s%s%s: ", source.kind, source.name != NULL ? " " : "",
+                             source.name != NULL ? source.name : "");
+            QDOT_TRY(qdot_formula_marked(session, part, out));
+            qdot_text_char(out, '\n');
+        }
+    if (out->n == 0)
+        qdot_text_add(out, "nothing is applied");
+    return qdot_text_status(out);
+}
+
+static qdot_status
+forces_print(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_text text = {0};
+    qdot_expr forces;
+    qdot_sheet sheet;
+
+    forces = qdot_mech_forces(session->scene);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_session_remember(session, forces,
+                                   qdot_list(session->pool,
+                                             (uint32_t)session->scene->coordinates.n,
+                                             session->scene->coordinates.at)));
+    QDOT_TRY(qdot_ask_list(session, "forces", forces, QDOT_NIL));
+    sheet = qdot_sheet_begin(session);
+    return qdot_sheet_end(session, &sheet, "forces", forces_print_sources(session, &text), &text);
+}

@@ -1,0 +1,106 @@
+/* modes.c -- `modes`: frequencies and amplitudes about an equilibrium. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/number-text.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/equilibria.h"
+#include "lang/session/bind.h"
+#include "lang/syntax/record.h"
+
+static qdot_status modes_print(qdot_record *r);
+
+const qdot_statement qdot_statement_modes = {
+    .word = "modes",
+    .group = QDOT_ASKING,
+    .usage = "modes [at EQUILIBRIUM]",
+    .summary = "normal modes about an equilibrium: frequencies and amplitudes",
+    .example = "modes at equilibria[2]",
+    .alone = true,
+    .handler = modes_print,
+};
+
+/* Exact, or a number: as JSON without a statement of its error. */
+static qdot_status
+modes_answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
+{
+    qdot_text line = {0};
+    double x;
+
+    if (!numeric)
+        return qdot_answer_expr(session, name, value);
+    QDOT_TRY(qdot_session_number(session, value, &x, NULL));
+    if (session->json)
+        return qdot_answer_number(session, name, x, NAN);
+    qdot_text_format(&line, "%s = ", name);
+    qdot_number_text(&line, x, 1e-13 * fabs(x));
+    return qdot_answer_written(session, name, QDOT_OK, &line);
+}
+
+static qdot_status
+answer_modes(qdot_session *session, const qdot_modes *modes)
+{
+    size_t n = session->scene->coordinates.n;
+
+    for (size_t k = 0; k < modes->n; k++) {
+        char name[400];
+
+        snprintf(name, sizeof name, "modes[%zu]", k + 1);
+        QDOT_TRY(modes_answer_part(session, modes->numeric, name, modes->frequency[k]));
+        for (size_t i = 0; i < n; i++) {
+            snprintf(
+                name, sizeof name, "modes[%zu, %.300s]", k + 1,
+                qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
+            QDOT_TRY(
+                modes_answer_part(session, modes->numeric, name, modes->amplitude[k * n + i]));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* The equations `at` which modes are asked, as a LIST. */
+static qdot_status
+modes_read_place(qdot_record *r, const qdot_filled *place, qdot_expr *at)
+{
+    qdot_pool *pool = r->cursor.session->pool;
+    bool equations;
+
+    QDOT_TRY(qdot_record_value(r, place, at));
+    if (qdot_expr_kind(pool, *at) == QDOT_REL)
+        *at = qdot_list(pool, 1, at);
+    QDOT_TRY(qdot_pool_check(pool));
+    equations = qdot_expr_kind(pool, *at) == QDOT_LIST;
+    for (uint32_t i = 0; equations && i < qdot_expr_count(pool, *at); i++)
+        equations = qdot_expr_kind(pool, qdot_expr_arg(pool, *at, i)) == QDOT_REL;
+    if (equations)
+        return QDOT_OK;
+    qdot_record_blame(r, place);
+    (void)qdot_fail(QDOT_ETYPE, "modes are asked at a list of equations");
+    return qdot_hint("modes at equilibria[1]");
+}
+
+static qdot_status
+modes_print(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    const qdot_filled *place = qdot_record_hole(r, "at", NULL);
+    qdot_expr at = QDOT_NIL, value;
+    qdot_modes modes;
+    qdot_status status;
+
+    if (place != NULL)
+        QDOT_TRY(modes_read_place(r, place, &at));
+    r->cursor.error_at = r->start[-1].start; /* the word */
+    QDOT_TRY(qdot_equilibria_modes_at(session, at, &modes));
+    value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);
+    status = qdot_pool_check(session->pool);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&session->history, value);
+    if (status == QDOT_OK)
+        status = answer_modes(session, &modes);
+    qdot_modes_clear(&modes);
+    return status;
+}

@@ -1,0 +1,34 @@
+/* scene.c -- `scene`: what is declared. */
+#include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/declare/scene-file.h"
+#include "lang/syntax/record.h"
+
+static qdot_status scene_print(qdot_record *r);
+
+const qdot_statement qdot_statement_scene = {
+    .word = "scene",
+    .group = QDOT_ASKING,
+    .usage = "scene [to \"FILE.lag\"]",
+    .summary = "print what is declared; to a .lag file: the statements that give the same scene again, with "
+               "definitions, values, start and events",
+    .example = "scene to \"x.lag\"",
+    .alone = true,
+    .handler = scene_print,
+};
+
+static qdot_status
+scene_print(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    const qdot_filled *file = qdot_record_hole(r, "to", NULL);
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (file != NULL)
+        return qdot_scene_file_write(&r->cursor, file->from, QDOT_FILE_SCENE);
+    status = qdot_scene_print(session->scene, &text);
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "the scene is empty");
+    return qdot_answer_written(session, "scene", status, &text);
+}
