@@ -1,6 +1,6 @@
 /* cells-closure.h -- of which weak conditions all points are limits of points inside, for cells.c alone.
  *
- * Tests  tests/normal/test_less.c
+ * Tests  tests/normal/inequality/test_less.c
  */
 #ifndef QDOT_NORMAL_CELLS_CLOSURE_H
 #define QDOT_NORMAL_CELLS_CLOSURE_H

@@ -1,7 +1,7 @@
 /* factor-signs.h -- the sign of an expression as that of a product: of its factors, of those that are linear in a sine or
  * cosine at both ends of its range. Within qdot_flint_run (normal/field/flint.h).
  *
- * Tests  tests/normal/test_less.c
+ * Tests  tests/normal/inequality/test_less.c
  */
 #ifndef QDOT_NORMAL_FACTOR_SIGNS_H
 #define QDOT_NORMAL_FACTOR_SIGNS_H

@@ -1,6 +1,6 @@
 /* solve-factors.h -- an expression as a product.
  *
- * Tests  tests/normal/test_solve.c
+ * Tests  tests/normal/solve/test_solve.c
  */
 #ifndef QDOT_NORMAL_SOLVE_FACTORS_H
 #define QDOT_NORMAL_SOLVE_FACTORS_H

@@ -8,7 +8,7 @@
  *
  * so that is what is asked of it. Where nothing presses it this says nothing: then M i must be along the slopes of u.
  *
- * Tests  tests/script/bodies-in-a-row.lag
+ * Tests  tests/script/contacts/bodies-in-a-row.lag
  */
 #ifndef QDOT_SIM_PIECE_IMPACT_H
 #define QDOT_SIM_PIECE_IMPACT_H
