@@ -515,6 +515,8 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
             p.status = out->failed ? QDOT_ENOMEM : qdot_interrupt_check();
     }
     qdot_free(p.todo.at);
+    if (p.status == QDOT_OK) /* a number or a name alone waits for nothing */
+        p.status = qdot_formula_status(out);
     if (p.status != QDOT_OK)
         qdot_printed_forget(pool->printed); /* nodes that were not opened */
     return p.status;

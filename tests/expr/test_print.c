@@ -419,7 +419,8 @@ formulas_share_what_stands_twice(void **state)
         assert_int_equal(qdot_print(p.pool, e, style, &alone), QDOT_OK);
         if (trial % 3 == 0) {
             qdot_memory_fail_at((long)random_below(12));
-            (void)qdot_print(p.pool, e, styles[(trial + 1) % 4], &twice);
+            qdot_status status = qdot_print(p.pool, e, styles[(trial + 1) % 4], &twice);
+            assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
             qdot_memory_fail_at(-1);
             qdot_text_clear(&twice);
         }
@@ -439,6 +440,33 @@ formulas_share_what_stands_twice(void **state)
         qdot_text_clear(&twice);
         qdot_formula_clear(&f);
     }
+}
+
+/* A number or a name alone is printed whole or not at all, and so is what is printed next. */
+static void
+a_name_alone_is_whole_or_no_memory(void **state)
+{
+    const qdot_expr leaf[] = {qdot_expr_ratio(p.pool, 22, 7), qdot_symbol_get(p.pool, QDOT_PARAM, "alpha")};
+    const char *const text[] = {"22/7", "alpha"};
+
+    (void)state;
+    for (size_t i = 0; i < 2; i++)
+        for (long n = 1; n < 40; n++) {
+            qdot_text failed = {0}, next = {0};
+            qdot_status status;
+
+            qdot_memory_fail_at(n);
+            status = qdot_print(p.pool, leaf[i], QDOT_PLAIN, &failed);
+            qdot_memory_fail_at(-1);
+            if (status == QDOT_OK)
+                assert_string_equal(qdot_text_str(&failed), text[i]);
+            else
+                assert_int_equal(status, QDOT_ENOMEM);
+            assert_int_equal(qdot_print(p.pool, leaf[i], QDOT_PLAIN, &next), QDOT_OK);
+            assert_string_equal(qdot_text_str(&next), text[i]);
+            qdot_text_clear(&failed);
+            qdot_text_clear(&next);
+        }
 }
 
 int
@@ -461,6 +489,7 @@ main(void)
         TEST(values_of_every_kind_are_written),
         TEST(nothing_cannot_be_printed),
         TEST(formulas_share_what_stands_twice),
+        TEST(a_name_alone_is_whole_or_no_memory),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
