@@ -36,12 +36,12 @@ unknown(const qdot_named_run *named, const char *name, long k, size_t n)
     (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name, k, n, n == 1 ? "" : "s",
                     named->name);
     for (size_t i = 0; i < count; i++) {
-        char when[60];
+        char when[96];
 
         if (strcmp(list[i].event, name) != 0)
             continue;
         snprintf(when, sizeof when, list[i].touched ? "about t = %.6g its sides touch but for rounding"
-                                                    : "from t = %.4g on its sides are equal within their errors",
+                                                    : "from t = %.6g on its sides are equal within their errors",
                  list[i].from);
         (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: %zu occurrence%s of the event %s known in %s: %s", name, k, n,
                         n == 1 ? "" : "s", n == 1 ? "is" : "are", named->name, when);
