@@ -136,18 +136,18 @@ qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_ex
 
 /* --- the others ------------------------------------------------------------------------ */
 
-/* The conditions and lo < v < hi, or lo <= v <= hi; nil: no such end. */
+/* The conditions and lo < v < hi, an end that is not open too; nil: no such end. */
 static qdot_expr
-in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool open)
+in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool lo_open, bool hi_open)
 {
     qdot_pool *pool = s->pool;
 
     if (lo != QDOT_NIL)
         when = qdot_conditions_and(
-            pool, when, qdot_condition(pool, qdot_sub(pool, v, lo), open, s->facts));
+            pool, when, qdot_condition(pool, qdot_sub(pool, v, lo), lo_open, s->facts));
     if (hi != QDOT_NIL)
         when = qdot_conditions_and(
-            pool, when, qdot_condition(pool, qdot_sub(pool, hi, v), open, s->facts));
+            pool, when, qdot_condition(pool, qdot_sub(pool, hi, v), hi_open, s->facts));
     return when;
 }
 
@@ -168,7 +168,7 @@ in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
     const qdot_fun_facts *f = qdot_fun_facts_of(h);
 
     return in_range(s, when, v, end_of_values(s->pool, &f->lo), end_of_values(s->pool, &f->hi),
-                    f->lo.open || f->hi.open);
+                    f->lo.open, f->hi.open);
 }
 
 /* floor(u) = v: v <= u < v + 1 for an integer v. */
