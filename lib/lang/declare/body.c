@@ -29,7 +29,7 @@ body_read_rotation(qdot_record *r, qdot_expr *rotation)
         const qdot_filled *second = euler < matrix ? matrix : euler;
 
         qdot_record_blame(r, second - 1);
-        return qdot_fail(QDOT_EINVAL, "`%s` is given twice", second[-1].node->text);
+        return qdot_fail(QDOT_EINVAL, "a body has `euler` or `rotation`, not both");
     }
     if (matrix != NULL)
         return qdot_record_value(r, matrix, rotation);
