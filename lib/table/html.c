@@ -47,7 +47,7 @@ html_add_row(const qdot_table *t, const html_style *style, size_t row, qdot_text
     qdot_text_add(out, "<tr>");
     for (size_t j = 0; j < t->n; j++) {
         qdot_text_truncate(&cell, 0);
-        qdot_table_add_cell(t, row, j, style->digits, style->none, &cell);
+        qdot_table_print_cell(t, row, j, style->digits, style->none, &cell);
         qdot_text_add(out, "<td>");
         html_add_text(qdot_text_str(&cell), out);
         qdot_text_add(out, "</td>");

@@ -94,17 +94,10 @@ qdot_table_status(const qdot_table *t)
 }
 
 void
-qdot_table_forget_rows(qdot_table *t)
+qdot_table_clear(qdot_table *t)
 {
     for (size_t i = 0; i < t->own.n; i++)
         qdot_free(t->own.texts[i]);
-    t->own.n = t->rows = 0;
-}
-
-void
-qdot_table_clear(qdot_table *t)
-{
-    qdot_table_forget_rows(t);
     qdot_free(t->own.values);
     qdot_free(t->own.errors);
     qdot_free(t->own.texts);
@@ -162,7 +155,7 @@ qdot_table_head(const qdot_table *t, size_t column)
 }
 
 static void
-table_add_number(const qdot_table_column *c, const qdot_table_cell *cell, int digits, qdot_text *out)
+table_print_number(const qdot_table_column *c, const qdot_table_cell *cell, int digits, qdot_text *out)
 {
     const qdot_number_form form = digits > 0 ? QDOT_NUMBER_GENERAL : c->form;
 
@@ -182,7 +175,7 @@ table_add_number(const qdot_table_column *c, const qdot_table_cell *cell, int di
 }
 
 void
-qdot_table_add_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out)
+qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out)
 {
     const qdot_table_column *c = &t->columns[column];
     const qdot_table_cell cell = qdot_table_at(t, row, column);
@@ -195,5 +188,5 @@ qdot_table_add_cell(const qdot_table *t, size_t row, size_t column, int digits, 
     else if (c->kind == QDOT_CELL_FLAG)
         qdot_text_add(out, cell.value != 0 ? "yes" : "no");
     else
-        table_add_number(c, &cell, digits, out);
+        table_print_number(c, &cell, digits, out);
 }

@@ -2,8 +2,7 @@
  *
  * A column says where its cells are: in an array of whoever has them (borrowed; with a stride, so that the entries of
  * a matrix row by row are columns too), or in rows that the table owns, to which cells are added. Nothing is copied to
- * be written, and a table that owns its rows may be emptied after each: a million rows take no memory that they do
- * not take anyway.
+ * be written.
  *
  * Who has a table says what stands in its columns, and how a person is to read a number of each. How a cell, a row, a
  * file looks is known to the writers alone: table/text.h, csv.h, json.h, html.h, hdf5.h.
@@ -104,8 +103,6 @@ void qdot_table_add_text(qdot_table *t, const char *text);
 void qdot_table_add_written(qdot_table *t, qdot_text *text);
 /* QDOT_ENOMEM if any cell could not be added. */
 QDOT_MUST_CHECK qdot_status qdot_table_status(const qdot_table *t);
-/* No row is left; the columns are. */
-void qdot_table_forget_rows(qdot_table *t);
 void qdot_table_clear(qdot_table *t);
 
 /* --- reading ---------------------------------------------------------------------------- */
@@ -130,6 +127,6 @@ QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_table *t, unsigned wher
 /* The column's head as people read it. */
 const char *qdot_table_head(const qdot_table *t, size_t column);
 /* Append a cell as people read it, `none` where there is no number; digits: of all numbers, 0: as the column has it. */
-void qdot_table_add_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
+void qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
 
 #endif

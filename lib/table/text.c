@@ -36,7 +36,7 @@ text_write_cell(text_writer *w, size_t row, size_t column)
     if (row == w->t->rows)
         qdot_text_add(&w->cell, qdot_table_head(w->t, column));
     else
-        qdot_table_add_cell(w->t, row, column, w->options->digits, "-", &w->cell);
+        qdot_table_print_cell(w->t, row, column, w->options->digits, "-", &w->cell);
     return qdot_utf8_columns(qdot_text_str(&w->cell), w->cell.n);
 }
 

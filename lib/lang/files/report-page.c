@@ -1,7 +1,6 @@
 /* report-page.c -- the statement `report`: scene, derivation, run and script as one page. */
 #include <string.h>
 
-#include "base/sink.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/figures/figure-file.h"
