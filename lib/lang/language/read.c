@@ -220,12 +220,6 @@ qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 }
 
 qdot_status
-qdot_read_point(qdot_cursor *c, qdot_expr *value)
-{
-    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_point, value);
-}
-
-qdot_status
 qdot_read_number(qdot_cursor *c, double *value)
 {
     qdot_compiled program;

@@ -20,8 +20,6 @@ QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
 QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
 /* A sum without relations that must be a scalar: QDOT_ETYPE otherwise. */
 QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
-/* A scalar or a vector of 2 or 3: a place or a force. */
-QDOT_MUST_CHECK qdot_status qdot_read_point(qdot_cursor *c, qdot_expr *value);
 /* As numbers of the moment, parameters with their values. */
 QDOT_MUST_CHECK qdot_status qdot_read_number(qdot_cursor *c, double *value);
 QDOT_MUST_CHECK qdot_status qdot_read_integer(qdot_cursor *c, long *value);

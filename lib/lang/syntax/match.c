@@ -11,7 +11,6 @@
 #include "lang/language/formals.h"
 #include "lang/syntax/expected.h"
 #include "lang/syntax/holes.h"
-#include "lang/source/lex.h"
 
 typedef struct {
     int node;

@@ -1,6 +1,8 @@
 /* test_read.c -- the grammar: precedence, brackets, readers of operands, errors. */
 #include "lang/reading.h"
 
+#include "lang/language/compiled.h"
+
 static void
 precedence_is_the_contracts(void **state)
 {
@@ -247,6 +249,7 @@ static void
 operands_end_before_option_words(void **state)
 {
     qdot_source *source;
+    qdot_compiled program;
     qdot_cursor c;
     qdot_expr e, to;
     reading r;
@@ -261,7 +264,9 @@ operands_end_before_option_words(void **state)
     assert_string_equal(qdot_cursor_find_word(&c, "rest")->text, "rest");
     assert_int_equal(qdot_cursor_find_word(&c, "g")->kind, QDOT_TOKEN_END);
     assert_true(qdot_cursor_accept_word(&c, "at"));
-    assert_int_equal(qdot_read_point(&c, &e), QDOT_OK);
+    assert_int_equal(qdot_compiled_parse(&c, QDOT_PARSE_SIDE, &program), QDOT_OK);
+    assert_int_equal(qdot_compiled_point(&c, &program, &e), QDOT_OK);
+    qdot_compiled_free(&program);
     assert_int_equal(qdot_expr_kind(r.session->pool, e), QDOT_VEC);
     assert_true(qdot_cursor_accept_word(&c, "rest"));
     assert_int_equal(qdot_read_range(&c, &e, &to), QDOT_OK);
