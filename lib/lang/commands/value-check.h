@@ -12,7 +12,7 @@ QDOT_MUST_CHECK qdot_status qdot_value_check_rest(qdot_session *session,
                                                   const char *spring, qdot_expr rest);
 
 /* QDOT_EINVAL where what is assumed is false with the values of `set` put in. Tests:
- * tests/bad/assumed-*.lag. */
+ * tests/bad/prove/assumed-*.lag. */
 QDOT_MUST_CHECK qdot_status qdot_value_check_assumption(qdot_session *session,
                                                         const qdot_assumption *said);
 

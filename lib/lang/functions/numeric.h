@@ -3,7 +3,7 @@
  * The result is like a number from a run: it has an error, which propagates. If symbols remain,
  * the constants beside them become decimals, of 16 digits unless given.
  *
- * Tests  tests/script/solve/numeric.lag, tests/bad/numeric-*.lag
+ * Tests  tests/script/solve/numeric.lag, tests/bad/solve/numeric-*.lag
  */
 #ifndef QDOT_LANG_NUMERIC_H
 #define QDOT_LANG_NUMERIC_H

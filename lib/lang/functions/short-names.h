@@ -2,7 +2,7 @@
  * name.
  *
  * `constraint rod: x^2 + y^2 = L^2` without a parameter L contains the Lagrange function, which
- * is hardly intended. Tests: tests/script/language/declarations.lag, tests/bad/taken-*.lag.
+ * is hardly intended. Tests: tests/script/language/declarations.lag, tests/bad/contacts/taken-*.lag.
  */
 #ifndef QDOT_LANG_SHORT_NAMES_H
 #define QDOT_LANG_SHORT_NAMES_H

@@ -4,7 +4,7 @@
  * is told in a notice: a zero that is not simple, a place that is not decided, a search that was ended.
  * `domain`: conditions that a solution fulfils beside its equations (normal/solve/conditions.h); nil: none.
  *
- * Tests   tests/script/solve/solve-numbers.lag, solve-line.lag, tests/bad/solve-*.lag, tests/normal/solve/test_zeros.c
+ * Tests   tests/script/solve/solve-numbers.lag, solve-line.lag, tests/bad/solve/solve-*.lag, tests/normal/solve/test_zeros.c
  */
 #ifndef QDOT_LANG_SOLVE_NUMBERS_H
 #define QDOT_LANG_SOLVE_NUMBERS_H

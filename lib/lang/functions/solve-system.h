@@ -4,7 +4,7 @@
  * value, the declared domains are searched in numbers, and the list is given if that proves it to be whole; solutions
  * that are known exactly stand in it so.
  *
- * Tests   tests/script/solve/solve-system.lag, solve-system-sets.lag, solve-numbers.lag, tests/bad/solve-system-*.lag
+ * Tests   tests/script/solve/solve-system.lag, solve-system-sets.lag, solve-numbers.lag, tests/bad/solve/solve-system-*.lag
  */
 #ifndef QDOT_LANG_SOLVE_SYSTEM_H
 #define QDOT_LANG_SOLVE_SYSTEM_H

@@ -6,7 +6,7 @@
  * its value at that time; what is declared at the time of the call. Names bound by a loop, a sum
  * or another function around the call are hidden.
  *
- * Tests: tests/script/definitions/functions.lag, tests/bad/function-*.lag, tests/lang/language/test_evaluate.c.
+ * Tests: tests/script/definitions/functions.lag, tests/bad/definitions/function-*.lag, tests/lang/language/test_evaluate.c.
  */
 #ifndef QDOT_LANG_FUNCTION_H
 #define QDOT_LANG_FUNCTION_H

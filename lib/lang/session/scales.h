@@ -1,6 +1,6 @@
 /* scales.h -- what `scale` has said, and the scales of a run.
  *
- * Tests  tests/script/starts/scale.lag, tests/bad/scale-*.lag
+ * Tests  tests/script/starts/scale.lag, tests/bad/starts/scale-*.lag
  */
 #ifndef QDOT_LANG_SCALES_H
 #define QDOT_LANG_SCALES_H

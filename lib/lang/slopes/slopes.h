@@ -10,7 +10,7 @@
  *
  * and an expression of such numbers and parameters that of the chain rule.
  *
- * Tests  tests/script/studies/sensitivity.sh, tests/bad/sensitivity-*.lag
+ * Tests  tests/script/studies/sensitivity.sh, tests/bad/studies/sensitivity-*.lag
  */
 #ifndef QDOT_LANG_SLOPES_H
 #define QDOT_LANG_SLOPES_H

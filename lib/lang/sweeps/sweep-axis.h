@@ -9,7 +9,7 @@
  * Axes that are not random are combined, the last the fastest. Random numbers are those of the
  * Mersenne twister (GSL), drawn member by member, axis by axis.
  *
- * Tests  tests/script/sweeps/sweep.sh, tests/bad/sweep-*.lag
+ * Tests  tests/script/sweeps/sweep.sh, tests/bad/sweeps/sweep-*.lag
  */
 #ifndef QDOT_LANG_SWEEP_AXIS_H
 #define QDOT_LANG_SWEEP_AXIS_H

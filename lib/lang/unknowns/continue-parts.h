@@ -2,7 +2,7 @@
  *
  *     continue equilibria|orbit in NAME = A..B [as NAME]
  *
- * Tests  tests/script/continue/continue.lag, continue-orbit.lag, tests/bad/continue-*.lag
+ * Tests  tests/script/continue/continue.lag, continue-orbit.lag, tests/bad/continue/continue.sh
  */
 #ifndef QDOT_LANG_CONTINUE_PARTS_H
 #define QDOT_LANG_CONTINUE_PARTS_H

@@ -2,7 +2,7 @@
  *
  *     find NAME = A..B, NAME = GUESS, ... such that A = B, returns after T [run T0..T1 ...] [as NAME]
  *
- * Tests  tests/script/studies/find.sh, tests/bad/find-*.lag
+ * Tests  tests/script/studies/find.sh, tests/bad/studies/find-*.lag
  */
 #ifndef QDOT_LANG_FIND_PARTS_H
 #define QDOT_LANG_FIND_PARTS_H

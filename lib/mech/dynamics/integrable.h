@@ -17,7 +17,7 @@
  *
  * Source  Frankel, The Geometry of Physics, 3rd ed., sec. 6.1; Neimark & Fufaev, Dynamics
  *         of Nonholonomic Systems, ch. I.
- * Tests   tests/script/constraints/integrable.lag, tests/bad/integrable-*.lag
+ * Tests   tests/script/constraints/integrable.lag, tests/bad/constraints/integrable-*.lag
  */
 #ifndef QDOT_MECH_INTEGRABLE_H
 #define QDOT_MECH_INTEGRABLE_H

@@ -14,7 +14,7 @@
  * determine both. For coordinates that several things share the answer is R_j itself: r(q) does
  * not determine how it is distributed over them.
  *
- * Tests  tests/script/constraints/reactions.lag, tests/script/mechanism-*.lag
+ * Tests  tests/script/constraints/reactions.lag, tests/script/mechanisms/mechanism-*.lag
  */
 #ifndef QDOT_MECH_REACTIONS_H
 #define QDOT_MECH_REACTIONS_H

@@ -1,6 +1,6 @@
 /* orbit-period.h -- whether equations hold the time, and what their period is.
  *
- * Tests  tests/sim/branches/test_orbits.c, tests/bad/continue-orbit-*.lag
+ * Tests  tests/sim/branches/test_orbits.c, tests/bad/continue/continue-orbit.sh
  */
 #ifndef QDOT_SIM_ORBIT_PERIOD_H
 #define QDOT_SIM_ORBIT_PERIOD_H

@@ -12,7 +12,7 @@
  *
  * A coordinate that a constraint of the scene holds is left to it.
  *
- * Tests  tests/script/massless/massless.lag, tests/bad/massless-*.lag
+ * Tests  tests/script/massless/massless.lag, tests/bad/massless/massless-*.lag
  */
 #ifndef QDOT_SIM_MASSLESS_H
 #define QDOT_SIM_MASSLESS_H

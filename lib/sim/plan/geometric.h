@@ -4,7 +4,7 @@
  *     gauss4 ... gauss12       any, in (q, p) of sim/form/phase-space.h
  *     variational              the same, also with constraints on positions
  *
- * Tests  tests/script/methods/long-time-methods.lag, tests/bad/verlet-*.lag, variational-*.lag, gauss-mass.lag
+ * Tests  tests/script/methods/long-time-methods.lag, tests/bad/constraints/verlet-*.lag, variational-*.lag, gauss-mass.lag
  */
 #ifndef QDOT_SIM_GEOMETRIC_H
 #define QDOT_SIM_GEOMETRIC_H

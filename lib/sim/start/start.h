@@ -20,7 +20,7 @@
  *
  * Source  least change in a metric: Hairer, Lubich & Wanner, Geometric Numerical
  *         Integration, sec. IV.4; the search: sim/start/nearest.h.
- * Tests   tests/sim/start/test_start.c, tests/script/start-*.lag
+ * Tests   tests/sim/start/test_start.c, tests/script/starts/start-*.lag
  */
 #ifndef QDOT_SIM_START_H
 #define QDOT_SIM_START_H
