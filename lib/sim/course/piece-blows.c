@@ -23,6 +23,9 @@ static const double seen = 0x1p14;
 /* What is left of the speed at which others of them end counts as rounding up to so many times that. */
 static const double left_over = 64;
 
+/* The rounding of a velocity, in that of the largest one so far. */
+static const double hidden = 4;
+
 /* A contact that touches at the instant. */
 typedef struct {
     size_t event, surface;
@@ -36,8 +39,9 @@ typedef struct {
 typedef struct {
     qdot_piece *x;
     qdot_vec(touch) at;
-    double *y;     /* [2n] the state */
-    double *room;  /* [6n] */
+    double *y, *low;         /* [2n] the state and its low part */
+    double *old, *old_low;   /* [2n] the same before a blow */
+    double *rates, *fast, *slopes; /* [2n] */
     size_t blows;
     double last;   /* the speed that the last one turned back, over its rounding */
 } blows;
@@ -76,17 +80,20 @@ touch_measure(blows *b, touch *c)
 {
     qdot_piece *x = b->x;
     const size_t n = x->n / 2;
-    double *rates = b->room, *fast = rates + x->n, *slopes = fast + x->n, rate, noise = 0;
+    double rate, noise = 0;
 
     if (c->lasted) {
-        QDOT_TRY(qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, b->y, c->surface, 1, &rate, slopes));
+        QDOT_TRY(qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, b->y, c->surface, 1, &rate,
+                                         b->slopes));
         for (size_t i = 0; i < n; i++)
-            noise += 4 * DBL_EPSILON * fabs(slopes[i]) * x->largest[n + i];
+            noise += hidden * DBL_EPSILON * fabs(b->slopes[i]) * x->largest[n + i];
     } else {
-        memset(rates, 0, 2 * x->n * sizeof *rates);
-        memcpy(rates, b->y + n, n * sizeof *rates);
-        memcpy(fast, x->largest + n, n * sizeof *fast);
-        QDOT_TRY(qdot_watch_rate(qdot_piece_watch(x), x->start.t, b->y, NULL, rates, fast, c->event, &rate, &noise));
+        memset(b->rates, 0, x->n * sizeof *b->rates);
+        memset(b->fast, 0, x->n * sizeof *b->fast);
+        memcpy(b->rates, b->y + n, n * sizeof *b->rates);
+        memcpy(b->fast, x->largest + n, n * sizeof *b->fast);
+        QDOT_TRY(qdot_watch_rate(qdot_piece_watch(x), x->start.t, b->y, NULL, b->rates, b->fast, c->event, &rate,
+                                 &noise));
     }
     c->rate = rate * c->way * x->direction;
     c->noise = noise;
@@ -111,10 +118,12 @@ static qdot_status
 blows_strike(blows *b, touch *c)
 {
     qdot_piece *x = b->x;
-    double *old = b->room;
 
-    memcpy(old, b->y, x->n * sizeof *old);
-    QDOT_TRY(qdot_piece_change(x, &x->c->stage->events.at[c->event], x->start.t, old, NULL, b->y, NULL));
+    memcpy(b->old, b->y, x->n * sizeof *b->old);
+    memcpy(b->old_low, b->low, x->n * sizeof *b->old_low);
+    QDOT_TRY(qdot_piece_change(x, &x->c->stage->events.at[c->event], x->start.t, b->old, b->old_low, b->y, b->low));
+    for (size_t i = 0; i < x->n; i++)
+        x->largest[i] = fmax(x->largest[i], fabs(b->y[i]));
     b->last = c->rate / c->noise;
     b->blows++;
     c->held = c->due = false;
@@ -152,22 +161,25 @@ try_next(blows *b, bool *any)
     return QDOT_OK;
 }
 
-/* The contacts that the blows leave without speed last from here on, if they may. */
+/* The contacts that the blows leave without speed last from here on, if they may. What speed rounding hides there is shown
+ * by companions, whose bodies are moved by it together. */
 static qdot_status
 let_rest(blows *b)
 {
     qdot_piece *x = b->x;
 
+    for (size_t i = x->n / 2; i < x->n; i++)
+        b->y[i] += x->c->early * hidden * DBL_EPSILON * x->largest[i];
     memcpy(x->start.y, b->y, x->n * sizeof *b->y);
     memcpy(x->start.low_of, b->y, x->n * sizeof *b->y);
-    memset(x->start.low, 0, x->n * sizeof *x->start.low);
+    memcpy(x->start.low, b->low, x->n * sizeof *x->start.low);
     for (size_t k = 0; k < b->at.n; k++) {
         const touch *c = &b->at.at[k];
         bool lasts, soon;
 
+        x->side[c->surface] = 0;
         if (fabs(c->rate) > left_over * c->noise)
             continue;
-        x->side[c->surface] = 0;
         QDOT_TRY(qdot_piece_rest(x, c->event, c->way, 0, &lasts, &soon));
     }
     return QDOT_OK;
@@ -183,10 +195,17 @@ qdot_piece_try_blows(qdot_piece *x, bool *endless, bool *known)
     *endless = false;
     *known = true;
     b.y = qdot_malloc(7 * x->n * sizeof *b.y);
-    b.room = b.y + x->n;
+    b.low = b.y + x->n;
+    b.old = b.low + x->n;
+    b.old_low = b.old + x->n;
+    b.rates = b.old_low + x->n;
+    b.fast = b.rates + x->n;
+    b.slopes = b.fast + x->n;
     status = b.y ? find_touches(&b) : QDOT_ENOMEM;
-    if (status == QDOT_OK)
+    if (status == QDOT_OK) {
         memcpy(b.y, x->start.y, x->n * sizeof *b.y);
+        qdot_piece_low(x, b.low);
+    }
     while (status == QDOT_OK && any && b.blows < MOST_BLOWS) {
         status = qdot_interrupt_check();
         if (status == QDOT_OK)

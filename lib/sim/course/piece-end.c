@@ -321,7 +321,7 @@ qdot_piece_find_delay(qdot_piece *x)
     }
 }
 
-/* In units of |g| at an event that is counted where a piece starts: its residual. What is left of it behind is 0. */
+/* Behind an event that is counted where a piece starts |g| counts as 0 up to so many times |g| at it. */
 static const double counted = 0x1p11;
 
 /* Before anything is changed: the signs of all functions, and their values. */
@@ -355,8 +355,8 @@ look_before(qdot_piece *x, double t, double *g)
     return QDOT_OK;
 }
 
-/* Of a touch whose function rounding of the places hides all of it is 0, not a part as beside a root (watch.c): what looks
- * like a crossing behind it has been counted with it. */
+/* If rounding of the places hides the function at a touch, all of its neighbourhood counts as 0, in units of that noise:
+ * the crossing that seems to follow has been counted with the touch. */
 static const double whole = 0x1p12;
 
 static qdot_status
@@ -451,6 +451,8 @@ follow_blows(qdot_piece *x)
     bool endless, known;
 
     QDOT_TRY(qdot_piece_try_blows(x, &endless, &known));
+    if (endless) /* they have been carried out */
+        x->pushed.n = 0;
     if (!known)
         say_accumulated(x, &qdot_piece_mode(x)->watched[x->roots.at[0].function], x->t_act, 0);
     for (size_t i = x->repeats.n; i-- > 0 && endless;) /* they may come again */

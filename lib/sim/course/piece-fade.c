@@ -53,12 +53,14 @@ qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     const double blur = x->direction * root->blur;
 
-    if (root->way != 0 || root->pole || w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].undoing)
+    if (root->way != 0 || root->pole || w->kind != QDOT_WATCH_EVENT)
         return QDOT_OK;
     if (root->within > 0) { /* less tolerance may show two crossings, or none */
         x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY, root->within);
         return QDOT_OK;
     }
+    if (x->c->stage->events.at[w->index].undoing)
+        return QDOT_OK;
     return qdot_vec_push(&x->c->faded, ((qdot_course_faded){w->index, root->t - blur, root->t + blur, true}));
 }
 

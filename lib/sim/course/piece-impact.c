@@ -10,7 +10,7 @@
 static const double alike = 1e-9;
 /* The operations of `then` may round it by so many times the rounding of velocities. */
 static const double roundings = 32;
-/* The speed of a trial impact. */
+/* The speed of a trial impact, over that of the motion where this is above 1. */
 static const double trial = 1e-3;
 
 static double
@@ -117,13 +117,14 @@ find_impulse(qdot_piece *x, size_t surface, const double *slopes, const double *
              double *share, bool *yes)
 {
     const size_t n = x->n / 2;
-    double *room = qdot_malloc(2 * x->n * sizeof *room), most, size, back = 0;
+    double *room = qdot_malloc(2 * x->n * sizeof *room), most, size, speed = trial, back = 0;
     blow b = {.slopes = slopes, .old = room, .y = room + x->n};
     qdot_status status = room ? strike(x, surface, aside, 0, &b) : QDOT_ENOMEM;
 
     *yes = status == QDOT_OK && stays_there(x, &b, &most, &size) && most <= roundings * DBL_EPSILON * size;
     if (*yes) {
-        status = strike(x, surface, aside, trial / length_of(n, aside), &b);
+        speed = trial * size;
+        status = strike(x, surface, aside, speed / length_of(n, aside), &b);
         *yes = status == QDOT_OK && stays_there(x, &b, &most, &size);
     }
     for (size_t i = 0; i < n && *yes; i++) {
@@ -132,7 +133,7 @@ find_impulse(qdot_piece *x, size_t surface, const double *slopes, const double *
     }
     if (*yes) {
         *share = -back / b.rate - 1;
-        *yes = *share >= -1e-6 - alike * size / trial && *share <= 1 + 1e-6 + alike * size / trial;
+        *yes = *share >= -1e-6 - alike * size / speed && *share <= 1 + 1e-6 + alike * size / speed;
     }
     for (size_t i = 0; i < n && *yes; i++)
         along[i] /= back;

@@ -140,7 +140,7 @@ find_underflow(qdot_run *run)
     const qdot_trajectory *tr = &course->tr;
     const qdot_error before = *qdot_last_error();
     const bool is_long = tr->count > 0 && least_acceleration_moves(tr);
-    const size_t step = is_long || tr->count < PLACES ? 1 : tr->count / PLACES;
+    const size_t step = is_long || tr->count < PLACES ? 1 : (tr->count + PLACES - 1) / PLACES;
     double *a;
     qdot_status status = QDOT_OK;
     bool found = false;
@@ -150,10 +150,14 @@ find_underflow(qdot_run *run)
     a = qdot_calloc(tr->n + (run->plan->constraints ? run->plan->constraints->m : 0) + 1, sizeof *a);
     if (a == NULL)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < tr->count && !found && status == QDOT_OK; k += step)
-        status = point_underflows(course, qdot_course_systems(course) + tr->pieces.at[qdot_trajectory_piece_of(tr, k)].mode, k, is_long, a, &found);
+    for (size_t k = 0; k < tr->count && !found && status == QDOT_OK; k += step) {
+        const size_t mode = tr->pieces.at[qdot_trajectory_piece_of(tr, k)].mode;
+
+        status = point_underflows(course, qdot_course_systems(course) + mode, k, is_long, a, &found);
+    }
     qdot_free(a);
-    qdot_fail_again(&before);
+    if (status == QDOT_OK)
+        qdot_fail_again(&before);
     return status == QDOT_OK && found
                ? lose(run, "forces are near the least double or below it, and what is lost of them counts in this run: "
                            "other units, or `digits 20`")
