@@ -136,6 +136,8 @@ bool qdot_pool_unfinished_taken(qdot_pool *pool);
 /* --- reading -------------------------------------------------------------------------- */
 
 const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
+/* The bits QDOT_GE0, QDOT_LE0, QDOT_NE0 that its node knows of e; nil: 0. */
+uint8_t qdot_expr_sign(const qdot_pool *pool, qdot_expr e);
 /* The args [n]; valid until the next constructor call. */
 const qdot_expr *qdot_expr_args(const qdot_pool *pool, qdot_expr e);
 qdot_kind qdot_expr_kind(const qdot_pool *pool, qdot_expr e);

@@ -583,6 +583,12 @@ qdot_expr_node(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e);
 }
 
+uint8_t
+qdot_expr_sign(const qdot_pool *pool, qdot_expr e)
+{
+    return e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->sign;
+}
+
 const qdot_expr *
 qdot_expr_args(const qdot_pool *pool, qdot_expr e)
 {

@@ -22,7 +22,7 @@ static bool
 is_monotone(qdot_pool *pool, qdot_expr g, qdot_expr x)
 {
     const qdot_expr slope = qdot_diff(pool, g, x);
-    const uint8_t sign = slope == QDOT_NIL ? 0 : qdot_expr_node(pool, slope)->sign;
+    const uint8_t sign = qdot_expr_sign(pool, slope);
 
     return (sign & QDOT_NE0) != 0 && (sign & (QDOT_GE0 | QDOT_LE0)) != 0;
 }

@@ -19,12 +19,6 @@ bounds_of_product(uint8_t a, uint8_t b)
     return (uint8_t)(known | (a & b & QDOT_NE0));
 }
 
-static uint8_t
-node_sign(const qdot_pool *pool, qdot_expr e)
-{
-    return e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->sign;
-}
-
 /* The sign that holds at both ends, so between them, for what is linear there. */
 static uint8_t
 both(uint8_t a, uint8_t b)
@@ -79,7 +73,7 @@ poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth)
 
     if (fmpz_mpoly_is_zero(p, f->ctx))
         return QDOT_GE0 | QDOT_LE0;
-    sign = node_sign(f->pool, qdot_field_expr(f, p));
+    sign = qdot_expr_sign(f->pool, qdot_field_expr(f, p));
     if ((sign & (QDOT_GE0 | QDOT_LE0)) && (sign & QDOT_NE0))
         return sign;
     for (slong v = 0; v < f->n && depth > 0; v++)

@@ -18,12 +18,6 @@
 
 enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200 };
 
-static uint8_t
-node_sign(const qdot_pool *pool, qdot_expr e)
-{
-    return e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->sign;
-}
-
 /* --- domains moved to zero, boxes -------------------------------------------------- */
 
 /* x = lo + y or hi - y, y >= 0, for every bound that is a number but not zero;
@@ -181,16 +175,16 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 {
     qdot_expr s;
 
-    if (enough(node_sign(pool, d), strict))
+    if (enough(qdot_expr_sign(pool, d), strict))
         return true;
     s = qdot_shortest(pool, qdot_known_signs(pool, d, facts), facts);
     if (s == QDOT_NIL)
         return false;
-    if (enough(node_sign(pool, s), strict) || enough(qdot_sign_by_factors(pool, s), strict))
+    if (enough(qdot_expr_sign(pool, s), strict) || enough(qdot_sign_by_factors(pool, s), strict))
         return true;
     d = moved(pool, s);
     if (d != s &&
-        (enough(node_sign(pool, d), strict) || enough(qdot_sign_by_factors(pool, d), strict)))
+        (enough(qdot_expr_sign(pool, d), strict) || enough(qdot_sign_by_factors(pool, d), strict)))
         return true;
     return positive_on_box(pool, s);
 }
@@ -220,8 +214,8 @@ divides_by_nonzero(qdot_pool *pool, qdot_expr e)
         return false;
     for (size_t i = 0; i < w.n && good; i++)
         for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2)
-            good = good && ((node_sign(pool, qdot_expr_arg(pool, w.at[i], k + 1)) & QDOT_POS) == QDOT_POS ||
-                            (node_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_NE0) != 0);
+            good = good && ((qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k + 1)) & QDOT_POS) == QDOT_POS ||
+                            (qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_NE0) != 0);
     qdot_walk_end(&w);
     return good;
 }

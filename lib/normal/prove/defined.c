@@ -75,7 +75,7 @@ unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_expr *produ
         *product = qdot_neg(pool, *product);
     for (slong i = 0; i < factors.n && status == QDOT_OK; i++) {
         qdot_expr b = qdot_field_expr(f, factors.poly + i);
-        uint8_t sign = b == QDOT_NIL ? 0 : qdot_expr_node(pool, b)->sign;
+        uint8_t sign = qdot_expr_sign(pool, b);
         bool even = factors.exp[i] % 2 == 0;
 
         if (even)

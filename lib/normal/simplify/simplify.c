@@ -18,5 +18,5 @@ qdot_ratio_sign(qdot_pool *pool, qdot_expr v, qdot_expr u)
     if (v == QDOT_NIL || u == QDOT_NIL || (u == QDOT_ZERO && v != u))
         return 0;
     ratio = v == u ? QDOT_ONE : qdot_simplify(pool, qdot_div(pool, v, u), NULL);
-    return ratio == QDOT_NIL ? 0 : qdot_expr_node(pool, ratio)->sign;
+    return qdot_expr_sign(pool, ratio);
 }
