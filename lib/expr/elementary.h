@@ -15,7 +15,8 @@ enum {
     QDOT_FUN_FALLING = 8,  /* likewise */
     QDOT_FUN_ENTIRE = 16,  /* analytic at every real number */
     QDOT_FUN_ARC = 32,     /* its sine and cosine are algebraic functions of the argument */
-    QDOT_FUN_AREA = 64     /* its hyperbolic sine and cosine are */
+    QDOT_FUN_AREA = 64,    /* its hyperbolic sine and cosine are */
+    QDOT_FUN_POLE = 128    /* grows beyond all bounds at a finite place */
 };
 
 /* An end of the values of a function: number, or number pi/2 where `angle`. */

@@ -205,17 +205,17 @@ is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *fac
 static bool
 divides_by_nonzero(qdot_pool *pool, qdot_expr e)
 {
-    static const qdot_fun_id with_pole[] = {QDOT_TAN, QDOT_SEC, QDOT_CSC, QDOT_COT, QDOT_LOG, QDOT_ATANH};
-    bool good = e != QDOT_NIL &&
-                qdot_expr_find_function(pool, e, sizeof with_pole / sizeof *with_pole, with_pole, QDOT_NIL) == QDOT_NIL;
+    bool good = e != QDOT_NIL;
     qdot_walk w;
 
     if (!good || qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return false;
-    for (size_t i = 0; i < w.n && good; i++)
+    for (size_t i = 0; i < w.n && good; i++) {
+        good = !qdot_expr_is_function_that(pool, w.at[i], QDOT_FUN_POLE);
         for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2)
             good = good && ((qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k + 1)) & QDOT_POS) == QDOT_POS ||
                             (qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_NE0) != 0);
+    }
     qdot_walk_end(&w);
     return good;
 }
