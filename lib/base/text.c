@@ -174,6 +174,19 @@ qdot_has_word(const char *text, const char *word)
 
 
 void
+qdot_text_html(qdot_text *s, const char *text, size_t n, bool quotes)
+{
+    for (const char *c = text; c < text + n; c++)
+        switch (*c) {
+        case '&': qdot_text_add(s, "&amp;"); break;
+        case '<': qdot_text_add(s, "&lt;"); break;
+        case '>': qdot_text_add(s, "&gt;"); break;
+        case '"': qdot_text_add(s, quotes ? "&quot;" : "\""); break;
+        default: qdot_text_char(s, *c);
+        }
+}
+
+void
 qdot_text_json(qdot_text *s, const char *text)
 {
     qdot_text_char(s, '"');

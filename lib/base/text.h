@@ -45,6 +45,9 @@ bool qdot_ends_in(const char *text, const char *ending);
 /* Whether text holds the word by itself, with no letter or _ beside it. */
 bool qdot_has_word(const char *text, const char *word);
 
+/* Append text [n] of a page of HTML: & < > as entities, and where `quotes`, as in an attribute, " too. */
+void qdot_text_html(qdot_text *s, const char *text, size_t n, bool quotes);
+
 /* `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
 void qdot_text_json(qdot_text *s, const char *text);
 

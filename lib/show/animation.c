@@ -254,14 +254,7 @@ add_diagrams(const qdot_animation *a, qdot_text *out)
 void
 qdot_animation_escape(qdot_text *out, const char *text)
 {
-    for (const char *c = text; *c != '\0'; c++)
-        switch (*c) {
-        case '&': qdot_text_add(out, "&amp;"); break;
-        case '<': qdot_text_add(out, "&lt;"); break;
-        case '>': qdot_text_add(out, "&gt;"); break;
-        case '"': qdot_text_add(out, "&quot;"); break;
-        default: qdot_text_char(out, *c);
-        }
+    qdot_text_html(out, text, strlen(text), true);
 }
 
 void

@@ -378,18 +378,6 @@ add_formula(page *p, const char *formula, size_t n)
 
 /* --- text ------------------------------------------------------------------------------- */
 
-void
-qdot_page_escape(const char *text, size_t length, qdot_text *out)
-{
-    for (size_t i = 0; i < length; i++)
-        if (text[i] == '&' || text[i] == '<' || text[i] == '>')
-            qdot_text_add(out, text[i] == '&'   ? "&amp;"
-                               : text[i] == '<' ? "&lt;"
-                                                : "&gt;");
-        else
-            qdot_text_char(out, text[i]);
-}
-
 static void
 latex_escape(const char *text, size_t length, qdot_text *out)
 {
@@ -419,7 +407,7 @@ escape(const page *p, const char *text, size_t n)
     if (p->kind == LATEX)
         latex_escape(text, n, p->out);
     else
-        qdot_page_escape(text, n, p->out);
+        qdot_text_html(p->out, text, n, false);
 }
 
 /* The formula that begins at or after `at`; *n its bytes with both marks; NULL: none. */
@@ -554,7 +542,7 @@ qdot_page_html(const char *title, const char *answers, qdot_text *out)
     qdot_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n"
                        "<meta charset=\"utf-8\">\n"
                        "<meta name=\"viewport\" content=\"width=device-width\">\n<title>");
-    qdot_page_escape(title, strlen(title), out);
+    qdot_text_html(out, title, strlen(title), false);
     qdot_text_format(out,
                      "</title>\n<style>\n"
                      "body { font-family: serif; margin: 2em auto; max-width: 60em; "

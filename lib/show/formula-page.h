@@ -28,7 +28,4 @@ extern const char qdot_page_css[];
 QDOT_MUST_CHECK qdot_status qdot_page_html(const char *title, const char *answers,
                                            qdot_text *out);
 
-/* Append text with & < > as entities. */
-void qdot_page_escape(const char *text, size_t length, qdot_text *out);
-
 #endif

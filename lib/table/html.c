@@ -1,23 +1,18 @@
 /* html.c -- a table of HTML. */
 #include "table/html.h"
 
+#include <string.h>
+
 #include "base/memory.h"
 #include "table/file.h"
 
 /* Of numbers on a page of their own. */
 enum { PAGE_DIGITS = 12 };
 
-/* `text` between two tags. */
 static void
 html_add_text(const char *text, qdot_text *out)
 {
-    for (; *text != '\0'; text++)
-        switch (*text) {
-        case '&': qdot_text_add(out, "&amp;"); break;
-        case '<': qdot_text_add(out, "&lt;"); break;
-        case '>': qdot_text_add(out, "&gt;"); break;
-        default: qdot_text_char(out, *text);
-        }
+    qdot_text_html(out, text, strlen(text), false);
 }
 
 /* How a part of a page and a page of its own differ. */

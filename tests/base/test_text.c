@@ -262,6 +262,20 @@ a_word_stands_by_itself(void **state)
     assert_false(qdot_has_word("", "tol"));
 }
 
+static void
+html_has_entities(void **state)
+{
+    qdot_text s = {0};
+
+    (void)state;
+    qdot_text_html(&s, "a<b & \"c\">d; not this", 13, false);
+    assert_string_equal(qdot_text_str(&s), "a&lt;b &amp; \"c\"&gt;d; ");
+    qdot_text_truncate(&s, 0);
+    qdot_text_html(&s, "\"<>&\"", 5, true);
+    assert_string_equal(qdot_text_str(&s), "&quot;&lt;&gt;&amp;&quot;");
+    qdot_text_clear(&s);
+}
+
 int
 main(void)
 {
@@ -278,6 +292,7 @@ main(void)
         cmocka_unit_test(a_failed_append_marks_the_string_for_good),
         cmocka_unit_test(an_ending_has_something_before_it),
         cmocka_unit_test(a_word_stands_by_itself),
+        cmocka_unit_test(html_has_entities),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
