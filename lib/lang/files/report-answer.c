@@ -60,12 +60,9 @@ qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status statu
 qdot_status
 qdot_report_answer_of(const qdot_cursor *cursor, const qdot_statement *statement, qdot_text *text)
 {
-    qdot_record r = {.row = statement, .cursor = *cursor};
+    qdot_record r = qdot_record_alone(cursor, statement);
     qdot_report_answer k;
 
-    while (r.cursor.at->kind != QDOT_TOKEN_END)
-        r.cursor.at++;
-    r.start = r.cursor.at;
     QDOT_TRY(qdot_report_answer_begin(cursor->session, QDOT_MATHML, &k));
     return qdot_report_answer_end(cursor->session, &k, statement->handler(&r), text);
 }

@@ -16,6 +16,17 @@ qdot_record_free(qdot_record *r)
     *r = (qdot_record){0};
 }
 
+qdot_record
+qdot_record_alone(const qdot_cursor *c, const qdot_statement *row)
+{
+    qdot_record r = {.row = row, .cursor = *c};
+
+    while (r.cursor.at->kind != QDOT_TOKEN_END)
+        r.cursor.at++;
+    r.start = r.cursor.at;
+    return r;
+}
+
 /* --- what was read ------------------------------------------------------------------- */
 
 bool

@@ -40,6 +40,10 @@ typedef struct qdot_record {
 
 void qdot_record_free(qdot_record *r);
 
+/* The record of a statement that stands alone, asked for by another one in place of a person: without words or holes,
+ * nothing to free. Its errors stand at the end of the statement at the cursor. */
+qdot_record qdot_record_alone(const qdot_cursor *c, const qdot_statement *row);
+
 /* --- what was read ------------------------------------------------------------------- */
 
 /* The first of these; NULL: it is not there. before or text NULL: any. */
