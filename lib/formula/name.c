@@ -62,7 +62,7 @@ is_greek(const char *at, size_t length)
     return next_greek(at, length) >= 0;
 }
 
-/* The letters of a name for the eye. */
+/* The letters of a name as they are shown: as they are, or where `all_greek` names of Greek letters as these. */
 static void
 add_letters(const char *at, size_t length, bool all_greek, qdot_text *out)
 {

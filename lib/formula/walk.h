@@ -22,7 +22,8 @@ struct qdot_formula_walk {
     qdot_vec(qdot_formula_frame) open; /* the nodes around the present one, outermost first */
     void *user;
     qdot_status (*enter)(qdot_formula_walk *walk, const qdot_formula_node *node);
-    /* Between the children k - 1 and k > 0 of a node that is no SPAN; NULL: nothing is done there. */
+    /* Called between child k - 1 and child k > 0 of a node, as between the two sides of a fraction; not within a
+     * SPAN, whose children follow each other. NULL: nothing stands there. */
     qdot_status (*between)(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k);
     qdot_status (*leave)(qdot_formula_walk *walk, const qdot_formula_node *node);
 };

@@ -9,7 +9,7 @@ QDOT_MUST_CHECK qdot_status qdot_object_label(qdot_record *r, const char **label
 /* Add a potential or dissipation, whose value is the hole `term`. */
 QDOT_MUST_CHECK qdot_status qdot_object_term(qdot_record *r, const qdot_filled *term,
                                              qdot_scene_kind kind);
-/* The particle or body that expression k of the hole names and is no more than; *label NULL: it is none. */
+/* The label of a particle or body where expression k of the hole is that name alone; NULL where it is anything else. */
 QDOT_MUST_CHECK qdot_status qdot_object_particle_or_body(qdot_record *r, const qdot_filled *place,
                                                          size_t k, char **label);
 /* `[NAME] between A, B` into name, at and end of the link. */

@@ -71,7 +71,7 @@ row_columns_add(const qdot_row_table *t, qdot_row_columns *x)
     return QDOT_OK;
 }
 
-/* How each row ended, and why; or what it is. */
+/* The column that says how each row ended, and why; of a table whose rows have notes, these. */
 static void
 row_columns_add_reasons(const qdot_row_table *t, qdot_row_columns *x)
 {

@@ -24,7 +24,7 @@ typedef struct {
 
 /* Add what may come at that node of the usage. */
 void qdot_expected_add(qdot_expected *list, int node, uint64_t taken);
-/* What belongs there; returns a hint that goes with it, or NULL. */
+/* The words behind "expected", as "`at`, `mass` or the end", into what; returns a hint that goes with them, or NULL. */
 const char *qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT]);
 
 #endif

@@ -27,7 +27,7 @@ is_monotone(qdot_pool *pool, qdot_expr g, qdot_expr x)
     return (sign & QDOT_NE0) != 0 && (sign & (QDOT_GE0 | QDOT_LE0)) != 0;
 }
 
-/* Whether the symbol of a generator stands in the base of a root. */
+/* Whether the symbol x stands under a root. */
 static bool
 is_under_root(const qdot_field *f, qdot_expr x)
 {
