@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/session/runs.h"
 
 /* --- begin and end -------------------------------------------------------------------- */

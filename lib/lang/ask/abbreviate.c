@@ -6,14 +6,13 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/ask/ask.h"
-#include "lang/commands/statement.h"
 #include "lang/language/token-text.h"
 #include "lang/session/measured.h"
 #include "lang/syntax/record.h"
 
 static qdot_status abbreviate_print(qdot_record *r);
 
-const qdot_statement qdot_statement_abbreviate = {
+QDOT_STATEMENT(abbreviate) = {
     .word = "abbreviate",
     .group = QDOT_ASKING,
     .usage = "abbreviate EXPR",

@@ -10,7 +10,7 @@
 #include "lang/answer/formula.h"
 #include "lang/declare/assumed.h"
 #include "lang/declare/constraints.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/functions/equilibria.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"

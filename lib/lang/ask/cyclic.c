@@ -2,12 +2,11 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status cyclic_list(qdot_record *r);
 
-const qdot_statement qdot_statement_cyclic = {
+QDOT_STATEMENT(cyclic) = {
     .word = "cyclic",
     .group = QDOT_ASKING,
     .usage = "cyclic",

@@ -7,7 +7,6 @@
 #include "lang/answer/formula.h"
 #include "lang/answer/notation.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/form/common.h"
@@ -15,7 +14,7 @@
 
 static qdot_status derive_print(qdot_record *r);
 
-const qdot_statement qdot_statement_derive = {
+QDOT_STATEMENT(derive) = {
     .word = "derive",
     .group = QDOT_ASKING,
     .usage = "derive",

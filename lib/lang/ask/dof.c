@@ -1,12 +1,11 @@
 /* dof.c -- `dof`: coordinates, constraints, degrees of freedom. */
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/declare/constraints.h"
 #include "lang/syntax/record.h"
 
 static qdot_status dof_print(qdot_record *r);
 
-const qdot_statement qdot_statement_dof = {
+QDOT_STATEMENT(dof) = {
     .word = "dof",
     .group = QDOT_ASKING,
     .usage = "dof",

@@ -7,14 +7,13 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
 #include "lang/syntax/record.h"
 
 static qdot_status equilibria_list(qdot_record *r);
 
-const qdot_statement qdot_statement_equilibria = {
+QDOT_STATEMENT(equilibria) = {
     .word = "equilibria",
     .group = QDOT_ASKING,
     .usage = "equilibria",

@@ -2,12 +2,11 @@
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status forces_print(qdot_record *r);
 
-const qdot_statement qdot_statement_forces = {
+QDOT_STATEMENT(forces) = {
     .word = "forces",
     .group = QDOT_ASKING,
     .usage = "forces",

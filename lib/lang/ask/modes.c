@@ -6,14 +6,13 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
 #include "lang/syntax/record.h"
 
 static qdot_status modes_print(qdot_record *r);
 
-const qdot_statement qdot_statement_modes = {
+QDOT_STATEMENT(modes) = {
     .word = "modes",
     .group = QDOT_ASKING,
     .usage = "modes [at EQUILIBRIUM]",

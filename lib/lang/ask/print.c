@@ -4,7 +4,6 @@
 #include "lang/answer/digits.h"
 #include "lang/answer/formula.h"
 #include "lang/ask/ask.h"
-#include "lang/commands/statement.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
@@ -12,7 +11,7 @@
 
 static qdot_status print_line(qdot_record *r);
 
-const qdot_statement qdot_statement_print = {
+QDOT_STATEMENT(print) = {
     .word = "print",
     .group = QDOT_WORKBENCH,
     .usage = "print [EXPR, \"text\", ...]",

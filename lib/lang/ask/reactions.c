@@ -4,12 +4,11 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status reactions_print(qdot_record *r);
 
-const qdot_statement qdot_statement_reactions = {
+QDOT_STATEMENT(reactions) = {
     .word = "reactions",
     .group = QDOT_ASKING,
     .usage = "reactions",

@@ -1,12 +1,11 @@
 /* scene.c -- `scene`: what is declared. */
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/declare/scene-file.h"
 #include "lang/syntax/record.h"
 
 static qdot_status scene_print(qdot_record *r);
 
-const qdot_statement qdot_statement_scene = {
+QDOT_STATEMENT(scene) = {
     .word = "scene",
     .group = QDOT_ASKING,
     .usage = "scene [to \"FILE.lag\"]",

@@ -10,7 +10,7 @@
 
 static qdot_status show_name(qdot_record *r);
 
-const qdot_statement qdot_statement_show = {
+QDOT_STATEMENT(show) = {
     .word = "show",
     .group = QDOT_WORKBENCH,
     .usage = "show NAME",

@@ -1,12 +1,11 @@
 /* vars.c -- `vars`: every declared name. */
 #include "lang/answer/answer.h"
 #include "lang/ask/declared.h"
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status vars_list(qdot_record *r);
 
-const qdot_statement qdot_statement_vars = {
+QDOT_STATEMENT(vars) = {
     .word = "vars",
     .group = QDOT_WORKBENCH,
     .usage = "vars",

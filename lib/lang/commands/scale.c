@@ -4,7 +4,7 @@
 #include "lang/answer/answer.h"
 #include "lang/commands/pairs.h"
 #include "lang/commands/set.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/scales.h"

@@ -7,7 +7,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/formals.h"
 #include "lang/language/read.h"

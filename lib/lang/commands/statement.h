@@ -1,7 +1,7 @@
 /* statement.h -- the table of statements of the language, for parsing, completion and help.
  *
  * A statement has its row at the begin of its file (lang/syntax/row.h), and statement.def names it.
- * Those that are not moved yet have their row there: such a handler gets a cursor after the
+ * Those that are not moved yet have their row there and their handler in handlers.h: it gets a cursor after the
  * statement's word, reads its operands, checks that nothing is left (qdot_cursor_expect_end) and
  * only then acts. script.c handles a trailing `for` and blocks: a handler sees each pass as a
  * separate statement that ends before `for`.
@@ -22,16 +22,8 @@ bool qdot_statement_declares(const qdot_statement *row);
 /* Whether it asks of the scene or of an expression, not of a run. */
 bool qdot_statement_asks(const qdot_statement *row);
 
-/* The handlers. Adding a statement is adding its row and its handler. */
-#define ROW(word, group, usage, summary, example, handler, alone)                        \
-    qdot_status handler(qdot_cursor *c);
-#define UNBUILT(word, group, usage, summary, example)
-#define STATEMENT(word) extern const qdot_statement qdot_statement_##word;
-#include "lang/commands/statement.def"
-#undef ROW
-#undef UNBUILT
-#undef STATEMENT
-qdot_status qdot_declare_definition(qdot_cursor *c); /* NAME = EXPR, at the name */
-qdot_status qdot_ask_expression(qdot_cursor *c);     /* at its first token */
+/* What begins with no word of a statement, at its first token: NAME = EXPR, and an expression. */
+qdot_status qdot_declare_definition(qdot_cursor *c);
+qdot_status qdot_ask_expression(qdot_cursor *c);
 
 #endif

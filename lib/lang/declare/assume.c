@@ -3,6 +3,7 @@
  * All relations are read before the first is kept. None is kept if they are proved to contradict each other, an
  * earlier one, or a declared domain.
  */
+#include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
 #include "lang/declare/declare.h"
 #include "lang/language/read.h"

@@ -1,11 +1,10 @@
 /* body.c -- `body`: a rigid body, in the plane or in space. */
-#include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/syntax/record.h"
 
 static qdot_status body_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_body = {
+QDOT_STATEMENT(body) = {
     .word = "body",
     .group = QDOT_DECLARING,
     .usage = "body NAME mass M inertia I [about P] at R angle A | euler(PHI, THETA, PSI) | "

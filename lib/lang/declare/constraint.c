@@ -1,13 +1,12 @@
 /* constraint.c -- `constraint`: A = B, also of velocities and accelerations. */
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/objects.h"
 #include "lang/session/member.h"
 
 static qdot_status constraint_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_constraint = {
+QDOT_STATEMENT(constraint) = {
     .word = "constraint",
     .group = QDOT_DECLARING,
     .usage = "constraint [NAME:] A = B",

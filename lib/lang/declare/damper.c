@@ -1,11 +1,10 @@
 /* damper.c -- `damper`: pulls with -C d' between two places. */
-#include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 
 static qdot_status damper_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_damper = {
+QDOT_STATEMENT(damper) = {
     .word = "damper",
     .group = QDOT_DECLARING,
     .usage = "damper [NAME] between A, B coefficient C",

@@ -4,7 +4,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/declare/declare.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/formals.h"
 #include "lang/language/read.h"
 

@@ -11,6 +11,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/commands/set.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"

@@ -1,5 +1,4 @@
 /* dissipation.c -- `dissipation`: a term of the Rayleigh function. */
-#include "lang/commands/statement.h"
 #include "lang/declare/objects.h"
 
 static qdot_status
@@ -8,7 +7,7 @@ dissipation_declare(qdot_record *r)
     return qdot_object_term(r, qdot_record_hole(r, NULL, "D"), QDOT_DISSIPATION);
 }
 
-const qdot_statement qdot_statement_dissipation = {
+QDOT_STATEMENT(dissipation) = {
     .word = "dissipation",
     .group = QDOT_DECLARING,
     .usage = "dissipation [NAME:] D",

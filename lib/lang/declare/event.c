@@ -1,11 +1,10 @@
 /* event.c -- `event`: a moment of a run. */
 #include "lang/commands/set.h"
-#include "lang/commands/statement.h"
 #include "lang/session/measured.h"
 
 static qdot_status event_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_event = {
+QDOT_STATEMENT(event) = {
     .word = "event",
     .group = QDOT_DECLARING,
     .usage = "event NAME: A = B [rising|falling] [stop] [then NAME = VALUE, ...]",

@@ -1,11 +1,10 @@
 /* force.c -- `force`: an applied force, on a particle, a body, a coordinate, or at a place. */
-#include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 
 static qdot_status force_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_force = {
+QDOT_STATEMENT(force) = {
     .word = "force",
     .group = QDOT_DECLARING,
     .usage = "force [NAME:] F on PARTICLE | on COORDINATE | at POINT | on BODY at material POINT",

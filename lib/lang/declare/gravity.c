@@ -1,11 +1,10 @@
 /* gravity.c -- `gravity`: a uniform field. */
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/declare/objects.h"
 
 static qdot_status gravity_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_gravity = {
+QDOT_STATEMENT(gravity) = {
     .word = "gravity",
     .group = QDOT_DECLARING,
     .usage = "gravity [NAME:] VECTOR",

@@ -1,10 +1,9 @@
 /* lagrangian.c -- `lagrangian`: the Lagrangian itself. */
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status lagrangian_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_lagrangian = {
+QDOT_STATEMENT(lagrangian) = {
     .word = "lagrangian",
     .group = QDOT_DECLARING,
     .usage = "lagrangian L",

@@ -1,11 +1,10 @@
 /* particle.c -- `particle`: a mass point at r(q, t). */
-#include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/syntax/record.h"
 
 static qdot_status particle_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_particle = {
+QDOT_STATEMENT(particle) = {
     .word = "particle",
     .group = QDOT_DECLARING,
     .usage = "particle NAME mass M at R",

@@ -1,5 +1,4 @@
 /* potential.c -- `potential`: a term of the potential energy. */
-#include "lang/commands/statement.h"
 #include "lang/declare/objects.h"
 
 static qdot_status
@@ -8,7 +7,7 @@ potential_declare(qdot_record *r)
     return qdot_object_term(r, qdot_record_hole(r, NULL, "V"), QDOT_POTENTIAL);
 }
 
-const qdot_statement qdot_statement_potential = {
+QDOT_STATEMENT(potential) = {
     .word = "potential",
     .group = QDOT_DECLARING,
     .usage = "potential [NAME:] V",

@@ -3,13 +3,12 @@
 
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/session/labels.h"
 #include "lang/syntax/record.h"
 
 static qdot_status remove_carry_out(qdot_record *r);
 
-const qdot_statement qdot_statement_remove = {
+QDOT_STATEMENT(remove) = {
     .word = "remove",
     .group = QDOT_DECLARING,
     .usage = "remove NAME | remove KIND [K]",

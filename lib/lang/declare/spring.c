@@ -1,12 +1,11 @@
 /* spring.c -- `spring`: K/2 (d - L)^2 between two places. */
-#include "lang/commands/statement.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 
 static qdot_status spring_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_spring = {
+QDOT_STATEMENT(spring) = {
     .word = "spring",
     .group = QDOT_DECLARING,
     .usage = "spring [NAME] between A, B stiffness K [rest L]",

@@ -1,11 +1,10 @@
 /* torque.c -- `torque`: a generalized force on a coordinate, or a torque on a body. */
-#include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 
 static qdot_status torque_declare(qdot_record *r);
 
-const qdot_statement qdot_statement_torque = {
+QDOT_STATEMENT(torque) = {
     .word = "torque",
     .group = QDOT_DECLARING,
     .usage = "torque [NAME:] TAU on COORDINATE | on BODY",

@@ -5,7 +5,7 @@
 #include "lang/answer/answer.h"
 #include "lang/figures/animated.h"
 #include "lang/figures/figure-file.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"

@@ -5,7 +5,7 @@
 #include "lang/ask/ask.h"
 #include "lang/declare/export-scene.h"
 #include "lang/files/redirect.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 

@@ -8,6 +8,7 @@
 #include "lang/files/report-run.h"
 #include "lang/files/report-work.h"
 #include "lang/declare/scene-file.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 #include "lang/session/runs.h"
@@ -107,9 +108,9 @@ static qdot_status
 write_sections(page *p)
 {
     QDOT_TRY(add_scene(p));
-    QDOT_TRY(add_answer(p, "Derivation", &qdot_statement_derive));
+    QDOT_TRY(add_answer(p, "Derivation", qdot_statement_find("derive")));
     QDOT_TRY(add_conserved(p));
-    QDOT_TRY(add_answer(p, "Equilibria", &qdot_statement_equilibria));
+    QDOT_TRY(add_answer(p, "Equilibria", qdot_statement_find("equilibria")));
     if (p->n > 0) {
         QDOT_TRY(qdot_report_runs(p->session, p->n, p->runs, &p->page));
         if (p->work)

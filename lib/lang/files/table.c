@@ -11,7 +11,7 @@
 #include "lang/files/row-file.h"
 #include "lang/figures/figure-file.h"
 #include "lang/declare/scene-file.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"

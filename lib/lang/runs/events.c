@@ -5,14 +5,13 @@
 #include "base/number-text.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/commands/statement.h"
 #include "lang/session/event-time.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
 static qdot_status events_list(qdot_record *r);
 
-const qdot_statement qdot_statement_events = {
+QDOT_STATEMENT(events) = {
     .word = "events",
     .group = QDOT_NUMBERS,
     .usage = "events",

@@ -5,7 +5,7 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/table-answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/figures/figure-option.h"
 #include "lang/language/read.h"
 #include "lang/runs/error-time.h"

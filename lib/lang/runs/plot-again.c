@@ -1,7 +1,7 @@
 /* plot-again.c -- the statement `plot`: `for l = [1, 2]` makes the latest run once more for each value. */
 #include <string.h>
 
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/figures/plot.h"
 #include "lang/language/read.h"
 #include "lang/runs/own-run.h"

@@ -8,7 +8,7 @@
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "sim/study/race.h"
 

@@ -6,7 +6,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/report.h"
 #include "lang/runs/run.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/warnings.h"
 #include "lang/language/read.h"
 #include "lang/session/runs.h"

@@ -6,7 +6,6 @@
 
 #include "base/number-text.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/slopes/orbit-run.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
@@ -14,7 +13,7 @@
 
 static qdot_status floquet_print(qdot_record *r);
 
-const qdot_statement qdot_statement_floquet = {
+QDOT_STATEMENT(floquet) = {
     .word = "floquet",
     .group = QDOT_NUMBERS,
     .usage = "floquet [RUN]",

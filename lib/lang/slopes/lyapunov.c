@@ -4,7 +4,7 @@
 
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/figures/figure-option.h"
 #include "lang/language/read.h"
 #include "lang/runs/error-time.h"

@@ -1,7 +1,7 @@
 /* sensitivity.c -- the statement `sensitivity EXPR of NAME, ...`. */
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/runs/own-run.h"

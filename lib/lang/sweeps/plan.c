@@ -1,6 +1,6 @@
 /* plan.c -- the statement `plan`: how a run, or a sweep, would be made. */
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/runs/request.h"
 #include "lang/runs/run-options.h"
 #include "lang/sweeps/sweep-parts.h"

@@ -5,7 +5,7 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/runs/own-run.h"
 #include "lang/sweeps/columns.h"

@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/scene-file.h"
 #include "lang/figures/figure-file.h"

@@ -25,6 +25,11 @@ typedef struct {
     qdot_status (*run)(qdot_cursor *c); /* of a statement that reads its tokens itself */
 } qdot_statement;
 
+/* The row of a statement, at the begin of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
+#define QDOT_STATEMENT(word)                                                             \
+    extern const qdot_statement qdot_statement_##word;                                   \
+    const qdot_statement qdot_statement_##word
+
 /* Whether it can be carried out. */
 static inline bool
 qdot_statement_is_built(const qdot_statement *row)

@@ -5,7 +5,7 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"

@@ -4,7 +4,7 @@
 
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/unknowns/find-parts.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
+#include "lang/commands/handlers.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/unknowns/fit-parts.h"

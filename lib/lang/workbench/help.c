@@ -4,6 +4,7 @@
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/workbench/search.h"
+#include "lang/commands/handlers.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"

@@ -1,11 +1,10 @@
 /* include.c -- `include`: another script, carried out. */
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 #include "lang/workbench/script.h"
 
 static qdot_status include_carry_out(qdot_record *r);
 
-const qdot_statement qdot_statement_include = {
+QDOT_STATEMENT(include) = {
     .word = "include",
     .group = QDOT_WORKBENCH,
     .usage = "include \"FILE.lag\"",

@@ -1,5 +1,4 @@
 /* quit.c -- `quit`: no statement is carried out any more. */
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status
@@ -9,7 +8,7 @@ quit_leave(qdot_record *r)
     return QDOT_OK;
 }
 
-const qdot_statement qdot_statement_quit = {
+QDOT_STATEMENT(quit) = {
     .word = "quit",
     .group = QDOT_WORKBENCH,
     .usage = "quit",

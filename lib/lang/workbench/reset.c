@@ -1,5 +1,4 @@
 /* reset.c -- the statement `reset`. */
-#include "lang/commands/statement.h"
 #include "lang/language/function.h"
 #include "lang/session/transfer.h"
 #include "lang/session/undo.h"
@@ -7,7 +6,7 @@
 
 static qdot_status reset_carry_out(qdot_record *r);
 
-const qdot_statement qdot_statement_reset = {
+QDOT_STATEMENT(reset) = {
     .word = "reset",
     .group = QDOT_DECLARING,
     .usage = "reset | reset scene | reset start | reset scale",

@@ -1,10 +1,9 @@
 /* style.c -- `style`: how expressions are written. */
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status style_choose(qdot_record *r);
 
-const qdot_statement qdot_statement_style = {
+QDOT_STATEMENT(style) = {
     .word = "style",
     .group = QDOT_WORKBENCH,
     .usage = "style plain | unicode | flat | latex | mathml",

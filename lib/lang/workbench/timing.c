@@ -1,5 +1,4 @@
 /* timing.c -- `timing`: whether the CPU time of statements is told. */
-#include "lang/commands/statement.h"
 #include "lang/syntax/record.h"
 
 static qdot_status
@@ -9,7 +8,7 @@ timing_switch(qdot_record *r)
     return QDOT_OK;
 }
 
-const qdot_statement qdot_statement_timing = {
+QDOT_STATEMENT(timing) = {
     .word = "timing",
     .group = QDOT_WORKBENCH,
     .usage = "timing on | off",

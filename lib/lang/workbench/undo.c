@@ -2,14 +2,13 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/session/undo.h"
 #include "lang/syntax/record.h"
 
 static qdot_status undo_back(qdot_record *r);
 static qdot_status undo_again(qdot_record *r);
 
-const qdot_statement qdot_statement_undo = {
+QDOT_STATEMENT(undo) = {
     .word = "undo",
     .group = QDOT_WORKBENCH,
     .usage = "undo [N]",
@@ -19,7 +18,7 @@ const qdot_statement qdot_statement_undo = {
     .handler = undo_back,
 };
 
-const qdot_statement qdot_statement_redo = {
+QDOT_STATEMENT(redo) = {
     .word = "redo",
     .group = QDOT_WORKBENCH,
     .usage = "redo [N]",

@@ -1,0 +1,35 @@
+/* handlers.h -- the handlers of statements that read their tokens themselves (statement.def). */
+#ifndef QDOT_LANG_HANDLERS_H
+#define QDOT_LANG_HANDLERS_H
+
+#include "lang/language/cursor.h"
+
+qdot_status qdot_declare_param(qdot_cursor *c);
+qdot_status qdot_declare_coord(qdot_cursor *c);
+qdot_status qdot_declare_function(qdot_cursor *c);
+qdot_status qdot_declare_assume(qdot_cursor *c);
+qdot_status qdot_check(qdot_cursor *c);
+qdot_status qdot_set_values(qdot_cursor *c);
+qdot_status qdot_set_start(qdot_cursor *c);
+qdot_status qdot_scale_statement(qdot_cursor *c);
+qdot_status qdot_run_statement(qdot_cursor *c);
+qdot_status qdot_run_plan_statement(qdot_cursor *c);
+qdot_status qdot_table_statement(qdot_cursor *c);
+qdot_status qdot_plot_statement(qdot_cursor *c);
+qdot_status qdot_table_save(qdot_cursor *c);
+qdot_status qdot_race_statement(qdot_cursor *c);
+qdot_status qdot_workprecision_statement(qdot_cursor *c);
+qdot_status qdot_longtime_statement(qdot_cursor *c);
+qdot_status qdot_lyapunov_statement(qdot_cursor *c);
+qdot_status qdot_sweep_statement(qdot_cursor *c);
+qdot_status qdot_poincare_statement(qdot_cursor *c);
+qdot_status qdot_animate_statement(qdot_cursor *c);
+qdot_status qdot_sensitivity_statement(qdot_cursor *c);
+qdot_status qdot_find_statement(qdot_cursor *c);
+qdot_status qdot_fit_statement(qdot_cursor *c);
+qdot_status qdot_continue_statement(qdot_cursor *c);
+qdot_status qdot_help(qdot_cursor *c);
+qdot_status qdot_report_page(qdot_cursor *c);
+qdot_status qdot_export_statement(qdot_cursor *c);
+
+#endif
