@@ -166,6 +166,113 @@ qdot_figure_option_read(qdot_cursor *c, qdot_figure_choice *figure, qdot_panel_c
     return QDOT_OK;
 }
 
+/* --- of a record ---------------------------------------------------------------------- */
+
+static qdot_status
+range_find(qdot_record *r, const qdot_filled *place, double least, double most, qdot_figure_range *range)
+{
+    if (!isfinite(least) || !isfinite(most) || !(least < most)) {
+        qdot_record_blame(r, place);
+        (void)qdot_fail(QDOT_EINVAL, "nothing lies between %.6g and %.6g", least, most);
+        return qdot_hint("the least comes first");
+    }
+    *range = (qdot_figure_range){least, most, true};
+    return QDOT_OK;
+}
+
+/* A to B */
+static qdot_status
+abscissa_find(qdot_record *r, const qdot_filled *a, qdot_panel_choice *p)
+{
+    double least, most;
+
+    QDOT_TRY(qdot_record_number(r, a, &least));
+    QDOT_TRY(qdot_record_number(r, qdot_record_next(r, a, "B"), &most));
+    return range_find(r, a, least, most, &p->range[0]);
+}
+
+/* A..B */
+static qdot_status
+ordinate_find(qdot_record *r, const qdot_filled *range, qdot_panel_choice *p)
+{
+    double least, most;
+    qdot_expr from, to;
+
+    QDOT_TRY(qdot_record_range(r, range, &from, &to));
+    QDOT_TRY(qdot_session_number(r->cursor.session, from, &least, NULL));
+    QDOT_TRY(qdot_session_number(r->cursor.session, to, &most, NULL));
+    return range_find(r, range, least, most, &p->range[1]);
+}
+
+static qdot_status
+length_find(qdot_record *r, const qdot_filled *part, double *length)
+{
+    QDOT_TRY(qdot_record_number(r, part, length));
+    if (*length >= least_size && *length <= most_size)
+        return QDOT_OK;
+    qdot_record_blame(r, part);
+    return qdot_fail(QDOT_EINVAL, "a figure is %.0f to %.0f cm wide and high, not %.6g",
+                     least_size, most_size, *length);
+}
+
+/* X, ... */
+static qdot_status
+labels_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
+{
+    const qdot_filled *end = r->parts.at + r->parts.n;
+
+    for (const qdot_filled *part = first; part < end; part += 2) {
+        if (p->n_labels == 3) {
+            qdot_record_blame(r, part);
+            return qdot_fail(QDOT_EINVAL, "a figure has no more than three axes");
+        }
+        p->labels[p->n_labels++] = qdot_record_text(part);
+        if (part + 1 == end || !qdot_filled_is(part + 1, ","))
+            break;
+    }
+    return QDOT_OK;
+}
+
+/* The option whose word is the part, its hole the next. */
+static qdot_status
+one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_panel_choice *p)
+{
+    const qdot_filled *hole = word + 1;
+
+    if (qdot_filled_is(word, "from"))
+        return abscissa_find(r, hole, p);
+    if (qdot_filled_is(word, "range"))
+        return ordinate_find(r, hole, p);
+    if (qdot_filled_is(word, "labels"))
+        return labels_find(r, hole, p);
+    if (qdot_filled_is(word, "size")) {
+        QDOT_TRY(length_find(r, hole, &f->width));
+        return length_find(r, qdot_record_next(r, hole, "H"), &f->height);
+    }
+    if (qdot_filled_is(word, "log")) {
+        p->logs = true;
+        p->log[0] = !qdot_filled_is(hole, "y");
+        p->log[1] = !qdot_filled_is(hole, "x");
+    } else if (qdot_filled_is(word, "title")) {
+        p->title = qdot_record_text(hole);
+    } else if (qdot_filled_is(word, "keep")) {
+        f->keep = true;
+    } else if (qdot_filled_is(word, "to") && hole->from->kind == QDOT_TOKEN_STRING) {
+        f->path = qdot_record_text(hole);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_figure_option_find(qdot_record *r, const qdot_filled *from, const qdot_filled *to,
+                        qdot_figure_choice *figure, qdot_panel_choice *panel)
+{
+    for (const qdot_filled *part = from; part < to; part++)
+        if (part->node->kind == QDOT_USAGE_WORD)
+            QDOT_TRY(one_find(r, part, figure, panel));
+    return QDOT_OK;
+}
+
 void
 qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
 {

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_FIGURE_OPTION_H
 #define QDOT_LANG_FIGURE_OPTION_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 #include "show/figure.h"
 
 /* Of the whole figure: to "FILE", size W, H, keep. */
@@ -20,6 +20,14 @@ typedef struct {
     size_t n_labels;
 } qdot_panel_choice;
 
+/* The options as usage texts have them. */
+#define QDOT_FIGURE_USAGE                                                                 \
+    "[from A to B] [range A..B] [log x|y|xy] [title \"TEXT\"] [labels \"X\", ...] [size W, H] " \
+    "[keep] [to \"FILE\"]"
+/* Those among the parts [from, to) of a statement. Errors: QDOT_EINVAL. */
+QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,
+                                                    const qdot_filled *to, qdot_figure_choice *figure,
+                                                    qdot_panel_choice *panel);
 /* Whether an option begins at the token. */
 bool qdot_figure_option_is(const qdot_token *token);
 /* Read the options that stand here, up to something else. Errors: QDOT_ESYNTAX, QDOT_EINVAL. */

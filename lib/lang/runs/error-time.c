@@ -67,23 +67,33 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
 }
 
 qdot_status
-qdot_error_time_read(qdot_cursor *c, const char *expected, qdot_figure_choice *figure,
-                     qdot_panel_choice *panel)
+qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_choice *panel)
 {
     static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
-    const qdot_token *start = c->at;
     bool good = false;
 
-    QDOT_TRY(qdot_figure_option_read(c, figure, panel));
-    if (!qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, expected);
+    QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, figure, panel));
     for (size_t i = 0; figure->path != NULL && i < sizeof known / sizeof *known; i++)
         good = good || qdot_ends_in(figure->path, known[i]);
     if (good || figure->path == NULL)
         return QDOT_OK;
-    c->error_at = start->start;
+    qdot_record_blame(r, qdot_record_hole(r, NULL, "T0..T1") + 1);
     (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold", figure->path);
     return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+}
+
+qdot_status
+qdot_error_time_tolerance(qdot_record *r, double *tol)
+{
+    const qdot_filled *part = qdot_record_hole(r, "tol", "E");
+
+    *tol = 0;
+    if (part == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_record_number(r, part, tol));
+    qdot_record_blame(r, part);
+    return *tol >= 1e-16 && *tol < 1 ? QDOT_OK
+                                     : qdot_fail(QDOT_EINVAL, "a tolerance lies between 1e-16 and 1");
 }
 
 static qdot_status

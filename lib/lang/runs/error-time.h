@@ -24,11 +24,11 @@ typedef struct {
     const qdot_panel_choice *panel;
 } qdot_error_time;
 
-/* Read the options of such a statement up to its end; its file is a figure, .csv or .txt. expected:
- * what else might stand here. Errors: QDOT_ESYNTAX, QDOT_EINVAL. */
-QDOT_MUST_CHECK qdot_status qdot_error_time_read(qdot_cursor *c, const char *expected,
-                                                 qdot_figure_choice *figure,
-                                                 qdot_panel_choice *panel);
+/* The options of such a statement; its file is a figure, .csv or .txt. Errors: QDOT_EINVAL. */
+QDOT_MUST_CHECK qdot_status qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure,
+                                                    qdot_panel_choice *panel);
+/* The tolerance behind `tol`, 1e-16 to 1; 0: it was not said. */
+QDOT_MUST_CHECK qdot_status qdot_error_time_tolerance(qdot_record *r, double *tol);
 
 /* What `workprecision` and `longtime` answer: methods left out, then a table and a figure, or a file. */
 typedef struct {

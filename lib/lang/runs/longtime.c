@@ -5,17 +5,24 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/table-answer.h"
-#include "lang/commands/handlers.h"
 #include "lang/figures/figure-option.h"
-#include "lang/language/read.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
+#include "lang/syntax/record.h"
 #include "sim/study/longtime.h"
 
+static qdot_status longtime_measure(qdot_record *r);
+
+QDOT_STATEMENT(longtime) = {
+    .word = "longtime",
+    .group = QDOT_NUMBERS,
+    .usage = "longtime T0..T1 [tol E] [method NAME] " QDOT_FIGURE_USAGE,
+    .summary = "energy error against time, with its growth, by every method that fits or by one",
+    .example = "longtime 0..1e4",
+    .handler = longtime_measure,
+};
+
 typedef struct {
-    double tol;         /* 0: not said */
-    const char *method; /* NULL: not said */
-    const qdot_token *method_at;
     qdot_figure_choice figure;
     qdot_panel_choice panel;
 } choices;
@@ -203,48 +210,21 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
 /* --- the statement ------------------------------------------------------------------ */
 
 static qdot_status
-longtime_read_options(qdot_cursor *c, choices *chosen)
+longtime_measure(qdot_record *r)
 {
-    const qdot_token *start;
-
-    for (;;) {
-        if (qdot_cursor_accept_word(c, "tol")) {
-            QDOT_TRY(qdot_cursor_once(c, "tol", chosen->tol != 0));
-            start = c->at;
-            QDOT_TRY(qdot_read_number(c, &chosen->tol));
-            c->error_at = start->start;
-            if (!(chosen->tol >= 1e-16 && chosen->tol < 1))
-                return qdot_fail(QDOT_EINVAL, "a tolerance lies between 1e-16 and 1");
-        } else if (qdot_cursor_accept_word(c, "method")) {
-            QDOT_TRY(qdot_cursor_once(c, "method", chosen->method != NULL));
-            if (c->at->kind != QDOT_TOKEN_NAME)
-                return qdot_cursor_expected(c, "the name of a method");
-            chosen->method_at = c->at;
-            chosen->method = c->at++->text;
-        } else {
-            break;
-        }
-    }
-    return qdot_error_time_read(c, "`tol`, `method`, " QDOT_FIGURE_OPTIONS, &chosen->figure,
-                                &chosen->panel);
-}
-
-qdot_status
-qdot_longtime_statement(qdot_cursor *c)
-{
-    const qdot_token *start = c->at;
-    qdot_session *session = c->session;
+    const qdot_filled *method = qdot_record_hole(r, "method", "NAME");
+    qdot_session *session = r->cursor.session;
     qdot_request order = {0};
     qdot_longtime l = {0};
     choices chosen = {0};
     qdot_expr from, to;
     qdot_status status;
 
-    QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(longtime_read_options(c, &chosen));
-    c->error_at = start->start;
-    l.tol = chosen.tol;
-    l.method = chosen.method;
+    QDOT_TRY(qdot_record_range(r, r->parts.at + 1, &from, &to));
+    QDOT_TRY(qdot_error_time_tolerance(r, &l.tol));
+    QDOT_TRY(qdot_error_time_options(r, &chosen.figure, &chosen.panel));
+    r->cursor.error_at = r->start->start;
+    l.method = method != NULL ? method->from->text : NULL;
     status = qdot_request_between(session, from, to, &order);
     if (status == QDOT_OK)
         status = qdot_longtime_measure(session->scene, &order.request, &l);
@@ -255,8 +235,8 @@ qdot_longtime_statement(qdot_cursor *c)
     if (status == QDOT_OK && l.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu methods", l.n);
     status = qdot_request_explain(session, &order, status);
-    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && chosen.method_at != NULL)
-        c->error_at = chosen.method_at->start;
+    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && method != NULL)
+        qdot_record_blame(r, method);
     qdot_longtime_clear(&l);
     qdot_request_free(&order);
     return status;

@@ -8,9 +8,20 @@
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
+#include "lang/syntax/record.h"
 #include "sim/study/race.h"
+
+static qdot_status race_hold(qdot_record *r);
+
+QDOT_STATEMENT(race) = {
+    .word = "race",
+    .group = QDOT_NUMBERS,
+    .usage = "race T0..T1 " QDOT_FIGURE_USAGE,
+    .summary = "one scene as given (projected, Baumgarte, none) and in minimal coordinates: errors, "
+               "drifts and times at a ladder of tolerances, and their figure",
+    .example = "race 0..20",
+    .handler = race_hold,
+};
 
 /* Formulation, method, tolerance, error, drifts, CPU seconds. */
 static qdot_status
@@ -120,30 +131,10 @@ race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choi
     return status;
 }
 
-/* Refuse options of `run` that a race chooses itself. */
 static qdot_status
-refuse_option(qdot_cursor *c)
+race_hold(qdot_record *r)
 {
-    static const char *const options[] = {"tol", "digits", "method", "constraints", "with",
-                                          "as"};
-
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-        if (qdot_cursor_is_word(c, options[i])) {
-            c->error_at = c->at->start;
-            qdot_fail(QDOT_ESYNTAX, "a race takes no `%s`: it compares tolerances and "
-                                    "formulations by itself",
-                      options[i]);
-            return qdot_hint("race T0..T1 [to \"FILE\"]");
-        }
-    (void)qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
-    return qdot_hint("race T0..T1 [to \"FILE\"] compares formulations; `workprecision` "
-                     "compares methods");
-}
-
-qdot_status
-qdot_race_statement(qdot_cursor *c)
-{
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
     qdot_request order = {0};
     qdot_expr from, to;
     qdot_figure_choice figure = {0};
@@ -151,26 +142,24 @@ qdot_race_statement(qdot_cursor *c)
     qdot_race race;
     qdot_status status;
 
-    QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(qdot_figure_option_read(c, &figure, &panel));
-    if (!qdot_cursor_is_end(c))
-        return refuse_option(c);
-    c->error_at = start->start;
-    status = qdot_request_between(c->session, from, to, &order);
+    QDOT_TRY(qdot_record_range(r, r->parts.at + 1, &from, &to));
+    QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, &figure, &panel));
+    r->cursor.error_at = r->start->start;
+    status = qdot_request_between(session, from, to, &order);
     order.request.method = "auto";
     order.request.tol = 1e-12;
     if (status == QDOT_OK) {
-        status = qdot_race_hold(c->session->scene, &order.request, &race);
+        status = qdot_race_hold(session->scene, &order.request, &race);
         if (status == QDOT_OK) {
             if (race.interrupted)
                 qdot_interrupt_clear(); /* heard: the rows so far are told */
-            status = race_answer(c->session, &race, &figure, &panel);
+            status = race_answer(session, &race, &figure, &panel);
             if (status == QDOT_OK && race.interrupted)
                 status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");
             qdot_race_clear(&race);
         }
     }
-    status = qdot_request_explain(c->session, &order, status);
+    status = qdot_request_explain(session, &order, status);
     qdot_request_free(&order);
     return status;
 }

@@ -7,9 +7,19 @@
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
+#include "lang/syntax/record.h"
 #include "sim/study/workprecision.h"
+
+static qdot_status workprecision_measure(qdot_record *r);
+
+QDOT_STATEMENT(workprecision) = {
+    .word = "workprecision",
+    .group = QDOT_NUMBERS,
+    .usage = "workprecision T0..T1 " QDOT_FIGURE_USAGE,
+    .summary = "error against time: every method over a ladder of tolerances",
+    .example = "workprecision 0..20",
+    .handler = workprecision_measure,
+};
 
 typedef struct {
     qdot_figure_choice figure;
@@ -152,20 +162,19 @@ workprecision_keep(qdot_session *session, const qdot_run_request *request, qdot_
     return status;
 }
 
-qdot_status
-qdot_workprecision_statement(qdot_cursor *c)
+static qdot_status
+workprecision_measure(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    qdot_session *session = c->session;
+    qdot_session *session = r->cursor.session;
     qdot_request order = {0};
     qdot_workprecision w = {0};
     choices chosen = {0};
     qdot_expr from, to;
     qdot_status status;
 
-    QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(qdot_error_time_read(c, QDOT_FIGURE_OPTIONS, &chosen.figure, &chosen.panel));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_record_range(r, r->parts.at + 1, &from, &to));
+    QDOT_TRY(qdot_error_time_options(r, &chosen.figure, &chosen.panel));
+    r->cursor.error_at = r->start->start;
     status = qdot_request_between(session, from, to, &order);
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);

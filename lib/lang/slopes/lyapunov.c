@@ -4,12 +4,23 @@
 
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/handlers.h"
 #include "lang/figures/figure-option.h"
-#include "lang/language/read.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
+#include "lang/syntax/record.h"
 #include "sim/study/exponents.h"
+
+static qdot_status lyapunov_find(qdot_record *r);
+
+QDOT_STATEMENT(lyapunov) = {
+    .word = "lyapunov",
+    .group = QDOT_NUMBERS,
+    .usage = "lyapunov [spectrum] T0..T1 [tol E] " QDOT_FIGURE_USAGE,
+    .summary = "the largest Lyapunov exponent, or all of them, by the variational equations, with errors by blocks of "
+               "time; `to` a figure or data: how they settled",
+    .example = "lyapunov 0..1000",
+    .handler = lyapunov_find,
+};
 
 /* As of a run. */
 static const double tol_default = 1e-12;
@@ -122,36 +133,19 @@ exponents_tell(qdot_session *session, const qdot_exponents *x, const choices *ch
 /* --- the statement --------------------------------------------------------------------------- */
 
 static qdot_status
-lyapunov_read_tolerance(qdot_cursor *c, choices *chosen)
+lyapunov_find(qdot_record *r)
 {
-    const qdot_token *start;
-
-    if (!qdot_cursor_accept_word(c, "tol"))
-        return QDOT_OK;
-    start = c->at;
-    QDOT_TRY(qdot_read_number(c, &chosen->tol));
-    c->error_at = start->start;
-    return chosen->tol >= 1e-16 && chosen->tol < 1
-               ? QDOT_OK
-               : qdot_fail(QDOT_EINVAL, "a tolerance lies between 1e-16 and 1");
-}
-
-qdot_status
-qdot_lyapunov_statement(qdot_cursor *c)
-{
-    const qdot_token *start = c->at;
-    qdot_session *session = c->session;
+    qdot_session *session = r->cursor.session;
     qdot_request order = {0};
-    qdot_exponents x = {.spectrum = qdot_cursor_accept_word(c, "spectrum")};
+    qdot_exponents x = {.spectrum = qdot_record_word(r, "spectrum") != NULL};
     choices chosen = {0};
     qdot_expr from, to;
     qdot_status status;
 
-    QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(lyapunov_read_tolerance(c, &chosen));
-    QDOT_TRY(qdot_error_time_read(c, "`tol`, " QDOT_FIGURE_OPTIONS, &chosen.figure,
-                                  &chosen.panel));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_record_range(r, qdot_record_hole(r, NULL, "T0..T1"), &from, &to));
+    QDOT_TRY(qdot_error_time_tolerance(r, &chosen.tol));
+    QDOT_TRY(qdot_error_time_options(r, &chosen.figure, &chosen.panel));
+    r->cursor.error_at = r->start->start;
     status = qdot_request_between(session, from, to, &order);
     order.request.tol = chosen.tol > 0 ? chosen.tol : tol_default;
     order.request.method = "auto";

@@ -6,13 +6,39 @@
 
 #include "lang/syntax/holes.h"
 
+/* Of a figure. */
+#define FIGURE_OPTIONS                                                                   \
+    "`from`, `range`, `log`, `title`, `labels`, `size`, `keep`, `to` or the end of the " \
+    "statement"
+
 static const struct {
     const char *statement, *before, *what, *hint;
 } rows[] = {
 #define EXPECTED(statement, before, what, hint) {statement, before, what, hint},
+#define REFUSED(statement, beside, word, status, message, hint)
 #include "lang/syntax/expected.def"
 };
 #undef EXPECTED
+#undef REFUSED
+
+static const struct {
+    const char *statement, *beside, *word;
+    qdot_status status;
+    const char *message, *hint;
+} refused[] = {
+#define EXPECTED(statement, before, what, hint)
+#define REFUSED(statement, beside, word, status, message, hint)                          \
+    {statement, beside, word, status, message, hint},
+#include "lang/syntax/expected.def"
+};
+#undef EXPECTED
+#undef REFUSED
+
+static bool
+is_of(const char *statement, const qdot_expected *list)
+{
+    return statement == NULL || strcmp(statement, list->usage->word) == 0;
+}
 
 /* Add the nodes that may come first at `node`. */
 static void
@@ -95,12 +121,12 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 {
     const qdot_usage_node *word = expected_first(list, QDOT_USAGE_WORD),
                           *sign = expected_first(list, QDOT_USAGE_SIGN),
-                          *hole = expected_first(list, QDOT_USAGE_HOLE);
+                          *hole = expected_first(list, QDOT_USAGE_HOLE),
+                          *first = word != NULL ? word : sign;
 
-    if (word != NULL)
+    if (first != NULL)
         for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-            if (strcmp(rows[i].statement, list->usage->word) == 0 &&
-                strcmp(rows[i].before, word->before) == 0) {
+            if (is_of(rows[i].statement, list) && strcmp(rows[i].before, first->before) == 0) {
                 snprintf(what, QDOT_EXPECTED_TEXT, "%s", rows[i].what);
                 return rows[i].hint;
             }
@@ -114,4 +140,31 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
         snprintf(what, QDOT_EXPECTED_TEXT, "%s",
                  hole != NULL ? qdot_hole_at(hole->hole)->expected : "the end of the statement");
     return NULL;
+}
+
+/* The hint with the token behind the word in place of its `%s`. */
+static void
+hint_give(const char *hint, const qdot_token *behind)
+{
+    const char *gap = strstr(hint, "%s");
+
+    if (gap == NULL)
+        (void)qdot_hint("%s", hint);
+    else
+        (void)qdot_hint("%.*s%.100s%s", (int)(gap - hint), hint, behind->text, gap + 2);
+}
+
+bool
+qdot_expected_refuses(const qdot_expected *list, const qdot_record *r)
+{
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        if (!is_of(refused[i].statement, list) || !qdot_token_is_word(list->token, refused[i].word) ||
+            (refused[i].beside != NULL && (!list->given || qdot_record_word(r, refused[i].beside) == NULL)))
+            continue;
+        (void)qdot_fail(refused[i].status, "%s", refused[i].message);
+        if (refused[i].hint != NULL)
+            hint_give(refused[i].hint, list->token + 1);
+        return true;
+    }
+    return false;
 }

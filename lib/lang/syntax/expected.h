@@ -9,7 +9,7 @@
 #ifndef QDOT_LANG_EXPECTED_H
 #define QDOT_LANG_EXPECTED_H
 
-#include "lang/syntax/usage.h"
+#include "lang/syntax/record.h"
 
 enum { QDOT_EXPECTED_TEXT = 160, QDOT_EXPECTED_NODES = 32 };
 
@@ -26,5 +26,7 @@ typedef struct {
 void qdot_expected_add(qdot_expected *list, int node, uint64_t taken);
 /* The words behind "expected", as "`at`, `mass` or the end", into what; returns a hint that goes with them, or NULL. */
 const char *qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT]);
+/* Whether the token is a word that a row of expected.def refuses there; then that is the failure. */
+bool qdot_expected_refuses(const qdot_expected *list, const qdot_record *r);
 
 #endif

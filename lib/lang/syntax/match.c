@@ -142,6 +142,22 @@ read_tuple(matcher *m, const char *names, qdot_filled *part)
     return qdot_cursor_expect_op(m->c, ")");
 }
 
+/* SIDE..SIDE. Where no range follows a name that means nothing, that is told. */
+static qdot_status
+read_range(matcher *m, const qdot_hole *hole, qdot_filled *part)
+{
+    const qdot_token *start = m->c->at;
+    qdot_expr value;
+
+    QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    if (qdot_cursor_accept_op(m->c, ".."))
+        return read_expression(m, QDOT_PARSE_SIDE, part);
+    if (m->c->at == start + 1 && start->kind == QDOT_TOKEN_NAME &&
+        !qdot_cursor_knows(m->c->session, start->text))
+        QDOT_TRY(qdot_compiled_value(m->c, &m->r->compiled.at[part->first], &value));
+    return qdot_cursor_expected(m->c, hole->expected);
+}
+
 static qdot_status
 read_call(matcher *m, const qdot_hole *hole)
 {
@@ -175,11 +191,7 @@ read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
     case QDOT_HOLE_SIDE: return read_expression(m, QDOT_PARSE_SIDE, part);
     case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
     case QDOT_HOLE_EQUATION: return read_equation(m, node, part);
-    case QDOT_HOLE_RANGE:
-        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
-        if (!qdot_cursor_accept_op(m->c, ".."))
-            return qdot_cursor_expected(m->c, hole->expected);
-        return read_expression(m, QDOT_PARSE_SIDE, part);
+    case QDOT_HOLE_RANGE: return read_range(m, hole, part);
     case QDOT_HOLE_TUPLE: return read_tuple(m, node->text, part);
     case QDOT_HOLE_NAME:
     case QDOT_HOLE_COORDINATE: return read_name(m, hole, part);
@@ -261,9 +273,11 @@ go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
     for (size_t i = first; i < n; i++) {
         const qdot_usage_node *node = place_node(m, i);
 
-        if (hole != NULL ? node->kind == QDOT_USAGE_HOLE && node_class(node) == node_class(hole)
-                         : node_is_token(node, part->from))
-            QDOT_TRY(match_add_place(m, node->next, (uint32_t)i, m->places.at[i].taken));
+        if (hole != NULL ? node->kind != QDOT_USAGE_HOLE || node_class(node) != node_class(hole)
+                         : !node_is_token(node, part->from))
+            continue;
+        m->r->parts.at[m->r->parts.n - 1].node = node; /* till the end tells which */
+        QDOT_TRY(match_add_place(m, node->next, (uint32_t)i, m->places.at[i].taken));
     }
     return QDOT_OK;
 }
@@ -279,10 +293,11 @@ fail_at_token(matcher *m)
 
     for (size_t i = m->first; i < m->places.n; i++)
         qdot_expected_add(&list, m->places.at[i].node, m->places.at[i].taken);
-    if (list.given && !list.hole) {
-        m->c->error_at = m->c->at->start;
+    m->c->error_at = m->c->at->start;
+    if (list.given && !list.hole && qdot_record_word(m->r, m->c->at->text) != NULL)
         return qdot_fail(QDOT_EINVAL, "`%s` is given twice", m->c->at->text);
-    }
+    if (qdot_expected_refuses(&list, m->r))
+        return qdot_last_error()->status;
     hint = qdot_expected_words(&list, what);
     status = qdot_cursor_expected(m->c, what);
     return hint != NULL ? qdot_hint("%s", hint) : status;
@@ -370,21 +385,50 @@ trace_back(matcher *m)
     return qdot_hint("%s", m->r->row->form != NULL ? m->r->row->form : m->r->row->usage);
 }
 
+/* Read up to the end, from what may come first. */
+static qdot_status
+match_all(matcher *m, qdot_status status)
+{
+    bool end = false;
+
+    while (status == QDOT_OK && !end)
+        status = match_token(m, &end);
+    if (status == QDOT_OK)
+        status = trace_back(m);
+    qdot_free(m->places.at);
+    return status;
+}
+
 qdot_status
 qdot_match(const qdot_cursor *c, const qdot_statement *row, const qdot_usage *u,
            qdot_record *record)
 {
     matcher m = {.u = u, .r = record};
-    qdot_status status;
-    bool end = false;
 
     *record = (qdot_record){.row = row, .cursor = *c, .start = c->at + 1};
     m.c = &record->cursor;
+    return match_all(&m, match_add_place(&m, 0, 0, 0));
+}
+
+qdot_status
+qdot_match_operands(const qdot_cursor *c, const qdot_statement *row, qdot_record *record)
+{
+    static const qdot_token none = {.kind = QDOT_TOKEN_NAME};
+    qdot_token word = none;
+    matcher m = {.r = record};
+    qdot_status status;
+
+    *record = (qdot_record){.row = row, .cursor = *c, .start = c->at};
+    m.c = &record->cursor;
+    record->usage = qdot_malloc(sizeof *record->usage);
+    if (record->usage == NULL || !qdot_usage_compile(record->usage, row->word, row->usage))
+        return QDOT_ENOMEM;
+    m.u = record->usage;
+    word.text = row->word;
     status = match_add_place(&m, 0, 0, 0);
-    while (status == QDOT_OK && !end)
-        status = match_token(&m, &end);
     if (status == QDOT_OK)
-        status = trace_back(&m);
-    qdot_free(m.places.at);
-    return status;
+        status = go_on(&m, &(qdot_filled){.from = &word, .to = &word, .primes = &word}, NULL);
+    if (status == QDOT_OK)
+        m.r->parts.at[0].from = m.r->parts.at[0].to = m.r->parts.at[0].primes = c->at;
+    return match_all(&m, status);
 }

@@ -20,4 +20,9 @@
 QDOT_MUST_CHECK qdot_status qdot_match(const qdot_cursor *c, const qdot_statement *row,
                                        const qdot_usage *u, qdot_record *record);
 
+/* The operands of the row's statement at the cursor, its word not among the tokens: "0..20 tol 1e-9" of `run`. The record
+ * has its own usage. Errors as before, and QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_match_operands(const qdot_cursor *c, const qdot_statement *row,
+                                                qdot_record *record);
+
 #endif

@@ -13,6 +13,7 @@ qdot_record_free(qdot_record *r)
         qdot_compiled_free(&r->compiled.at[i]);
     qdot_free(r->compiled.at);
     qdot_free(r->parts.at);
+    qdot_free(r->usage);
     *r = (qdot_record){0};
 }
 
@@ -91,6 +92,19 @@ qdot_status
 qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 {
     return qdot_compiled_point(&r->cursor, &r->compiled.at[part->first], value);
+}
+
+qdot_status
+qdot_record_number(qdot_record *r, const qdot_filled *part, double *value)
+{
+    return qdot_compiled_number(&r->cursor, &r->compiled.at[part->first], value);
+}
+
+qdot_status
+qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from, qdot_expr *to)
+{
+    QDOT_TRY(qdot_record_item(r, part, 0, from));
+    return qdot_record_item(r, part, 1, to);
 }
 
 qdot_status

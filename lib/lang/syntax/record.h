@@ -36,6 +36,7 @@ typedef struct qdot_record {
     const qdot_token *start; /* the token behind the statement's word, start[-1] */
     qdot_vec(qdot_filled) parts; /* as they were written; the first is the statement's word */
     qdot_vec(qdot_compiled) compiled;
+    qdot_usage *usage; /* compiled for this record alone; NULL: lent */
 } qdot_record;
 
 void qdot_record_free(qdot_record *r);
@@ -62,7 +63,11 @@ QDOT_MUST_CHECK qdot_status qdot_record_named(qdot_record *r, const qdot_filled 
                                               qdot_expr *over);
 QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
+QDOT_MUST_CHECK qdot_status qdot_record_number(qdot_record *r, const qdot_filled *part, double *value);
 QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);
+/* The ends of a..b, exact. */
+QDOT_MUST_CHECK qdot_status qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from,
+                                              qdot_expr *to);
 /* The scalar k of a tuple. */
 QDOT_MUST_CHECK qdot_status qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
