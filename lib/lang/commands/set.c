@@ -1,19 +1,16 @@
-/* set.c -- `set` and `start`: the values and the initial state. */
+/* set.c -- `set`: values of parameters and functions; readers of values for other statements. */
 #include "lang/commands/set.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "lang/answer/answer.h"
 #include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/formals.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "lang/session/runs.h"
 
 qdot_status
 qdot_set_unknown(const qdot_session *session, const char *what, const char *name)
@@ -206,6 +203,13 @@ qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
 }
 
 qdot_status
+qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr *value)
+{
+    QDOT_TRY(qdot_record_scalar(r, part, value));
+    return check_constant(&r->cursor, part->from, value);
+}
+
+qdot_status
 qdot_set_values(qdot_cursor *c)
 {
     qdot_session *session = c->session;
@@ -242,95 +246,7 @@ qdot_set_values(qdot_cursor *c)
     return status;
 }
 
-/* --- start -------------------------------------------------------------------------- */
-
-/* A notice where a run is continued in which events set parameters: the next has the old values. */
-static qdot_status
-tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
-{
-    for (size_t i = report->n - report->n_states; i < report->n; i++) {
-        const char *parameter =
-            qdot_expr_symbol(session->pool, report->coordinates[i])->name;
-        const qdot_name *known = qdot_names_find(session->names, parameter);
-        double value;
-
-        if (known == NULL || known->kind != QDOT_NAME_PARAM ||
-            qdot_session_number(session, qdot_session_bind(session, known->value), &value,
-                                NULL) != QDOT_OK ||
-            fabs(value - report->q[i]) <= 1e-9 * fmax(1, fabs(value)))
-            continue;
-        QDOT_TRY(qdot_answer_notice(session,
-                                    "%.100s ended with %.100s = %.12g, which an event set for "
-                                    "that run; the next begins with %.12g again: set %.100s = "
-                                    "... changes that",
-                                    name, parameter, report->q[i], value, parameter));
-    }
-    return QDOT_OK;
-}
-
-/* Note how far the run's companions ended from it: runs that start there begin with that error. */
-static qdot_status
-keep_errors(qdot_session *session, const qdot_named_run *named)
-{
-    const qdot_run_report *report = qdot_run_get_report(named->run);
-    double *apart = qdot_calloc(4 * report->n + 1, sizeof *apart);
-    bool known;
-    qdot_status status = apart != NULL ? qdot_run_end_apart(named->run, apart, &known) : QDOT_ENOMEM;
-
-    session->start_errors.n = 0;
-    if (status == QDOT_OK && !known)
-        status = qdot_answer_notice(session, "the start is taken as exact: errors of runs from it do not hold "
-                                    "that of %.100s",
-                                    named->name);
-    for (size_t i = 0; status == QDOT_OK && known && i < 2 * report->n; i++) {
-        const bool velocity = i >= report->n;
-        const qdot_expr z = qdot_symbol_jet(session->pool, report->coordinates[i % report->n], velocity);
-        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, z);
-
-        if (at < session->start_symbols.n)
-            status = qdot_vec_push(&session->start_errors,
-                                   ((qdot_start_error){z, session->start_values.at[at],
-                                                       {apart[i], apart[2 * report->n + i]}}));
-    }
-    qdot_free(apart);
-    return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
-}
-
-static qdot_status
-start_from_run(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
-    const qdot_run_report *report;
-    qdot_named_run *run;
-    const char *name;
-    bool exactly;
-
-    QDOT_TRY(qdot_read_name(c, &name));
-    exactly = qdot_cursor_accept_word(c, "exactly");
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
-    QDOT_TRY(qdot_runs_find(session, name, &run));
-    report = qdot_run_get_report(run->run);
-    for (size_t i = 0; i < report->n - report->n_states; i++) {
-        qdot_expr q = report->coordinates[i], v = qdot_symbol_jet(session->pool, q, 1);
-        qdot_expr q0, v0;
-
-        if (report->exact != NULL) {
-            q0 = report->exact[i];
-            v0 = report->exact[report->n + i];
-        } else {
-            q0 = qdot_measured_rational(session->pool, report->q[i]);
-            v0 = qdot_measured_rational(session->pool, report->v[i]);
-        }
-        QDOT_TRY(qdot_pool_check(session->pool));
-        QDOT_TRY(qdot_session_start(session, q, q0));
-        QDOT_TRY(qdot_session_start(session, v, v0));
-    }
-    session->start_exactly = exactly;
-    QDOT_TRY(keep_errors(session, run));
-    return tell_parameters(session, run->name, report);
-}
+/* --- coordinates and velocities ---------------------------------------------------- */
 
 static qdot_status
 check_jet(qdot_cursor *c, const qdot_token *start, qdot_expr jet)
@@ -356,54 +272,4 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
 {
     QDOT_TRY(qdot_record_coordinate(r, name, jet));
     return check_jet(&r->cursor, name->from, *jet);
-}
-
-static bool
-is_run_name(const qdot_cursor *c)
-{
-    const qdot_token *next = c->at + 1;
-
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return false;
-    if (next->kind == QDOT_TOKEN_NAME && strcmp(next->text, "exactly") == 0)
-        next++;
-    return next->kind == QDOT_TOKEN_END;
-}
-
-qdot_status
-qdot_set_start(qdot_cursor *c)
-{
-    qdot_session *session = c->session;
-    qdot_status status = QDOT_OK;
-    qdot_pairs list = {0};
-    bool exactly = false;
-
-    if (is_run_name(c))
-        return start_from_run(c);
-    do {
-        const qdot_token *start = c->at;
-        qdot_expr jet = QDOT_NIL, value = QDOT_NIL;
-
-        status = qdot_set_read_jet(c, &jet);
-        if (status == QDOT_OK)
-            status = qdot_set_read_constant(c, &value);
-        if (status == QDOT_OK)
-            status = qdot_pairs_push(&list, start, jet, value);
-    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
-    if (status == QDOT_OK)
-        exactly = qdot_cursor_accept_word(c, "exactly");
-    if (status == QDOT_OK)
-        status = qdot_cursor_expect_end(c);
-    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
-        if (!qdot_expr_is_coordinate(session->pool, list.symbols.at[i]))
-            continue;
-        c->error_at = list.places.at[i]->start;
-        status = qdot_session_in_domain(session, list.symbols.at[i], list.values.at[i]);
-    }
-    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
-        status = qdot_session_start(session, list.symbols.at[i], list.values.at[i]);
-    if (status == QDOT_OK)
-        session->start_exactly = exactly;
-    qdot_pairs_free(&list);
-    return status;
 }

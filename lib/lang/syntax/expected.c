@@ -124,6 +124,10 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                           *hole = expected_first(list, QDOT_USAGE_HOLE),
                           *first = word != NULL ? word : sign;
 
+    if (sign != NULL && strcmp(sign->text, "=") == 0) {
+        snprintf(what, QDOT_EXPECTED_TEXT, "`=`");
+        return NULL;
+    }
     if (first != NULL)
         for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
             if (is_of(rows[i].statement, list) && strcmp(rows[i].before, first->before) == 0) {

@@ -1,8 +1,9 @@
 /* expected.h -- what to say of a token that does not fit.
  *
- *   words of options and clauses, as the usage names them    "`tol`, `method` or `as`"
- *   else the end, if it may come                             "the end of the statement"
- *   else a sign, else what the hole takes                    "`=`", "a name"
+ *   `=`, if it may come
+ *   else words of options and clauses, as the usage names them    "`tol`, `method` or `as`"
+ *   else the end, if it may come                                  "the end of the statement"
+ *   else a sign, else what the hole takes                         "`:`", "a name"
  *
  * A row of expected.def replaces that for a statement, behind a word of it.
  */

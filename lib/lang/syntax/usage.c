@@ -323,6 +323,17 @@ compile_words(compiler *c, int i, int to)
     return end;
 }
 
+/* Whether a word stands in [i, more) that does not begin an item of a list, as `t` in `Q = A, t = B`. */
+static bool
+item_holds_word(const compiler *c, int i, int more)
+{
+    for (i = piece_find(c, i, more, WORD, NULL); i < more;
+         i = piece_find(c, i + 1, more, WORD, NULL))
+        if (strcmp(c->piece[i - 1].text, ",") != 0)
+            return true;
+    return false;
+}
+
 /* Where the list ends that begins at i: its last comma; i: there is none. */
 static int
 end_of_list(const compiler *c, int i, int to)
@@ -330,7 +341,7 @@ end_of_list(const compiler *c, int i, int to)
     const int more = piece_find(c, i, to, MORE, NULL);
 
     if (more >= to || more == i || strcmp(c->piece[more - 1].text, ",") != 0 ||
-        piece_find(c, i, more, WORD, NULL) < more || piece_find(c, i, more, SIGN, ":") < more)
+        item_holds_word(c, i, more) || piece_find(c, i, more, SIGN, ":") < more)
         return i;
     return more - 1;
 }

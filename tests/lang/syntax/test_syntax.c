@@ -105,6 +105,9 @@ a_statement_is_its_words_and_holes(void **state)
          "print \"text\"=\"a\" , EXPR=x = 0 , \"text\"=\"b\""},
         {"remove NAME | remove KIND [K]", "remove spring 2", "remove KIND=spring K=2"},
         {"remove NAME | remove KIND [K]", "remove spring", "remove NAME=spring"},
+        {"scale Q = VALUE, t = VALUE, ...", "scale t = 2, x' = 1, t = 3",
+         "scale t = VALUE=2 , Q=x' = VALUE=1 , t = VALUE=3"},
+        {"start Q = VALUE, ... [exactly] | start RUN [exactly]", "start a exactly", "start RUN=a exactly"},
     };
     reading *r = *state;
 
@@ -139,6 +142,7 @@ what_belongs_there_is_said_by_the_usage(void **state)
         {"event NAME: A = B [stop]", "event x stop", "expected `:`, found `stop`", 8},
         {"event NAME: A = B [stop]", "event e: x go", "expected `=` and the other side, found `go`", 11},
         {"include \"FILE.lag\"", "include x", "expected the name of a script in quotes, found `x`", 8},
+        {"start Q = VALUE, ... [exactly] | start RUN [exactly]", "start x \"a\"", "expected `=`, found a text in quotes", 8},
         {"start Q = VALUE, ... [exactly]", "start = 1", "expected a coordinate, found `=`", 6},
     };
     reading *r = *state;

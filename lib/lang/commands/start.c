@@ -1,0 +1,158 @@
+/* start.c -- `start`: the initial state. */
+#include <math.h>
+
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/commands/pairs.h"
+#include "lang/commands/set.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+
+static qdot_status start_set(qdot_record *r);
+
+QDOT_STATEMENT(start) = {
+    .word = "start",
+    .group = QDOT_NUMBERS,
+    .usage = "start Q = VALUE, Q' = VALUE, ... [exactly] | start RUN [exactly]",
+    .summary = "the initial state; changes only what it names; what constraints determine of the rest "
+               "is solved for, unless `exactly`",
+    .example = "start theta = 2, theta' = 0",
+    .handler = start_set,
+};
+
+/* A notice where a run is continued in which events set parameters: the next has the old values. */
+static qdot_status
+tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
+{
+    for (size_t i = report->n - report->n_states; i < report->n; i++) {
+        const char *parameter =
+            qdot_expr_symbol(session->pool, report->coordinates[i])->name;
+        const qdot_name *known = qdot_names_find(session->names, parameter);
+        double value;
+
+        if (known == NULL || known->kind != QDOT_NAME_PARAM ||
+            qdot_session_number(session, qdot_session_bind(session, known->value), &value,
+                                NULL) != QDOT_OK ||
+            fabs(value - report->q[i]) <= 1e-9 * fmax(1, fabs(value)))
+            continue;
+        QDOT_TRY(qdot_answer_notice(session,
+                                    "%.100s ended with %.100s = %.12g, which an event set for "
+                                    "that run; the next begins with %.12g again: set %.100s = "
+                                    "... changes that",
+                                    name, parameter, report->q[i], value, parameter));
+    }
+    return QDOT_OK;
+}
+
+/* Note how far the run's companions ended from it: runs that start there begin with that error. */
+static qdot_status
+keep_errors(qdot_session *session, const qdot_named_run *named)
+{
+    const qdot_run_report *report = qdot_run_get_report(named->run);
+    double *apart = qdot_calloc(4 * report->n + 1, sizeof *apart);
+    bool known;
+    qdot_status status = apart != NULL ? qdot_run_end_apart(named->run, apart, &known) : QDOT_ENOMEM;
+
+    session->start_errors.n = 0;
+    if (status == QDOT_OK && !known)
+        status = qdot_answer_notice(session, "the start is taken as exact: errors of runs from it do not hold "
+                                    "that of %.100s",
+                                    named->name);
+    for (size_t i = 0; status == QDOT_OK && known && i < 2 * report->n; i++) {
+        const bool velocity = i >= report->n;
+        const qdot_expr z = qdot_symbol_jet(session->pool, report->coordinates[i % report->n], velocity);
+        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, z);
+
+        if (at < session->start_symbols.n)
+            status = qdot_vec_push(&session->start_errors,
+                                   ((qdot_start_error){z, session->start_values.at[at],
+                                                       {apart[i], apart[2 * report->n + i]}}));
+    }
+    qdot_free(apart);
+    return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
+}
+
+static qdot_status
+start_from_run(qdot_record *r, const char *name)
+{
+    qdot_session *session = r->cursor.session;
+    const qdot_run_report *report;
+    qdot_named_run *run;
+
+    r->cursor.error_at = r->start->start;
+    QDOT_TRY(qdot_runs_find(session, name, &run));
+    report = qdot_run_get_report(run->run);
+    for (size_t i = 0; i < report->n - report->n_states; i++) {
+        qdot_expr q = report->coordinates[i], v = qdot_symbol_jet(session->pool, q, 1);
+        qdot_expr q0, v0;
+
+        if (report->exact != NULL) {
+            q0 = report->exact[i];
+            v0 = report->exact[report->n + i];
+        } else {
+            q0 = qdot_measured_rational(session->pool, report->q[i]);
+            v0 = qdot_measured_rational(session->pool, report->v[i]);
+        }
+        QDOT_TRY(qdot_pool_check(session->pool));
+        QDOT_TRY(qdot_session_start(session, q, q0));
+        QDOT_TRY(qdot_session_start(session, v, v0));
+    }
+    session->start_exactly = qdot_record_word(r, "exactly") != NULL;
+    QDOT_TRY(keep_errors(session, run));
+    return tell_parameters(session, run->name, report);
+}
+
+/* Q = VALUE, Q' = VALUE, ... */
+static qdot_status
+start_read(qdot_record *r, qdot_pairs *list)
+{
+    for (size_t i = 1; i < r->parts.n; i++) {
+        const qdot_filled *part = &r->parts.at[i];
+        qdot_expr jet = QDOT_NIL, value = QDOT_NIL;
+
+        if (part->node->kind != QDOT_USAGE_HOLE || qdot_filled_is(part, "VALUE"))
+            continue;
+        QDOT_TRY(qdot_set_find_jet(r, part, &jet));
+        QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+        QDOT_TRY(qdot_pairs_push(list, part->from, jet, value));
+    }
+    return QDOT_OK;
+}
+
+/* `start NAME`, which may be no run: q', q[1]. */
+static qdot_status
+start_from(qdot_record *r, const qdot_filled *part)
+{
+    qdot_expr jet;
+
+    if (part->to == part->from + 1)
+        return start_from_run(r, part->from->text);
+    QDOT_TRY(qdot_set_find_jet(r, part, &jet));
+    return qdot_record_expected(r, part->to, "`=`");
+}
+
+static qdot_status
+start_set(qdot_record *r)
+{
+    const qdot_filled *run = qdot_record_hole(r, NULL, "RUN");
+    qdot_session *session = r->cursor.session;
+    qdot_pairs list = {0};
+    qdot_status status;
+
+    if (run != NULL)
+        return start_from(r, run);
+    status = start_read(r, &list);
+    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
+        if (!qdot_expr_is_coordinate(session->pool, list.symbols.at[i]))
+            continue;
+        r->cursor.error_at = list.places.at[i]->start;
+        status = qdot_session_in_domain(session, list.symbols.at[i], list.values.at[i]);
+    }
+    for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
+        status = qdot_session_start(session, list.symbols.at[i], list.values.at[i]);
+    if (status == QDOT_OK)
+        session->start_exactly = qdot_record_word(r, "exactly") != NULL;
+    qdot_pairs_free(&list);
+    return status;
+}
