@@ -160,11 +160,14 @@ solve_special(const question *q, qdot_expr where, const qdot_simultaneous *gener
 
     for (size_t i = 0; i < q->n; i++)
         f[i] = qdot_subs(q->pool, q->f[i], n, from, to);
-    domain = qdot_conditions_at(q->pool, q->domain, n, from, to, &q->facts);
     status = qdot_pool_check(q->pool);
     if (status == QDOT_EDOMAIN) /* the equations are not defined there */
         return QDOT_OK;
     QDOT_TRY(status);
+    domain = qdot_conditions_at(q->pool, q->domain, n, from, to, &q->facts);
+    QDOT_TRY(qdot_pool_check(q->pool));
+    if (domain == QDOT_FALSE)
+        return QDOT_OK;
     status = qdot_simultaneous_all(q->pool, q->n, f, q->u, domain, &q->facts, &there);
     if (status == QDOT_OK)
         status = add_definedness(q, &there);

@@ -232,10 +232,8 @@ slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *sl
 
     out->exact = out->exact && e != QDOT_NIL && (qdot_mech_holds(s, e) & motion) == 0;
     *slope = value_at_place(p, e);
-    if (order != 1 || *slope != QDOT_NIL)
-        return QDOT_OK;
     status = qdot_pool_check(s->pool);
-    if (status != QDOT_EDOMAIN) /* else a root of velocities */
+    if (status != QDOT_EDOMAIN || order != 1) /* else a root of velocities */
         return status;
     out->damped = false;
     *slope = QDOT_ZERO;

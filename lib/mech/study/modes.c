@@ -567,6 +567,21 @@ qdot_modes_clear(qdot_modes *m)
     *m = (qdot_modes){0};
 }
 
+/* The linear motion about the place, to j->m: where the forces have values but no slopes, as -x^(1/2) at 0, there is none. */
+static qdot_status
+modes_linearise(job *j, qdot_expr equations)
+{
+    qdot_status status = qdot_linear_motion_about(j->s, equations, QDOT_NIL, &j->m);
+
+    for (size_t i = 0; i < j->s->coordinates.n && status == QDOT_EDOMAIN; i++) {
+        (void)qdot_rest_value(j->s, equations, qdot_motion_residual(j->s, i));
+        QDOT_TRY(qdot_pool_check(j->pool)); /* it has no value */
+    }
+    return status == QDOT_EDOMAIN ? qdot_fail(QDOT_ETYPE, "the forces have no slopes at the equilibrium: there is no linear "
+                                                          "motion about it, so it has no normal modes")
+                                  : status;
+}
+
 qdot_status
 qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder bind,
                  void *user, qdot_modes *out)
@@ -583,7 +598,7 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
     if (!holonomic)
         return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
-    QDOT_TRY(qdot_linear_motion_about(s, equations, QDOT_NIL, &j.m));
+    QDOT_TRY(modes_linearise(&j, equations));
     status = check_rests(&j, equations);
     if (status == QDOT_OK)
         status = check_motion(&j);

@@ -12,7 +12,7 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
-enum { LONGEST_SLOPE = 200 }; /* operations */
+enum { LONGEST_SLOPE = 200, MOST_ROOT = 6 }; /* operations; denominator of exponents */
 
 /* --- one degree of freedom, either side ------------------------------------------------- */
 
@@ -147,21 +147,71 @@ by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, con
     return QDOT_OK;
 }
 
+/* The least common denominator of the exponents in e of what holds q; 1 where it is more than MOST_ROOT. */
+static qdot_status
+common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
+{
+    qdot_walk w;
+
+    *root = 1;
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n; i++) {
+        uint32_t n = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < n; k += 2) {
+            const fmpq *p = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
+            long d = p == NULL || fmpz_cmp_si(fmpq_denref(p), MOST_ROOT) > 0 ? 1 : fmpz_get_si(fmpq_denref(p)), all = *root;
+
+            if (!qdot_expr_contains(pool, qdot_expr_arg(pool, w.at[i], k), q))
+                continue;
+            while (all % d != 0)
+                all += *root;
+            *root = all <= MOST_ROOT ? all : *root;
+        }
+    }
+    qdot_walk_end(&w);
+    return qdot_pool_check(pool);
+}
+
+/* The leading term by eps of what pushes back to q = place at place + eps^root, or (below) at place - eps^root. */
+static qdot_status
+push_back_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, long root, qdot_expr *leading, int *sign,
+                 bool *known)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_expr eps = qdot_symbol_get(pool, QDOT_FORMAL, "epsilon"), at, F;
+    qdot_status status;
+
+    *leading = QDOT_NIL;
+    *sign = 0;
+    *known = true;
+    qdot_symbol_domain(pool, eps, QDOT_ZERO, true, QDOT_NIL, false);
+    at = qdot_pow_int(pool, eps, root);
+    at = below ? qdot_sub(pool, place, at) : qdot_add(pool, place, at);
+    F = qdot_subs(pool, qdot_expr_arg(pool, j->judge->at_rest, 0), 1, &q, &at);
+    if (F != QDOT_NIL && qdot_solve_integers(pool, place) > 0)
+        F = qdot_solve_without_turns(pool, F);
+    status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        return qdot_judgement_one_side(j, below ? F : qdot_neg(pool, F), eps, leading, sign, known);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* there is no force on this side */
+}
+
 /* The potential of one coordinate rises on either side, or falls on one, by the force at q0 +-
- * eps: also where H = 0, or where the force jumps. */
+ * eps: also where H = 0, where the force jumps, or where it has no value on one side. A force by roots of what is 0 at
+ * q0 is looked at as a series of roots of eps. */
 static qdot_status
 by_sides(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_scene *s = j->s;
     qdot_pool *pool = s->pool;
-    qdot_expr q = s->coordinates.at[0], mass, up,
-              eps = qdot_symbol_get(pool, QDOT_FORMAL, "epsilon"), place;
+    qdot_expr q = s->coordinates.at[0], mass, up, place;
     qdot_expr back[2]; /* leading terms of the force towards the place, on either side of it */
     int sign[2];
+    long root;
 
     if (qdot_expr_count(pool, e->equations) != 1 || qdot_expr_count(pool, j->judge->at_rest) != 1)
         return QDOT_OK;
-    qdot_symbol_domain(pool, eps, QDOT_ZERO, true, QDOT_NIL, false);
     place = qdot_expr_arg(pool, qdot_expr_arg(pool, e->equations, 0), 1);
     mass = qdot_simplify(pool, qdot_rest_value(s, e->equations, qdot_mass_of_lagrangian(s, 0, 0)),
                          &j->facts);
@@ -170,17 +220,13 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(qdot_pool_check(pool));
     if (up != QDOT_TRUE)
         return QDOT_OK;
-    for (int side = 0; side < 2; side++) { /* what pushes back: -F where q grows */
-        qdot_expr at = side == 0 ? qdot_add(pool, place, eps) : qdot_sub(pool, place, eps),
-                  F = qdot_subs(pool, qdot_expr_arg(pool, j->judge->at_rest, 0), 1, &q, &at);
-
+    QDOT_TRY(common_root(pool, j->judge->at_rest, q, &root));
+    for (int side = 0; side < 2; side++) {
         bool known;
 
-        QDOT_TRY(qdot_pool_check(pool));
-        if (qdot_solve_integers(pool, place) > 0)
-            F = qdot_solve_without_turns(pool, F);
-        QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(qdot_judgement_one_side(j, side == 0 ? qdot_neg(pool, F) : F, eps, &back[side], &sign[side], &known));
+        QDOT_TRY(push_back_beside(j, q, place, side == 1, 1, &back[side], &sign[side], &known));
+        if (known && back[side] == QDOT_NIL && root > 1)
+            QDOT_TRY(push_back_beside(j, q, place, side == 1, root, &back[side], &sign[side], &known));
         if (!known)
             return QDOT_OK;
     }
