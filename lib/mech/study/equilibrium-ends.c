@@ -65,8 +65,12 @@ has_value(const end *e, qdot_expr list, qdot_expr values)
     qdot_pool *pool = e->r->pool;
     qdot_expr set = qdot_conditions_all(pool, qdot_conditions_of_domain(pool, list, QDOT_NIL),
                                         qdot_conditions_of_divisors(pool, list, QDOT_NIL));
-    bool all = set == QDOT_NIL || (set != QDOT_FALSE && qdot_conditions_at(pool, qdot_simultaneous_put(pool, at_end(e, set), values), 0, NULL, NULL, &e->facts) == QDOT_NIL);
+    bool all = set != QDOT_FALSE;
 
+    if (all && set != QDOT_NIL) {
+        set = qdot_simultaneous_put(pool, at_end(e, set), values);
+        all = qdot_conditions_at(pool, set, 0, NULL, NULL, &e->facts) == QDOT_NIL;
+    }
     return !is_undefined(pool) && all;
 }
 

@@ -83,9 +83,10 @@ QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
  * too, and no other place is the same one there. (equilibrium-ends.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r);
 
-/* A LIST of what places divide by that may be 0 at some values of parameters; nil: none.
+/* A LIST of what the places [n] divide by that may be 0 at some values of parameters; nil: none.
  * (equilibrium-special.c) */
-QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, qdot_expr *special);
+QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places,
+                                              qdot_expr *special);
 
 /* A coordinate whose open domain ends at a place that is singular in these coordinates alone (chart.h), where no rest is
  * looked for; NULL: none. (equilibrium-special.c) */

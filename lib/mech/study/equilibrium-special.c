@@ -75,12 +75,12 @@ add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
 }
 
 qdot_status
-qdot_rest_special(const qdot_rest *r, qdot_expr *special)
+qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places, qdot_expr *special)
 {
     *special = QDOT_NIL;
-    for (size_t i = 0; i < r->found.n; i++)
-        if (!r->found.at[i].numeric)
-            QDOT_TRY(add_divisors(r, &r->found.at[i], special));
+    for (size_t i = 0; i < n; i++)
+        if (!places[i].numeric)
+            QDOT_TRY(add_divisors(r, &places[i], special));
     return qdot_pool_check(r->pool);
 }
 

@@ -313,7 +313,8 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* Stability, wherever what is in the LIST `special` is not 0; `first`: up to the first that is not unstable. */
+/* Stability, wherever what is in the LIST `special` is not 0; `first`: up to the first that is not unstable, wherever
+ * what that divides by is not 0. */
 static qdot_status
 rest_judge(qdot_rest *r, qdot_expr special, bool first, qdot_binder bind, void *user)
 {
@@ -328,7 +329,10 @@ rest_judge(qdot_rest *r, qdot_expr special, bool first, qdot_binder bind, void *
         status = qdot_rest_by_signs(r, r->forces, &judge->by_signs);
     }
     for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
-        status = judge_member(r, judge, &r->found.at[i]);
+        if (first)
+            status = qdot_rest_special(r, 1, &r->found.at[i], &judge->nonzero);
+        if (status == QDOT_OK)
+            status = judge_member(r, judge, &r->found.at[i]);
         if (first && r->found.at[i].stability != QDOT_UNSTABLE)
             r->found.n = i + 1;
     }
@@ -451,8 +455,8 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
         status = qdot_rest_find(&r, bind, user, out);
     if (status == QDOT_OK && first_only) /* the first one must be where coordinates are assumed to be */
         status = keep_assumed(&r);
-    if (status == QDOT_OK)
-        status = qdot_rest_special(&r, &out->special);
+    if (status == QDOT_OK && !first_only)
+        status = qdot_rest_special(&r, r.found.n, r.found.at, &out->special);
     if (status == QDOT_OK)
         status = rest_judge(&r, out->special, first_only, bind, user);
     if (status == QDOT_OK && !first_only)

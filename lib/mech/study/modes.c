@@ -567,7 +567,8 @@ qdot_modes_clear(qdot_modes *m)
     *m = (qdot_modes){0};
 }
 
-/* The linear motion about the place, to j->m: where the forces have values but no slopes, as -x^(1/2) at 0, there is none. */
+/* The linear motion about the place, to j->m: where the forces have values but no slopes, as -x^(1/2) at 0, there is
+ * none. */
 static qdot_status
 modes_linearise(job *j, qdot_expr equations)
 {
@@ -577,9 +578,10 @@ modes_linearise(job *j, qdot_expr equations)
         (void)qdot_rest_value(j->s, equations, qdot_motion_residual(j->s, i));
         QDOT_TRY(qdot_pool_check(j->pool)); /* it has no value */
     }
-    return status == QDOT_EDOMAIN ? qdot_fail(QDOT_ETYPE, "the forces have no slopes at the equilibrium: there is no linear "
-                                                          "motion about it, so it has no normal modes")
-                                  : status;
+    if (status != QDOT_EDOMAIN)
+        return status;
+    return qdot_fail(QDOT_ETYPE, "the forces have no slopes at the equilibrium: there is no linear motion about it, so "
+                                 "it has no normal modes");
 }
 
 qdot_status

@@ -160,7 +160,8 @@ common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
 
         for (uint32_t k = 1; k + 1 < n; k += 2) {
             const fmpq *p = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
-            long d = p == NULL || fmpz_cmp_si(fmpq_denref(p), MOST_ROOT) > 0 ? 1 : fmpz_get_si(fmpq_denref(p)), all = *root;
+            bool known = p != NULL && fmpz_cmp_si(fmpq_denref(p), MOST_ROOT) <= 0;
+            long d = known ? fmpz_get_si(fmpq_denref(p)) : 1, all = *root;
 
             if (!qdot_expr_contains(pool, qdot_expr_arg(pool, w.at[i], k), q))
                 continue;

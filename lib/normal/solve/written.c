@@ -101,9 +101,9 @@ take_sums_apart(qdot_pool *pool, qdot_expr product, void *user)
             by = square_factors(pool, base, s->x);
         if (by != base && s->status == QDOT_OK) {
             qdot_written of_sum = {QDOT_NIL, QDOT_NIL};
-            qdot_expr asked = QDOT_NIL;
+            qdot_expr whole = QDOT_NIL; /* of a power that stays one: f itself asks for that where it is solved */
 
-            s->status = qdot_written_add(pool, by, exponent, &of_sum, &asked);
+            s->status = qdot_written_add(pool, by, exponent, &of_sum, &whole);
             of_sum.apart = qdot_conditions_less(pool, of_sum.apart, s->written->domain);
             s->written->apart = qdot_conditions_all(pool, s->written->apart, of_sum.apart);
         }
