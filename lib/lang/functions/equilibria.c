@@ -7,6 +7,7 @@
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "mech/dynamics/quantity.h"
+#include "normal/inequality/less.h"
 #include "normal/solve/solve.h"
 
 static qdot_expr
@@ -179,6 +180,8 @@ is_numeric(qdot_session *session, qdot_expr equations)
     return false;
 }
 
+/* --- modes --------------------------------------------------------------------------------- */
+
 static qdot_status
 none_to_swing_about(const qdot_equilibria *all)
 {
@@ -189,32 +192,124 @@ none_to_swing_about(const qdot_equilibria *all)
     return qdot_hint("modes at equilibria[1]");
 }
 
-qdot_status
-qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
+/* Add ", WORD CONDITIONS", unless the values of the session fulfil these; *never if they contradict them. */
+static qdot_status
+print_place_conditions(qdot_session *session, const char *word, qdot_expr conditions, qdot_text *text, bool *never)
+{
+    qdot_expr now = conditions == QDOT_NIL ? QDOT_NIL : exists_now(session, conditions);
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    *never = *never || now == QDOT_FALSE;
+    return now == QDOT_NIL ? QDOT_OK : qdot_solve_print_conditions(session->pool, word, conditions, text);
+}
+
+/* `modes about x = 0, stable when a < 0`, where the place or its stability has conditions. */
+static qdot_status
+modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
+{
+    qdot_pool *pool = session->pool;
+    qdot_text text = {0}, place = {0};
+    bool never = false, first = true;
+    qdot_status status = print_place_conditions(session, ", exists when ", e->exists, &text, &never);
+
+    if (status == QDOT_OK)
+        status = print_place_conditions(session, ", stable when ", e->stable_when, &text, &never);
+    for (uint32_t i = 0; i < qdot_expr_count(pool, e->equations) && status == QDOT_OK; i++) {
+        qdot_expr one = qdot_expr_arg(pool, e->equations, i);
+
+        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_COORD)) /* a multiplier */
+            continue;
+        qdot_text_add(&place, first ? "modes about " : ", ");
+        first = false;
+        status = qdot_print(pool, one, QDOT_PLAIN, &place);
+    }
+    qdot_text_add(&place, first ? "modes about every place" : "");
+    if (status == QDOT_OK)
+        status = qdot_text_status(&place);
+    if (status == QDOT_OK && qdot_text_str(&text)[0] != 0)
+        status = qdot_answer_notice_once(session, "%s%s%s", qdot_text_str(&place), qdot_text_str(&text),
+                                         never ? ": not with the values of `set`" : "");
+    qdot_text_clear(&place);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* A word, where the square of a frequency is neither proved nor refuted to be negative. */
+static qdot_status
+modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
+{
+    const qdot_facts facts = qdot_scene_facts(session->scene);
+
+    for (size_t k = 0; k < modes->n; k++) {
+        qdot_expr square = qdot_session_bind(session, qdot_pow_int(session->pool, modes->frequency[k], 2));
+        qdot_decision d;
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        QDOT_TRY(qdot_decide_less(session->pool, QDOT_ZERO, square, false, &facts, &d));
+        if (d.verdict != QDOT_PROVED)
+            return qdot_answer_notice_once(session, "modes[%zu] is real only where its square is not negative", k + 1);
+    }
+    return QDOT_OK;
+}
+
+/* The first place that is not unstable. */
+static qdot_status
+modes_find_place(qdot_session *session, qdot_equilibrium *place)
 {
     qdot_equilibria all;
     size_t at = 0;
+    qdot_status status;
 
-    if (equations == QDOT_NIL) { /* the first that is not unstable */
-        qdot_status status;
+    QDOT_TRY(need_coordinates(session));
+    QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &all));
+    while (at < all.n && all.at[at].stability == QDOT_UNSTABLE)
+        at++;
+    status = at < all.n ? QDOT_OK : none_to_swing_about(&all);
+    if (status == QDOT_OK)
+        *place = all.at[at];
+    qdot_equilibria_clear(&all);
+    return status;
+}
 
-        QDOT_TRY(need_coordinates(session));
-        QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &all));
-        while (at < all.n && all.at[at].stability == QDOT_UNSTABLE)
-            at++;
-        status = at < all.n ? QDOT_OK : none_to_swing_about(&all);
-        if (status == QDOT_OK)
-            equations = all.at[at].equations;
-        qdot_equilibria_clear(&all);
-        QDOT_TRY(status);
-    }
-    equations = equations_of(session->pool, equations);
-    equations = qdot_solve_one_member(session->pool, equations);
-    QDOT_TRY(qdot_modes_about(session->scene, equations, is_numeric(session, equations),
-                              bind, session, modes));
-    return modes->unordered
-               ? qdot_answer_notice(session, "the declared signs do not decide the order of "
-                                             "the modes: it is that at one choice of the "
-                                             "parameters")
-               : QDOT_OK;
+/* The stability of a place that is given by its equations: it exists where their values are defined. */
+static qdot_status
+modes_judge_place(qdot_session *session, qdot_equilibrium *place)
+{
+    const qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_status status;
+
+    place->exists = qdot_conditions_of_domain(session->pool, place->equations, QDOT_NIL);
+    place->exists = qdot_conditions_at(session->pool, place->exists, 0, NULL, NULL, &facts);
+    place->exists = place->exists == QDOT_FALSE ? QDOT_NIL : qdot_conditions_generic(session->pool, place->exists);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    status = qdot_equilibrium_judge(session->scene, bind, session, place);
+    place->exists = QDOT_NIL; /* told with the place, where that is taken from a list */
+    return status;
+}
+
+qdot_status
+qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
+{
+    qdot_equilibrium place = {.equations = equations};
+    qdot_status status = QDOT_OK;
+
+    if (equations == QDOT_NIL)
+        QDOT_TRY(modes_find_place(session, &place));
+    place.equations = qdot_solve_one_member(session->pool, equations_of(session->pool, place.equations));
+    QDOT_TRY(qdot_pool_check(session->pool));
+    place.numeric = is_numeric(session, place.equations);
+    QDOT_TRY(qdot_modes_about(session->scene, place.equations, place.numeric, bind, session, modes));
+    if (!modes->numeric && equations != QDOT_NIL)
+        status = modes_judge_place(session, &place);
+    if (!modes->numeric && status == QDOT_OK)
+        status = modes_notice_place(session, &place);
+    if (!modes->numeric && status == QDOT_OK && place.stability != QDOT_STABLE &&
+        place.stability != QDOT_STABLE_TO_FIRST_ORDER)
+        status = modes_notice_unknown(session, modes);
+    if (status == QDOT_OK && modes->unordered)
+        status = qdot_answer_notice(session, "the declared signs do not decide the order of the modes: it is that at one "
+                                             "choice of the parameters");
+    if (status != QDOT_OK)
+        qdot_modes_clear(modes);
+    return status;
 }

@@ -24,7 +24,8 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,
 /* The word of a verdict, as people write it in a check. */
 qdot_expr qdot_equilibria_word(qdot_pool *pool, qdot_stability stability);
 bool qdot_equilibria_is_word(qdot_pool *pool, qdot_expr e);
-/* The modes there; nil: about the first equilibrium that is not unstable. */
+/* The modes there; nil: about the first equilibrium that is not unstable. A notice tells a place that exists, or is stable,
+ * under conditions, unless the values of the session fulfil these. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_modes_at(qdot_session *session,
                                                      qdot_expr equations,
                                                      qdot_modes *modes);

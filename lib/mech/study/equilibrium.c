@@ -494,3 +494,19 @@ qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user, qdot_equilib
 {
     return equilibria_find(s, true, bind, user, out);
 }
+
+qdot_status
+qdot_equilibrium_judge(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibrium *one)
+{
+    qdot_rest r;
+    qdot_status status = qdot_rest_begin(&r, s);
+
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&r.found, *one);
+    if (status == QDOT_OK)
+        status = rest_judge(&r, QDOT_NIL, true, bind, user);
+    if (status == QDOT_OK)
+        *one = r.found.at[0];
+    qdot_rest_end(&r);
+    return status;
+}
