@@ -388,6 +388,7 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
         [QDOT_END_FAR] = "is not followed further",
         [QDOT_END_BLURRED] = "ends where its orbits are too unstable: their multipliers have no digits left",
         [QDOT_END_LOST] = "is lost: the equations have no value there, jump, or have a kink",
+        [QDOT_END_NO_REST] = "ends",
         [QDOT_END_STOPPED] = "is broken off",
     };
     const qdot_branch *branch = &b->found->branches.at[i];

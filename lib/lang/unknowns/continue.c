@@ -195,8 +195,15 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
         status = qdot_rest_continuation_find(&curve, w->least, w->most, &found);
         status = qdot_continue_conclude(session, w, &b, status);
     }
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && found.corners)
         status = tell_corners(session, &curve);
+    if (status == QDOT_OK && found.families)
+        status = qdot_answer_notice(session, "some equilibria recur without end: of each such family one is followed");
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, found.complete
+                                                 ? "these are all branches, upright ones (at one value of %.100s alone) aside"
+                                                 : "branches that are not connected with these may be missed",
+                                    qdot_expr_symbol(session->pool, w->parameter)->name);
     qdot_free(names);
     qdot_free(columns);
     qdot_continuation_clear(&found);

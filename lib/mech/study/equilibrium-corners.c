@@ -15,6 +15,7 @@
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
+#include "normal/prove/decide.h"
 #include "normal/solve/conditions.h"
 
 enum { MOST_CORNERS = 4 };
@@ -209,5 +210,22 @@ qdot_rest_corner(qdot_rest *r, qdot_expr *u)
 
     QDOT_TRY(qdot_rest_by_signs(r, r->system.equations, &equations));
     *u = next_jump(r, equations, false, 0, NULL);
+    return qdot_pool_check(r->pool);
+}
+
+qdot_status
+qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes)
+{
+    qdot_expr equations, u[MOST_CORNERS], there;
+
+    *yes = false;
+    QDOT_TRY(qdot_rest_by_signs(r, r->system.equations, &equations));
+    for (size_t n = 0; n < MOST_CORNERS && !*yes; n++) {
+        u[n] = next_jump(r, equations, false, n, u);
+        if (u[n] == QDOT_NIL)
+            break;
+        there = qdot_simultaneous_put(r->pool, u[n], place);
+        *yes = there != QDOT_NIL && qdot_is_zero(r->pool, there, &r->facts);
+    }
     return qdot_pool_check(r->pool);
 }

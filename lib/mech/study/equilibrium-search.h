@@ -52,6 +52,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
 QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G);
 /* *u is 0 where the forces at rest jump by its sign; nil: none do so. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corner(qdot_rest *r, qdot_expr *u);
+/* Whether forces jump at the place, a LIST of equations u = value. (equilibrium-corners.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes);
 /* Branches to do for the places at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
 

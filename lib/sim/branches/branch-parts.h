@@ -14,6 +14,7 @@ typedef enum {
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, jump, or have a kink */
     QDOT_END_BLURRED, /* what is judged drowns in errors */
+    QDOT_END_NO_REST, /* known exactly: these equilibria do not exist further on */
     QDOT_END_STOPPED  /* interrupted, or too many points */
 } qdot_branch_end;
 
@@ -34,6 +35,9 @@ typedef struct {
     qdot_vec(qdot_bifurcation) bifurcations;
     qdot_vec(double) left; /* places [n + 1] from which no curve is followed: they have no single direction */
     bool conserved; /* of orbits: their energy is */
+    bool complete;  /* of equilibria, proved: there are no other branches, but for such at single values of p */
+    bool families;  /* of equilibria: of those that recur without end one is followed */
+    bool corners;   /* of equilibria: where forces jump there may be others */
     bool interrupted;
 } qdot_continuation;
 

@@ -65,9 +65,8 @@ lies_between(qdot_path *x, const double *from, const double *to, const double *y
            qdot_path_distance(x, here->y, y) < same;
 }
 
-/* Whether it is a point of a branch. */
-static qdot_status
-is_known(qdot_branch_search *s, const double *y, bool *known)
+qdot_status
+qdot_continuation_knows(qdot_branch_search *s, const double *y, bool *known)
 {
     const size_t m = s->x->width;
     qdot_path_point here = {0};
@@ -142,9 +141,9 @@ turn_round(const qdot_path *x, qdot_branch *branch)
     return QDOT_OK;
 }
 
-/* Both ways from a place whose tangent is known; p grows along the second. */
+/* Both ways from a place whose tangent is known; p grows along the second. *alone: no other point is found. */
 static qdot_status
-follow_both(qdot_branch_search *s, qdot_path_point *a)
+follow_both(qdot_branch_search *s, qdot_path_point *a, bool *alone)
 {
     const size_t m = s->x->n + 1;
     qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
@@ -162,7 +161,8 @@ follow_both(qdot_branch_search *s, qdot_path_point *a)
         a->det = -a->det;
         status = qdot_branch_follow(s, a, &back);
     }
-    if (status == QDOT_OK)
+    *alone = on.n + back.n == 0 && on.end[1] == QDOT_END_LOST && back.end[1] == QDOT_END_LOST;
+    if (status == QDOT_OK && !*alone)
         status = branches_join(s, &back, a->y, a->stability, 0, &on);
     if (status == QDOT_OK && on.end[1] == QDOT_END_CLOSED)
         status = turn_round(s->x, &s->all->branches.at[s->all->branches.n - 1]);
@@ -186,7 +186,8 @@ largest_residual(qdot_branch_search *s, const double *y, double part, double *ro
     return most;
 }
 
-/* From a place y at its p: polished, its curve followed unless it is known; *left: it has no single direction. */
+/* From a place y at its p: polished, its curve followed unless it is known; *left: it has no single direction, or
+ * nothing is found beside it. */
 static qdot_status
 follow_from(qdot_branch_search *s, const double *y, bool *left)
 {
@@ -194,7 +195,7 @@ follow_from(qdot_branch_search *s, const double *y, bool *left)
     const size_t m = x->n + 1;
     double *up = qdot_calloc(m, sizeof *up);
     qdot_path_point a = {0};
-    bool known = true;
+    bool known = true, alone = false;
     qdot_status status = up ? qdot_path_point_begin(x, &a) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
@@ -203,12 +204,12 @@ follow_from(qdot_branch_search *s, const double *y, bool *left)
         known = qdot_path_is_inside(x, a.y);
         if (known && qdot_path_hold(x, m - 1, a.y) &&
             qdot_path_distance(x, a.y, y) < 1e-3 && qdot_path_tangent(x, up, &a)) {
-            status = is_known(s, a.y, &known);
+            status = qdot_continuation_knows(s, a.y, &known);
             if (status == QDOT_OK && !known)
-                status = follow_both(s, &a);
+                status = follow_both(s, &a, &alone);
             known = false;
         }
-        *left = known && largest_residual(s, y, 0, up) < zero * largest_residual(s, y, 0.3, up);
+        *left = alone || (known && largest_residual(s, y, 0, up) < zero * largest_residual(s, y, 0.3, up));
     }
     qdot_path_point_end(&a);
     qdot_free(up);
@@ -306,7 +307,7 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
         if (!qdot_path_is_inside(s->x, a.y))
             arm->end[1] = QDOT_END_DOMAIN;
         if (arm->end[1] == QDOT_END_RANGE)
-            status = is_known(s, a.y, &known);
+            status = qdot_continuation_knows(s, a.y, &known);
     }
     if (status == QDOT_OK && !known) {
         status = s->x->judge(s->x, &a);
@@ -384,7 +385,7 @@ leave_out_known(qdot_branch_search *s)
     for (size_t k = 0; k < n; k += m) {
         bool known;
 
-        QDOT_TRY(is_known(s, s->all->left.at + k, &known));
+        QDOT_TRY(qdot_continuation_knows(s, s->all->left.at + k, &known));
         if (known)
             continue;
         memmove(s->all->left.at + kept, s->all->left.at + k, m * sizeof *s->all->left.at);

@@ -21,6 +21,8 @@ QDOT_MUST_CHECK qdot_status qdot_continuation_follow(qdot_branch_search *s, cons
 /* Follow one arm of the other curve at s->all->bifurcations[at], along `other` [n + 1]; and the curves that cross it. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other,
                                                   bool crossings);
+/* Whether the place y [n + 1] lies on a known curve. */
+QDOT_MUST_CHECK qdot_status qdot_continuation_knows(qdot_branch_search *s, const double *y, bool *known);
 /* In any case behind it: frees what is left of the search. Where it was interrupted, what is known stays, and
  * the status is QDOT_OK. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_finish(qdot_branch_search *s, qdot_status status);

@@ -1,7 +1,10 @@
 /* rest-continuation.h -- all curves of equilibria over one parameter that are found from places at some of its
  * values, and the bifurcations on them (continuation.h).
  *
- * A closed curve that is met at none of these values, and is not connected with one that is, is not found.
+ * Where the equilibria are known exactly (mech/study/equilibrium-set.h), from each member in each cell; members that no
+ * steps can follow, at corners and at degenerate places, are drawn. Else between folds that exclusion finds: a closed curve
+ * that is met at none of these values, and is not connected with one that is, is not found.
+ * out->complete tells the two apart.
  *
  * Tests  tests/sim/branches/test_continuation.c, tests/script/continue/continue.lag
  */
@@ -12,7 +15,8 @@
 #include "sim/branches/continuation.h"
 
 /* Follow all, p from `least` to `most`. From {0}; cleared in any case. Where it is interrupted, what is
- * known stays, and the status is QDOT_OK. QDOT_EFAILED if there is nothing to begin with. */
+ * known stays, and the status is QDOT_OK. QDOT_EFAILED if there is nothing to begin
+ * with, or proved to be none. */
 QDOT_MUST_CHECK qdot_status qdot_rest_continuation_find(qdot_equilibrium_curve *c, double least,
                                                         double most, qdot_continuation *out);
 

@@ -23,6 +23,7 @@ potential -x^2; set mu = 1; continue equilibria in mu = 1/2..2
 remove potential; potential exp(mu*x); continue equilibria in mu = 1..2
 remove potential; continue equilibria in m = 1..2
 potential sin(t)*x^2; continue equilibria in mu = 0..1
+param c; remove potential; potential x^3/3 + (c^2 + 1)*x; continue equilibria in c = -1..1
 coord y; particle q mass m at y; constraint knife: y' = x*x'; continue equilibria in mu = 0..1
 plot
 EOF

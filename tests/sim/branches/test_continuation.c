@@ -188,10 +188,10 @@ a_hopf_point(void **state)
     finish(&f, &c, &x);
 }
 
-/* Out of memory at the n-th allocation, for n up to where it passes. */
-/* x^3 (x^4 - c) = 0: x = 0 is at rest for every c, but the slope of the equation vanishes there. */
+/* x^3 (x^4 - c) = 0: x = 0 is at rest for every c, but the slope of the equation vanishes there: no steps follow it, the
+ * formula does. */
 static void
-what_is_not_followed_is_told(void **state)
+exact_equilibria_are_branches(void **state)
 {
     qdot_equilibrium_curve c = {0};
     qdot_continuation x = {0};
@@ -206,13 +206,21 @@ what_is_not_followed_is_told(void **state)
         f.scene, qdot_sub(f.pool, times(&f, number(&f, "0.125"), qdot_pow_int(f.pool, q, 8)),
                           times(&f, times(&f, number(&f, "0.25"), parameter(&f, "mu")), qdot_pow_int(f.pool, q, 4)))));
     follow(&f, "mu", -1, 1, &c, &x);
-    assert_int_equal(x.branches.n, 1);
-    assert_int_equal(x.left.n, 14); /* at each of seven mu */
-    for (size_t k = 0; k < x.left.n; k += 2)
-        assert_true(x.left.at[k] == 0);
+    assert_int_equal(x.branches.n, 2);
+    assert_int_equal(x.left.n, 0);
+    assert_true(x.complete);
+    for (size_t k = 0; k < x.branches.at[1].n; k++) {
+        const double *y = x.branches.at[1].y + 2 * k;
+
+        assert_true(y[0] == 0);
+        if (y[1] < 0)
+            assert_int_equal(x.branches.at[1].stability[k], QDOT_STABLE);
+    }
+    assert_true(x.branches.at[1].y[1] == -1 && x.branches.at[1].y[2 * x.branches.at[1].n - 1] == 1);
     finish(&f, &c, &x);
 }
 
+/* Out of memory at the n-th allocation, for n up to where it passes. */
 static void
 survives_failed_allocations_too(void **state)
 {
@@ -289,7 +297,7 @@ main(void)
         cmocka_unit_test(a_closed_curve),
         cmocka_unit_test(pairs_of_crossings),
         cmocka_unit_test(a_hopf_point),
-        cmocka_unit_test(what_is_not_followed_is_told),
+        cmocka_unit_test(exact_equilibria_are_branches),
         cmocka_unit_test(survives_failed_allocations_too),
         cmocka_unit_test(keeps_what_is_known),
     };

@@ -1,0 +1,50 @@
+/* equilibrium-set.h -- the equilibria that are known as formulas of one parameter p, where all others have values.
+ *
+ *     u_i = f_i(p)   wherever   g_1(p) > 0, g_2(p) > 0 ...
+ *
+ * each a member. Between two neighbouring zeros of the g, of denominators and of the ends of the domains of roots
+ * and logarithms, a member exists throughout or nowhere: the values of p that separate such cells are found by
+ * exclusion (normal/solve/zeros.h). So where the set is complete, so are places in every cell.
+ *
+ * Tests  tests/mech/study/test_equilibrium-set.c
+ */
+#ifndef QDOT_MECH_EQUILIBRIUM_SET_H
+#define QDOT_MECH_EQUILIBRIUM_SET_H
+
+#include "mech/study/equilibrium-curve.h"
+
+typedef struct {
+    qdot_equilibrium place;
+    qdot_expr value; /* a LIST: f [n], then g */
+    bool corner;     /* forces jump there, so that it is no zero of the equations at rest */
+    bool judged;     /* place.stability holds where all of `when` are positive, elsewhere it is undecided */
+    qdot_expr when;  /* a LIST */
+} qdot_equilibrium_member;
+
+typedef struct {
+    const qdot_equilibrium_curve *c; /* borrowed */
+    qdot_vec(qdot_equilibrium_member) member;
+    qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
+    bool complete;         /* proved: at every p, but for single values, all equilibria are members, all walls are known */
+    bool families;         /* of some, which recur without end, one place is a member */
+} qdot_equilibrium_set;
+
+/* From {0}; ended in any case. Where nothing can be said the set is empty, and not complete. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_begin(qdot_equilibrium_set *set, qdot_equilibrium_curve *c,
+                                                       double least, double most);
+void qdot_equilibrium_set_end(qdot_equilibrium_set *set);
+
+/* Walls where a curve of equilibria turns, as far as exclusion finds them: so that one that closes within the range is
+ * met between two of them. (equilibrium-folds.c) */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_folds(qdot_equilibrium_set *set);
+/* Walls ascending, each once. */
+void qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set);
+
+/* Member k at y[n] = p: y [n + 1], NaN where there is no value; *exists: all conditions hold there, and it has values. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_place(const qdot_equilibrium_set *set, size_t k, double *y,
+                                                       bool *exists);
+/* The verdict on member k at p. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_judge(qdot_equilibrium_set *set, size_t k, double p,
+                                                       qdot_stability *verdict);
+
+#endif
