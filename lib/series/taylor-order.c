@@ -43,7 +43,7 @@ qdot_taylor_value(qdot_taylor_step *i)
     double a = i->x[0], b = i->y[0], c = i->z[0], d = 0, e = 0;
 
     switch (i->zero) {
-#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+#define X(ID, name, operands, operations, calls, statement, ...)                         \
     case QDOT_OP_##ID:                                                                   \
         statement;                                                                       \
         break;

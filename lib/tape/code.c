@@ -6,7 +6,7 @@
 #include "tape/constant.h"
 
 const qdot_operation qdot_operations[QDOT_OP_COUNT] = {
-#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+#define X(ID, name, operands, operations, calls, statement, ...)                         \
     [QDOT_OP_##ID] = {name, operands, operations, calls},
 #include "tape/operation.def"
 #undef X

@@ -137,7 +137,7 @@ disc_execute(const qdot_instruction *i, double *work, double *radius)
     double b = 0, c = 0, d = 0, e = 0, rb = 0, rc = 0, rd = 0, re = 0;
 
     switch (i->op) {
-#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+#define X(ID, name, operands, operations, calls, statement, ...)                         \
     case QDOT_OP_##ID:                                                                   \
         if (operands > 1) {                                                              \
             b = work[i->y];                                                              \
@@ -154,9 +154,9 @@ disc_execute(const qdot_instruction *i, double *work, double *radius)
     }
     if (ra != 0 || rb != 0 || rc != 0) /* else it is a number */
         switch (i->op) {
-#define X(ID, radius_of)                                                                 \
-    case QDOT_OP_##ID: radius_of; break;
-#include "tape/disc.def"
+#define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, ...) \
+    case QDOT_OP_##ID: disc; break;
+#include "tape/operation.def"
 #undef X
         }
     (void)c;

@@ -7,7 +7,7 @@
  * few points (sim/bind/polynomial-bounds.h). C_i is f_i(c). A radius is NaN if an operation has
  * a singularity in its disc, or switches there, and infinite if the bound overflows.
  *
- * Each operation has its own bound (disc.def): |f(c + w) - f(c)| for |w| <= r, exact
+ * Each operation has its own bound (a column of operation.def): |f(c + w) - f(c)| for |w| <= r, exact
  * for sums, products, roots, exponentials, logarithms and those inverse functions whose
  * Taylor coefficients have one sign. Rounding is added to radii that are not 0; sums of it
  * are not rounded outward.

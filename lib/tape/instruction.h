@@ -8,7 +8,7 @@
 #include "expr/expr.h"
 
 typedef enum {
-#define X(ID, name, operands, operations, calls, statement, slopes) QDOT_OP_##ID,
+#define X(ID, ...) QDOT_OP_##ID,
 #include "tape/operation.def"
 #undef X
     QDOT_OP_COUNT,

@@ -48,7 +48,7 @@ on_points(const qdot_instruction *i, double a, double b, double c, qdot_interval
     double d = 0, e = 0;
 
     switch (i->op) {
-#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+#define X(ID, name, operands, operations, calls, statement, ...)                         \
     case QDOT_OP_##ID:                                                                   \
         statement;                                                                       \
         break;
@@ -77,11 +77,11 @@ interval_execute(const qdot_instruction *i, qdot_interval *work)
         on_points(i, a.lo, b.lo, c.lo, &d, &e);
     else
         switch (i->op) {
-#define X(ID, result)                                                                    \
+#define X(ID, name, operands_of, operations, calls, statement, slopes, interval, ...)    \
     case QDOT_OP_##ID:                                                                   \
-        result;                                                                          \
+        interval;                                                                        \
         break;
-#include "tape/interval.def"
+#include "tape/operation.def"
 #undef X
         }
     work[i->to] = d;

@@ -7,7 +7,7 @@
  * 1/cosh(x)^2 at x > 1000 is in 0 ... 10^-308, abs(x) and if(...) are in the hull of both sides.
  * A bound is infinite if there is none, never NaN.
  *
- * Each operation has a row in interval.def. Bounds are moved outward by the rounding of the
+ * Each operation has a column of its row in operation.def. Bounds are moved outward by the rounding of the
  * operation, except if all operands are single numbers: then the result is that of the tape in
  * doubles.
  *

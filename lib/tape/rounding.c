@@ -35,7 +35,7 @@ instruction_look(const qdot_instruction *i, const double *work, results *r)
     double b = 0, c = 0, d = 0, e = 0;
 
     switch (i->op) {
-#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+#define X(ID, name, operands, operations, calls, statement, slopes, ...)                 \
     case QDOT_OP_##ID:                                                                   \
         if (operands > 1)                                                                \
             b = work[i->y];                                                              \

@@ -55,7 +55,7 @@ void
 qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work)
 {
     static const void *const row[] = {
-#define X(ID, name, operands, operations, calls, statement, slopes) &&do_##ID,
+#define X(ID, ...) &&do_##ID,
 #include "tape/operation.def"
 #undef X
     };
@@ -73,7 +73,7 @@ qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *wor
 #define c (work[i->z])
 #define d (work[i->to])
 #define e (work[i->y])
-#define X(ID, name, operands, operations, calls, statement, slopes)                      \
+#define X(ID, name, operands, operations, calls, statement, ...)                         \
     do_##ID:                                                                             \
     statement;                                                                           \
     if (++i == end)                                                                      \
