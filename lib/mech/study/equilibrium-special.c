@@ -5,7 +5,7 @@
  *
  * 0 < theta < pi leaves out the poles of a sphere, where a rest may be: such an end of a chart is told too. */
 #include "expr/calculus.h"
-#include "mech/study/chart.h"
+#include "mech/coordinates/chart.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/refute/constant.h"
 #include "normal/solve/conditions.h"

@@ -19,7 +19,7 @@ typedef struct {
 } qdot_in_chart;
 
 /* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading;
- * QDOT_EDOMAIN: one is beyond a root (mech/study/chart.h). */
+ * QDOT_EDOMAIN: one is beyond a root (mech/coordinates/chart.h). */
 QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
                                                   size_t m, const qdot_expr *exprs,
                                                   double t);

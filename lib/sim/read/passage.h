@@ -2,7 +2,7 @@
  *
  * There e, in the coordinates given, jumps, or has a corner: from either side it is smooth up to
  * the place, but near it directions are rounding alone. With the sign s of the distance changed
- * beyond the place (mech/study/chart.h) e is smooth through it. A polynomial through values on
+ * beyond the place (mech/coordinates/chart.h) e is smooth through it. A polynomial through values on
  * both sides, none nearer than a tenth of the interval's half, is e up to the place.
  *
  * Tests  tests/script/constraints/charts.lag

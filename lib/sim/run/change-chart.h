@@ -1,7 +1,7 @@
 /* change-chart.h -- a run once more in other coordinates, where those given became singular.
  *
  * A run that failed, that began at a singular place, whose error is unknown, or that rounding held
- * far above its tolerance, is made anew in the coordinates of mech/study/chart.h, if it came near a
+ * far above its tolerance, is made anew in the coordinates of mech/coordinates/chart.h, if it came near a
  * singular place of coordinates that can be replaced. The new one takes its place if it arrives,
  * with a smaller error.
  *

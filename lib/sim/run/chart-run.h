@@ -1,4 +1,4 @@
-/* chart-run.h -- a run made in other coordinates (mech/study/chart.h) and read in those given.
+/* chart-run.h -- a run made in other coordinates (mech/coordinates/chart.h) and read in those given.
  *
  * An angle outside of sin and cos is continued along the run: it is followed from the start in
  * steps of less than 0.8, and counted from a number of quarter turns that stays the same over a
@@ -12,8 +12,8 @@
 
 #include <stdint.h>
 
-#include "mech/study/chart.h"
-#include "mech/study/collision.h"
+#include "mech/coordinates/chart.h"
+#include "mech/coordinates/collision.h"
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 

@@ -1,8 +1,8 @@
-/* collide.h -- a run once more through a collision (mech/study/collision.h).
+/* collide.h -- a run once more through a collision (mech/coordinates/collision.h).
  *
  * A run that failed or did badly, and came near a place where two points attract each other by k/r^2,
  * is made anew in regular coordinates, by s with dt = R ds, from s = 0 to where t is the end that was
- * asked for: an event. Polar and spherical coordinates are left first (mech/study/chart.h). Then the
+ * asked for: an event. Polar and spherical coordinates are left first (mech/coordinates/chart.h). Then the
  * trajectories are timed by t (ode/trajectory.h), so that all that reads them knows nothing of s.
  *
  * Tests  tests/script/mechanisms/collisions.lag

@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "expr/calculus.h"
-#include "mech/study/minimal.h"
+#include "mech/coordinates/minimal.h"
 #include "sim/course/run-state.h"
 #include "sim/model/substitute.h"
 #include "tape/constant.h"

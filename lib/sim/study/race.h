@@ -1,7 +1,7 @@
 /* race.h -- one scene in every formulation it allows, each at a ladder of tolerances.
  *
  *     as given, with projection | Baumgarte's damping | nothing against drift
- *     in minimal coordinates (mech/study/minimal.h), where the constraints can be solved
+ *     in minimal coordinates (mech/coordinates/minimal.h), where the constraints can be solved
  *
  * The end error of a run is the largest difference of a coordinate or velocity of the scene
  * as given from those of a reference, relative to max(1, |value|). The reference is the

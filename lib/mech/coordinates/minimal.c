@@ -1,6 +1,6 @@
 /* minimal.c -- solves constraints one after another and rewrites the scene in the remaining
  * coordinates. */
-#include "mech/study/minimal.h"
+#include "mech/coordinates/minimal.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -40,7 +40,7 @@
  *
  * which is 1/2 omega . I omega where |e| = 1.
  *
- * Tests  tests/mech/study/test_chart.c
+ * Tests  tests/mech/coordinates/test_chart.c
  */
 #ifndef QDOT_MECH_CHART_H
 #define QDOT_MECH_CHART_H

@@ -1,8 +1,8 @@
 /* Scenes in other coordinates: which there are, and that the motion is the same in them. */
 #include "mech/kit.h"
 
+#include "mech/coordinates/chart.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/chart.h"
 #include "tape/constant.h"
 
 enum { MOST = 6 };

@@ -1,14 +1,14 @@
 /* chart.c -- which groups of coordinates can be replaced, and the scene without them. */
-#include "mech/study/chart.h"
+#include "mech/coordinates/chart.h"
 
 #include <string.h>
 
 #include "expr/calculus.h"
 #include "expr/print.h"
 #include "expr/walk.h"
+#include "mech/coordinates/chart-body.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
-#include "mech/study/chart-body.h"
 
 /* With more coordinates groups are not looked for. */
 enum { MOST_COORDINATES = 12 };

@@ -1,6 +1,6 @@
 /* chart-body.h -- bodies by the four parameters of Euler, e with |e|^2 = 1, as masses.
  *
- * Tests  tests/mech/study/test_chart.c
+ * Tests  tests/mech/coordinates/test_chart.c
  */
 #ifndef QDOT_MECH_CHART_BODY_H
 #define QDOT_MECH_CHART_BODY_H

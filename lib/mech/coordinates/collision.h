@@ -20,7 +20,7 @@
  * Sources  T. Levi-Civita, Acta Math. 42 (1920) 99; P. Kustaanheimo, E. Stiefel, J. reine angew.
  *          Math. 218 (1965) 204; E. Stiefel, G. Scheifele, Linear and Regular Celestial Mechanics
  *          (1971)
- * Tests    tests/mech/study/test_collision.c, tests/script/mechanisms/collisions.lag
+ * Tests    tests/mech/coordinates/test_collision.c, tests/script/mechanisms/collisions.lag
  */
 #ifndef QDOT_MECH_COLLISION_H
 #define QDOT_MECH_COLLISION_H

@@ -1,5 +1,5 @@
 /* chart-body.c -- a body as masses at its centre and at the ends of its axes. */
-#include "mech/study/chart-body.h"
+#include "mech/coordinates/chart-body.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,12 +1,12 @@
 /* chart-formulas.c -- the groups of chart.h by their formulas. */
-#include "mech/study/chart.h"
+#include "mech/coordinates/chart.h"
 
 #include <stdio.h>
 
 #include "expr/print.h"
 #include "expr/walk.h"
+#include "mech/coordinates/chart-body.h"
 #include "mech/scene/scene.h"
-#include "mech/study/chart-body.h"
 
 size_t
 qdot_chart_size(qdot_chart_kind kind)

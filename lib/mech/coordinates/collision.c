@@ -1,5 +1,5 @@
 /* collision.c -- the scene in which a collision is regular, and expressions in it. */
-#include "mech/study/collision.h"
+#include "mech/coordinates/collision.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* chart-express.c -- expressions in other coordinates. */
-#include "mech/study/chart.h"
+#include "mech/coordinates/chart.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* Scenes in which a collision is regular: which pairs there are, and that the motion is the same. */
 #include "mech/kit.h"
 
+#include "mech/coordinates/collision.h"
 #include "mech/dynamics/quantity.h"
-#include "mech/study/collision.h"
 #include "tape/constant.h"
 
 enum { MOST = 9, MANY = 24 };

@@ -1,5 +1,5 @@
 /* collision-pairs.c -- pairs of points on whose distance accelerations depend in a singular way. */
-#include "mech/study/collision.h"
+#include "mech/coordinates/collision.h"
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
