@@ -12,10 +12,10 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "base/ranks.h"
 #include "base/terminal.h"
 #include "lang/workbench/script.h"
 #include "num/kinds.h"
+#include "parallel/ranks.h"
 #include "progress-line.h"
 #include "prompt.h"
 #include "signals.h"

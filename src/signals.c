@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
-#include "base/ranks.h"
+#include "base/process.h"
 
 static volatile sig_atomic_t computing = 1, patient;
 

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "base/ranks.h"
+#include "base/process.h"
 #include "base/text.h"
 
 static qdot_status

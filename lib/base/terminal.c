@@ -6,7 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "base/ranks.h"
+#include "base/process.h"
 
 bool
 qdot_terminal_is(const FILE *stream)

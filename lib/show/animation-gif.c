@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "base/ranks.h"
+#include "base/process.h"
 #include "base/sink.h"
 #include "show/animation.h"
 #include "show/gnuplot.h"

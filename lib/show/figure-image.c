@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/ranks.h"
+#include "base/process.h"
 #include "base/sink.h"
 #include "show/figure-parts.h"
 #include "show/gnuplot.h"

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
-#include "base/ranks.h"
+#include "base/process.h"
 #include "base/sink.h"
 #include "base/text.h"
 

@@ -9,8 +9,8 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "base/ranks.h"
 #include "base/utf8.h"
+#include "parallel/ranks.h"
 
 enum { FILE_LIMIT = 1 << 28, SHOWN = 40 };
 

@@ -21,7 +21,7 @@
 #include <unistd.h>
 
 #include "base/memory-failure.h"
-#include "base/threads.h"
+#include "base/process.h"
 #include "lang/talk.h"
 #include "own-folder.h"
 #include "reliability/scripts.h"

@@ -2,13 +2,13 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/ranks.h"
-#include "base/workers.h"
 #include "lang/runs/own-run.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/sweeps/sweep-ranks.h"
 #include "num/batch.h"
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
 
 /* So many members are run, spread over all. */
 enum { BY_LANES = 32, ALONE = 4 };

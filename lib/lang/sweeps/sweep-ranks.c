@@ -4,8 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "base/ranks.h"
-#include "base/workers.h"
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
 
 /* How the sweep ended. */
 typedef struct {

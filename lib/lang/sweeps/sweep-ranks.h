@@ -1,6 +1,6 @@
-/* sweep-ranks.h -- a sweep by several ranks (base/ranks.h).
+/* sweep-ranks.h -- a sweep by several ranks (parallel/ranks.h).
  *
- * All of them begin it and make rows (base/workers.h). Rank 0 alone has the file of the rows, and
+ * All of them begin it and make rows (parallel/workers.h). Rank 0 alone has the file of the rows, and
  * shares them at the end: so each rank goes on with the same table.
  *
  * Tests  tests/meta/ranks.test

@@ -5,14 +5,14 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
-#include "base/ranks.h"
-#include "base/workers.h"
 #include "lang/answer/row-answer.h"
 #include "lang/runs/own-run.h"
 #include "lang/sweeps/sweep-file.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/sweeps/sweep-ranks.h"
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
 
 /* Seconds of work that are worth more than one process. */
 static const double worth = 0.05;

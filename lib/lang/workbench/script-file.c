@@ -2,11 +2,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/ranks.h"
 #include "lang/answer/answer.h"
-#include "lang/workbench/script.h"
 #include "lang/commands/statement.h"
 #include "lang/source/source.h"
+#include "lang/workbench/script.h"
+#include "parallel/ranks.h"
 
 enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
 

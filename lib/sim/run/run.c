@@ -1,7 +1,5 @@
 /* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
-#include "sim/run/run.h"
-#include "sim/run/slides.h"
 #include "sim/run/change-chart.h"
 #include "sim/run/change-over.h"
 #include "sim/run/chart-run.h"
@@ -11,15 +9,17 @@
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-report.h"
 #include "sim/run/run-start.h"
+#include "sim/run/run.h"
 #include "sim/run/scales.h"
+#include "sim/run/slides.h"
 #include "sim/run/tighter-run.h"
 
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/threads.h"
 #include "ode/companion.h"
 #include "sim/course/multipliers.h"
 #include "sim/course/run-time.h"

@@ -1,11 +1,11 @@
-/* mpi.h -- what base/ranks.c wants of MPI, loaded when a program has been started by mpirun.
+/* mpi.h -- what parallel/ranks.c wants of MPI, loaded when a program has been started by mpirun.
  *
  * Bytes that are sent go on while others are; what has come is asked for, never waited for.
  *
  * Tests  tests/meta/ranks.test
  */
-#ifndef QDOT_BASE_MPI_H
-#define QDOT_BASE_MPI_H
+#ifndef QDOT_PARALLEL_MPI_H
+#define QDOT_PARALLEL_MPI_H
 
 #include "base/text.h"
 

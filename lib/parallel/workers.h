@@ -5,14 +5,14 @@
  * take about a fiftieth of a second, as the chunks before tell. A worker that dies costs the items of its
  * chunk that it had not answered yet; another does them, once.
  *
- * Beyond one machine (base/ranks.h) all ranks begin the same work, each with workers of its own, and
+ * Beyond one machine (parallel/ranks.h) all ranks begin the same work, each with workers of its own, and
  * rank 0 hands out chunks to all, of a quarter of a second or more. What a rank that is lost has not
  * answered is done by others.
  *
- * Tests  tests/base/test_workers.c, tests/script/sweeps/sweep-threads.sh, tests/meta/ranks.test
+ * Tests  tests/parallel/test_workers.c, tests/script/sweeps/sweep-threads.sh, tests/meta/ranks.test
  */
-#ifndef QDOT_BASE_WORKERS_H
-#define QDOT_BASE_WORKERS_H
+#ifndef QDOT_PARALLEL_WORKERS_H
+#define QDOT_PARALLEL_WORKERS_H
 
 #include "base/text.h"
 

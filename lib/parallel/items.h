@@ -1,9 +1,9 @@
-/* items.h -- which items of some work are left, for those who hand them out (base/workers.c).
+/* items.h -- which items of some work are left, for those who hand them out (parallel/workers.c).
  *
- * Tests  tests/base/test_items.c
+ * Tests  tests/parallel/test_items.c
  */
-#ifndef QDOT_BASE_ITEMS_H
-#define QDOT_BASE_ITEMS_H
+#ifndef QDOT_PARALLEL_ITEMS_H
+#define QDOT_PARALLEL_ITEMS_H
 
 #include "base/memory.h"
 

@@ -1,13 +1,13 @@
-/* workers-parts.h -- the work of base/workers.h between the processes of this machine (workers.c) and
+/* workers-parts.h -- the work of parallel/workers.h between the processes of this machine (workers.c) and
  * those of other ranks (mates.c).
  */
-#ifndef QDOT_BASE_WORKERS_PARTS_H
-#define QDOT_BASE_WORKERS_PARTS_H
+#ifndef QDOT_PARALLEL_WORKERS_PARTS_H
+#define QDOT_PARALLEL_WORKERS_PARTS_H
 
 #include <stdint.h>
 
-#include "base/items.h"
 #include "base/text.h"
+#include "parallel/items.h"
 
 /* The head of each answer; the bytes follow. n QDOT_NO_ANSWER: two workers died of the item. */
 typedef struct {
@@ -29,7 +29,7 @@ typedef struct {
 typedef struct qdot_mate qdot_mate;
 
 typedef struct qdot_crew {
-    const struct qdot_workers_job *job; /* base/workers.h */
+    const struct qdot_workers_job *job; /* parallel/workers.h */
     struct qdot_worker *workers;        /* [job->workers] */
     qdot_items items;
     qdot_mate *mates; /* rank 0: [ranks] */

@@ -1,5 +1,5 @@
 /* items.c -- items that are left. */
-#include "base/items.h"
+#include "parallel/items.h"
 
 enum { ANSWERED = 1, KILLED = 2 };
 

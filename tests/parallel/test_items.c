@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/items.h"
+#include "parallel/items.h"
 
 enum { ITEMS = 100 };
 

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
-#include "base/workers.h"
+#include "parallel/workers.h"
 
 enum { ITEMS = 300 };
 

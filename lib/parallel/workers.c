@@ -1,6 +1,6 @@
 /* workers.c -- hands out items to processes and collects their answers. */
 #define _GNU_SOURCE
-#include "base/workers.h"
+#include "parallel/workers.h"
 
 #include <errno.h>
 #include <math.h>
@@ -19,12 +19,10 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/ranks.h"
-#include "base/threads.h"
-#include "base/workers-parts.h"
-
-bool qdot_threads_are_taken;
+#include "parallel/ranks.h"
+#include "parallel/workers-parts.h"
 
 static const double chunk_seconds = 0.02;
 enum { MOST_CHUNK = 4096, READ = 65536 };

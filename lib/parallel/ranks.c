@@ -1,6 +1,6 @@
 /* ranks.c -- the ranks: who they are, what rank 0 shares, how one is missed, the end. */
 #define _GNU_SOURCE
-#include "base/ranks.h"
+#include "parallel/ranks.h"
 
 #include <errno.h>
 #include <math.h>
@@ -14,7 +14,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/mpi.h"
+#include "parallel/mpi.h"
 
 static const double beat = 1;     /* seconds between two signs of life */
 static const double patience = 5; /* a rank that waits or works is silent no longer */
@@ -29,43 +29,16 @@ typedef struct {
 } place;
 
 static struct {
-    size_t count, mine;
-    place *places;   /* [count] */
-    double *heard;   /* [count] */
+    place *places;   /* [ranks] */
+    double *heard;   /* [ranks] */
     double beaten;   /* when rank 0 was last told that this one lives */
     uint64_t shared; /* so many times */
     size_t stuck;    /* messages that their receivers do not take */
     int sentinel;    /* a pipe to it; -1: none */
-} ranks = {.count = 1, .sentinel = -1};
+} ranks = {.sentinel = -1};
 
 /* The last words. */
 enum { GO_TOGETHER, GO_ALONE };
-
-bool
-qdot_ranks_are_there(void)
-{
-    return getenv("OMPI_COMM_WORLD_SIZE") != NULL || getenv("PMIX_RANK") != NULL;
-}
-
-bool
-qdot_ranks_are_others(void)
-{
-    const char *rank = getenv("OMPI_COMM_WORLD_RANK");
-
-    return rank != NULL && strcmp(rank, "0") != 0;
-}
-
-size_t
-qdot_ranks_count(void)
-{
-    return ranks.count;
-}
-
-size_t
-qdot_rank(void)
-{
-    return ranks.mine;
-}
 
 static void
 rest(void)
@@ -170,14 +143,14 @@ ranks_gather_places(size_t *kind)
     const place here = {machine_here(), digits_here(), getpid()};
     int least = (int)*kind;
 
-    ranks.places = qdot_calloc(ranks.count, sizeof *ranks.places);
-    ranks.heard = qdot_calloc(ranks.count, sizeof *ranks.heard);
+    ranks.places = qdot_calloc(qdot_ranks_count(), sizeof *ranks.places);
+    ranks.heard = qdot_calloc(qdot_ranks_count(), sizeof *ranks.heard);
     if (ranks.places == NULL || ranks.heard == NULL)
         return QDOT_ENOMEM;
     qdot_mpi_least(&least);
     *kind = (size_t)least;
     qdot_mpi_gather(&here, sizeof here, ranks.places);
-    for (size_t i = 0; i < ranks.count; i++)
+    for (size_t i = 0; i < qdot_ranks_count(); i++)
         ranks.heard[i] = qdot_wall_now();
     return QDOT_OK;
 }
@@ -186,6 +159,7 @@ qdot_status
 qdot_ranks_begin(size_t *kind)
 {
     const char *ours = getenv("OMPI_COMM_WORLD_SIZE"), *others = getenv("PMI_SIZE");
+    size_t count = 1, mine = 0;
 
     if (!qdot_ranks_are_there()) {
         if (others == NULL || atol(others) <= 1)
@@ -200,15 +174,16 @@ qdot_ranks_begin(size_t *kind)
     set_sentinel();
     if (ranks.sentinel >= 0 && signal(SIGALRM, ranks_give_up) != SIG_ERR)
         alarm(GATHERING);
-    QDOT_TRY(qdot_mpi_begin(&ranks.count, &ranks.mine));
+    QDOT_TRY(qdot_mpi_begin(&count, &mine));
+    qdot_rank_set(mine, count);
     QDOT_TRY(ranks_gather_places(kind));
     alarm(0);
-    if (ranks.places[ranks.mine].digits == ranks.places[0].digits)
+    if (ranks.places[qdot_rank()].digits == ranks.places[0].digits)
         return QDOT_OK;
     fprintf(
         stderr,
         "qdot: rank %zu takes no part: its C library has other digits than rank 0's\n",
-        ranks.mine);
+        qdot_rank());
     (void)qdot_ranks_end(0);
     return QDOT_OK; /* not reached */
 }
@@ -254,9 +229,9 @@ ranks_poll(size_t *from, int *what)
     bool come = qdot_mpi_look(from, what);
 
     (void)qdot_mpi_sending();
-    if (come && ranks.mine > 0 && *what == QDOT_RANK_END)
+    if (come && qdot_rank() > 0 && *what == QDOT_RANK_END)
         leave();
-    if (come && ranks.mine == 0)
+    if (come && qdot_rank() == 0)
         ranks.heard[*from] = qdot_wall_now();
     return come;
 }
@@ -344,9 +319,9 @@ share_send(qdot_status status, const qdot_text *text)
     if (status != QDOT_OK)
         h.error = *qdot_last_error();
     h.error.status = status;
-    qdot_mpi_send(1, ranks.count, QDOT_RANK_SHARED, &h, sizeof h);
+    qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_SHARED, &h, sizeof h);
     for (size_t i = 0; i < text->n; i += PIECE)
-        qdot_mpi_send(1, ranks.count, QDOT_RANK_SHARED, text->at + i,
+        qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_SHARED, text->at + i,
                       text->n - i < PIECE ? text->n - i : PIECE);
     wait_until_sent(patience);
 }
@@ -377,7 +352,7 @@ share_receive(qdot_text *text)
     qdot_text_truncate(text, 0);
     wait_for_piece(&piece);
     if (piece.n != sizeof h)
-        return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", ranks.mine);
+        return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", qdot_rank());
     memcpy(&h, piece.at, sizeof h);
     while (text->n < h.n) {
         wait_for_piece(&piece);
@@ -387,7 +362,7 @@ share_receive(qdot_text *text)
     }
     qdot_text_clear(&piece);
     if (h.number != ranks.shared)
-        return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", ranks.mine);
+        return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", qdot_rank());
     QDOT_TRY(qdot_text_status(text));
     return h.error.status == QDOT_OK ? QDOT_OK : qdot_fail_again(&h.error);
 }
@@ -395,10 +370,10 @@ share_receive(qdot_text *text)
 qdot_status
 qdot_ranks_share(qdot_status status, qdot_text *text)
 {
-    if (ranks.count == 1)
+    if (qdot_ranks_count() == 1)
         return status;
     ranks.shared++;
-    if (ranks.mine > 0)
+    if (qdot_rank() > 0)
         return share_receive(text);
     share_send(status, text);
     return status;
@@ -409,9 +384,9 @@ qdot_ranks_read(qdot_text *text, FILE *from, const char *path, size_t most)
 {
     qdot_status status = QDOT_OK;
 
-    if (ranks.mine == 0 && from == NULL)
+    if (qdot_rank() == 0 && from == NULL)
         status = qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
-    else if (ranks.mine == 0)
+    else if (qdot_rank() == 0)
         status = qdot_text_read(text, from, path, most);
     return qdot_ranks_share(status, text);
 }
@@ -422,7 +397,7 @@ qdot_ranks_read(qdot_text *text, FILE *from, const char *path, size_t most)
 static size_t
 wait_for_goodbyes(bool *asleep)
 {
-    bool *gone = qdot_calloc(ranks.count, sizeof *gone);
+    bool *gone = qdot_calloc(qdot_ranks_count(), sizeof *gone);
     const double begun = qdot_wall_now();
     qdot_rank_message m = {0};
     size_t waiting = 0;
@@ -434,7 +409,7 @@ wait_for_goodbyes(bool *asleep)
             if (m.what == QDOT_RANK_GOODBYE)
                 gone[m.from] = true;
         *asleep = false;
-        for (size_t i = 1; i < ranks.count; i++) {
+        for (size_t i = 1; i < qdot_ranks_count(); i++) {
             waiting += !gone[i];
             *asleep = *asleep || (!gone[i] && !is_dead(i));
         }
@@ -455,16 +430,16 @@ end_all(int status)
     char word;
 
     fflush(NULL);
-    qdot_mpi_send(1, ranks.count, QDOT_RANK_END, "", 0);
+    qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_END, "", 0);
     lost = wait_for_goodbyes(&asleep);
     if (lost > 0)
-        fprintf(stderr, "qdot: %zu of %zu ranks were lost\n", lost, ranks.count);
+        fprintf(stderr, "qdot: %zu of %zu ranks were lost\n", lost, qdot_ranks_count());
     if (ranks.sentinel >= 0 && write(ranks.sentinel, "", 1) != 1)
         lost += 0; /* it has ended before */
     if (asleep)
         qdot_mpi_abort(status);
     word = lost > 0 ? GO_ALONE : GO_TOGETHER;
-    qdot_mpi_send(1, ranks.count, QDOT_RANK_END, &word, 1);
+    qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_END, &word, 1);
     if (lost > 0) { /* MPI would wait for them */
         wait_until_sent(1);
         _exit(status);
@@ -478,9 +453,9 @@ qdot_ranks_end(int status)
 {
     qdot_rank_message m = {0};
 
-    if (ranks.count == 1)
+    if (qdot_ranks_count() == 1)
         return status;
-    if (ranks.mine == 0)
+    if (qdot_rank() == 0)
         return end_all(status);
     for (;;) /* until look leaves */
         if (!qdot_ranks_next(&m))

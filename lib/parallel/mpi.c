@@ -1,6 +1,6 @@
 /* mpi.c -- OpenMPI behind pointers. To load it and to begin takes a quarter of a second, which a program
  * that mpirun has not started need not pay. */
-#include "base/mpi.h"
+#include "parallel/mpi.h"
 
 #include <stdlib.h>
 

@@ -10,9 +10,10 @@
  *
  * Tests  tests/meta/ranks.test
  */
-#ifndef QDOT_BASE_RANKS_H
-#define QDOT_BASE_RANKS_H
+#ifndef QDOT_PARALLEL_RANKS_H
+#define QDOT_PARALLEL_RANKS_H
 
+#include "base/process.h"
 #include "base/text.h"
 
 enum { QDOT_RANKS_SHORT = 4000 };
@@ -38,13 +39,6 @@ typedef struct {
  * this processor can, becomes the least of all; a rank whose C library gives other digits than rank 0's
  * takes no part and says so. QDOT_ENOTBUILT: this program has no MPI; QDOT_EIO: it cannot be loaded. */
 QDOT_MUST_CHECK qdot_status qdot_ranks_begin(size_t *kind);
-
-/* Whether mpirun started this process; whether, then, as another rank than 0. Before _begin too. */
-bool qdot_ranks_are_there(void);
-bool qdot_ranks_are_others(void);
-/* How many ranks there are; which this is. Alone: 1 and 0. */
-size_t qdot_ranks_count(void);
-size_t qdot_rank(void);
 
 /* Send bytes [n], which are copied. */
 void qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n);

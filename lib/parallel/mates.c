@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/ranks.h"
-#include "base/workers-parts.h"
-#include "base/workers.h"
+#include "parallel/ranks.h"
+#include "parallel/workers-parts.h"
+#include "parallel/workers.h"
 
 /* A message to each and one from it take rank 0 some microseconds: with many ranks chunks are
  * longer, so that it does a few thousand a second. */
