@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "expr/constant.h"
 #include "num/real.h"
 #include "series/near.h"
-#include "tape/constant.h"
 
 /* The first two of the scratch are U1, U2 of recurrence.def, the last is that of sums. */
 enum { SCRATCH = 3 };

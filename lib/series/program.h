@@ -60,7 +60,7 @@ typedef struct {
     int lead; /* it is known so many orders before those that it is there for (motion.h) */
 } qdot_program_row_info;
 
-/* A number, as a tape has it (tape/constant.h). */
+/* A number, as a tape has it (expr/constant.h). */
 typedef struct {
     double value, low; /* the double, what it is beyond */
     signed char side;

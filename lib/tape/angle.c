@@ -1,8 +1,8 @@
 /* angle.c -- base angles, chosen by counted cost. */
 #include "tape/angle.h"
 
+#include "expr/constant.h"
 #include "expr/rational.h"
-#include "tape/constant.h"
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 

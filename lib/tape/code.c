@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "tape/constant.h"
+#include "expr/constant.h"
 
 const qdot_operation qdot_operations[QDOT_OP_COUNT] = {
 #define X(ID, name, operands, operations, calls, statement, ...)                         \

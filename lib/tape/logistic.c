@@ -2,8 +2,8 @@
 #include "tape/logistic.h"
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
-#include "tape/constant.h"
 
 enum { MOST = 8 }; /* factors of one product that are treated */
 

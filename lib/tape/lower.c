@@ -1,11 +1,11 @@
 /* lower.c -- lowers the DAG to code: sums, products, functions, node by node. */
 #include <string.h>
 
+#include "expr/constant.h"
 #include "expr/rational.h"
 #include "expr/walk.h"
 #include "tape/angle.h"
 #include "tape/code.h"
-#include "tape/constant.h"
 #include "tape/logistic.h"
 #include "tape/tape.h"
 

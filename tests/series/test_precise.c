@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
-#include "tape/constant.h"
+#include "expr/constant.h"
 #include "series/precise.h"
 
 enum { ORDERS = 6, BITS = 320 };

@@ -9,12 +9,12 @@
 #include "base/number-text.h"
 #include "base/sink.h"
 #include "base/terminal.h"
+#include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "lang/session/value-kind.h"
 #include "lang/source/source.h"
 
 /* A code for a colour of answers, "" where none is shown. */

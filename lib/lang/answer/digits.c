@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "tape/constant.h"
 
 int
 qdot_digits_of(qdot_session *session, qdot_expr e)

@@ -4,15 +4,16 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/components.h"
+#include "lang/commands/statement.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/scene-file.h"
-#include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/function.h"
@@ -20,7 +21,6 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "lang/session/value-kind.h"
 #include "normal/refute/constant.h"
 
 /* --- expressions -------------------------------------------------------------------- */

@@ -1,12 +1,12 @@
 /* print.c -- `print`: expressions and texts in one line. */
 #include "base/number-text.h"
+#include "expr/value-kind.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/formula.h"
 #include "lang/ask/ask.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "lang/session/value-kind.h"
 #include "lang/syntax/record.h"
 
 static qdot_status print_line(qdot_record *r);

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
+#include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
 #include "lang/functions/algebra.h"
@@ -18,7 +19,6 @@
 #include "lang/session/labels.h"
 #include "lang/session/member.h"
 #include "lang/session/range.h"
-#include "lang/session/value-kind.h"
 #include "mech/study/geometry.h"
 #include "mech/study/hamilton.h"
 

@@ -2,8 +2,8 @@
 #include "lang/functions/entry.h"
 
 #include "expr/tensor.h"
+#include "expr/value-kind.h"
 #include "lang/session/bind.h"
-#include "lang/session/value-kind.h"
 
 qdot_status
 qdot_entry_name(qdot_session *session, const char *name, uint32_t n,

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/value-kind.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
-#include "lang/session/value-kind.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 #include "mech/study/noether.h"

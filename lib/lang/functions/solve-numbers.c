@@ -7,20 +7,20 @@
 #include "base/number-text.h"
 #include "base/text.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/list.h"
+#include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
 #include "normal/refute/enclosure.h"
 #include "normal/solve/solve.h"
 #include "normal/solve/zeros.h"
 #include "num/lu.h"
-#include "tape/constant.h"
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, DIGITS = 17 };
 

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/quantity.h"
@@ -12,7 +13,6 @@
 #include "lang/session/along.h"
 #include "lang/session/member.h"
 #include "lang/session/range.h"
-#include "lang/session/value-kind.h"
 
 /* Functions that differentiate or solve: a value along a run would count as a constant. */
 static const char *const of_formulas[] = {

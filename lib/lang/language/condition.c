@@ -2,8 +2,8 @@
 #include "lang/language/condition.h"
 
 #include "expr/tensor.h"
+#include "expr/value-kind.h"
 #include "expr/walk.h"
-#include "lang/session/value-kind.h"
 
 qdot_status
 qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a, qdot_expr b,

@@ -3,6 +3,7 @@
 
 #include "base/interrupt.h"
 #include "expr/tensor.h"
+#include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/quantity.h"
@@ -12,7 +13,6 @@
 #include "lang/session/bind.h"
 #include "lang/session/event-time.h"
 #include "lang/session/range.h"
-#include "lang/session/value-kind.h"
 #include "lang/source/lex.h"
 
 /* --- sums and products -------------------------------------------------------------- */

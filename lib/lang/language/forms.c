@@ -3,11 +3,11 @@
 
 #include "base/interrupt.h"
 #include "expr/tensor.h"
-#include "lang/language/closed-sum.h"
+#include "expr/value-kind.h"
 #include "lang/language/condition.h"
 #include "lang/language/partial-sum.h"
 #include "lang/session/bind.h"
-#include "lang/session/value-kind.h"
+#include "normal/calculus/closed-sum.h"
 
 /* Bind the next k, or end the sum. */
 static qdot_status

@@ -7,11 +7,11 @@
 #include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
+#include "expr/value-kind.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/formals.h"
 #include "lang/language/token-text.h"
 #include "lang/session/member.h"
-#include "lang/session/value-kind.h"
 #include "lang/source/source.h"
 #include "normal/prove/decide.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/value-kind.h"
 #include "lang/session/member.h"
-#include "lang/session/value-kind.h"
 
 qdot_status
 qdot_machine_push(qdot_machine *m, qdot_expr value)

@@ -4,14 +4,14 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "lang/language/hints.h"
+#include "expr/value-kind.h"
 #include "lang/language/compiled.h"
+#include "lang/language/hints.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
-#include "lang/session/value-kind.h"
 
 /* --- programs ------------------------------------------------------------------------ */
 

@@ -9,6 +9,7 @@
 #include "base/utf8.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
+#include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/short-names.h"
@@ -16,7 +17,6 @@
 #include "lang/language/hints.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
-#include "lang/session/value-kind.h"
 #include "lang/source/letters.h"
 
 bool

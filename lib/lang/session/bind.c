@@ -6,10 +6,10 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
+#include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/session/member.h"
-#include "lang/session/value-kind.h"
-#include "tape/constant.h"
 #include "tape/tape.h"
 
 /* --- values of parameters and functions --------------------------------------------- */
@@ -206,7 +206,7 @@ qdot_session_number(qdot_session *session, qdot_expr e, double *value, double *e
     QDOT_TRY(not_a_number(session, e));
     QDOT_TRY(qdot_member_refuse(session, e));
     QDOT_TRY(find_measured(session, e, &n, &list));
-    status = n == 0 ? qdot_tape_constant(session->pool, e, value)
+    status = n == 0 ? qdot_constant_double(session->pool, e, value)
                     : measured_evaluate(session, e, n, list, value, &own_error);
     qdot_free(list);
     QDOT_TRY(status);

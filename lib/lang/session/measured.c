@@ -5,8 +5,8 @@
 
 #include "base/text.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
-#include "tape/constant.h"
 
 qdot_expr
 qdot_measured_rational(qdot_pool *pool, double x)

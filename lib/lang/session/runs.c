@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/constant.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
-#include "tape/constant.h"
 #include "tape/tape.h"
 
 qdot_status
@@ -218,7 +218,7 @@ measure_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *c
         status = qdot_run_exact_values(run, n, columns->at, time, exact, errors);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         m[i] = (qdot_measured){.error = errors[i], .digits = digits, .exact = exact[i]};
-        status = qdot_tape_constant(session->pool, exact[i], &m[i].value);
+        status = qdot_constant_double(session->pool, exact[i], &m[i].value);
     }
     qdot_free(errors);
     qdot_free(exact);

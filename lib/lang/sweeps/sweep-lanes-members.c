@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "sim/model/substitute.h"
 #include "sim/ensemble/path.h"
-#include "tape/constant.h"
+#include "sim/model/substitute.h"
 
 /* A member with more steps is run alone, which may do better. */
 enum { MOST_STEPS = 20000 };
@@ -378,9 +378,9 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
     if (status == QDOT_OK && x->varied.n > 0)
         status = qdot_request_masses(session, &request);
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
-        status = qdot_tape_constant(session->pool, request.request.q0[i], &y[i]);
+        status = qdot_constant_double(session->pool, request.request.q0[i], &y[i]);
         if (status == QDOT_OK)
-            status = qdot_tape_constant(session->pool, request.request.v0[i], &y[x->n + i]);
+            status = qdot_constant_double(session->pool, request.request.v0[i], &y[x->n + i]);
     }
     for (size_t i = 0; i < x->varied.n; i++)
         parameters[i] = swept[x->axis.at[i]];

@@ -7,12 +7,12 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "normal/prove/decide.h"
-#include "sim/model/substitute.h"
-#include "sim/study/floquet.h"
 #include "sim/branches/orbit-period.h"
 #include "sim/branches/orbit-shape.h"
-#include "tape/constant.h"
+#include "sim/model/substitute.h"
+#include "sim/study/floquet.h"
 #include "tape/derivative.h"
 
 /* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
@@ -539,7 +539,7 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     *x = (qdot_orbit_path){.of = *of, .n = of->scene->coordinates.n};
     x->phase = 2 * x->n;
     QDOT_TRY(orbit_check(x));
-    QDOT_TRY(qdot_tape_constant(of->scene->pool, of->request->t0, &x->t0));
+    QDOT_TRY(qdot_constant_double(of->scene->pool, of->request->t0, &x->t0));
     if (x->driven)
         QDOT_TRY(make_period(x));
     QDOT_TRY(make_flows(x));

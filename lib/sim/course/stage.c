@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"
@@ -11,7 +12,6 @@
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
-#include "tape/constant.h"
 
 static void
 free_mode(qdot_mode *m)
@@ -361,7 +361,7 @@ runs_back(const qdot_stage *s, bool *back)
         const qdot_expr e = qdot_substitute(s->scene->pool, ends[k], r->n_values, r->symbols, r->values);
 
         QDOT_TRY(qdot_pool_check(s->scene->pool));
-        QDOT_TRY(qdot_tape_constant(s->scene->pool, e, &t[k]));
+        QDOT_TRY(qdot_constant_double(s->scene->pool, e, &t[k]));
     }
     *back = t[1] < t[0];
     return QDOT_OK;
@@ -380,7 +380,7 @@ start_numbers(const qdot_stage *s, double *t, double *y)
 
         e = qdot_substitute(pool, e, r->n_values, r->symbols, r->values);
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(qdot_tape_constant(pool, e, k == 2 * n ? t : &y[k]));
+        QDOT_TRY(qdot_constant_double(pool, e, k == 2 * n ? t : &y[k]));
     }
     return QDOT_OK;
 }
@@ -419,7 +419,7 @@ start_sides(qdot_stage *s, const double *settled, long *side)
     qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
 
     if (status == QDOT_OK && s->modes.n == 0)
-        status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
+        status = qdot_constant_double(s->scene->pool, s->request->t1, &t1);
     if (status == QDOT_OK && s->modes.n == 0)
         status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)), tol_of_series(s->request));
     if (status == QDOT_OK && s->modes.n == 0)
@@ -440,7 +440,7 @@ start_pucks(qdot_stage *s, const double *settled)
     qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
+        status = qdot_constant_double(s->scene->pool, s->request->t1, &t1);
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * s->n * sizeof *y);
     if (status == QDOT_OK)

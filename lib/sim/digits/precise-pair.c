@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "tape/constant.h"
+#include "expr/constant.h"
 
 qdot_status
 qdot_precise_constant(const qdot_plan *plan, qdot_expr e, mpfr_ptr x)

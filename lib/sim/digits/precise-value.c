@@ -3,12 +3,12 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/constant.h"
 #include "expr/print.h"
 #include "sim/course/reader.h"
 #include "sim/digits/precise-pair.h"
 #include "sim/digits/precise.h"
 #include "sim/model/sliding.h"
-#include "tape/constant.h"
 
 #define RN MPFR_RNDN
 

@@ -8,12 +8,12 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "expr/constant.h"
 #include "sim/digits/precise-course.h"
 #include "sim/digits/precise-hold.h"
 #include "sim/digits/precise-start.h"
 #include "sim/model/constraints.h"
 #include "sim/plan/cost.h"
-#include "tape/constant.h"
 
 #define RN MPFR_RNDN
 

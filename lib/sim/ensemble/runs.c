@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/constant.h"
 #include "ode/companion.h"
+#include "sim/ensemble/parts.h"
 #include "sim/model/constrained.h"
 #include "sim/model/parameter-states.h"
-#include "sim/ensemble/parts.h"
-#include "tape/constant.h"
 #include "tape/shake.h"
 
 static void

@@ -3,10 +3,10 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 #include "sim/model/switch.h"
-#include "tape/constant.h"
 
 /* Beyond it the inverse of M takes more than it saves. */
 enum { most_coordinates = 6, most_coupled = 2 };

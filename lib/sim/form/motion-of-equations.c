@@ -2,8 +2,8 @@
 #include "sim/form/motion-of-equations.h"
 
 #include "base/memory.h"
+#include "expr/constant.h"
 #include "sim/model/constraints.h"
-#include "tape/constant.h"
 
 /* Unknowns by number: q'' of the coordinates, then those of the constraints. */
 typedef struct {

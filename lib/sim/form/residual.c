@@ -4,12 +4,12 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
-#include "sim/form/blocks.h"
-#include "tape/constant.h"
 #include "series/program.h"
 #include "series/taylor.h"
+#include "sim/form/blocks.h"
 #include "tape/keymap.h"
 #include "tape/rounding.h"
 

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/constant.h"
 #include "expr/print.h"
 #include "sim/model/parameter-states.h"
-#include "tape/constant.h"
 
 void
 qdot_domains_clear(qdot_domains *d)
@@ -60,7 +60,7 @@ bound(const qdot_plan *p, const char *name, qdot_expr e, double none, double *va
                   name);
         return qdot_hint("an event that stops the run, with the bound in it");
     }
-    return qdot_tape_constant(p->pool, e, value);
+    return qdot_constant_double(p->pool, e, value);
 }
 
 qdot_status

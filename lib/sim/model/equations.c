@@ -2,9 +2,9 @@
 #include "sim/model/equations.h"
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "sim/model/quotient.h"
 #include "sim/model/substitute.h"
-#include "tape/constant.h"
 #include "tape/rounding.h"
 
 size_t

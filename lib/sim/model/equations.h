@@ -169,7 +169,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_lower_for_series(qdot_plan *plan);
 /* The number of inputs: 3n + 1 + m + n_sides. */
 size_t qdot_plan_inputs(const qdot_plan *plan);
 
-/* The value of the constant e with parameter values (tape/constant.h): the nearest double, the
+/* The value of the constant e with parameter values (expr/constant.h): the nearest double, the
  * sign of the exact value less it, and the difference. */
 QDOT_MUST_CHECK qdot_status qdot_plan_number(const qdot_plan *plan, qdot_expr e,
                                              double *value, int *side, double *low);

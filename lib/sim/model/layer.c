@@ -3,8 +3,8 @@
 
 #include <math.h>
 
+#include "expr/constant.h"
 #include "expr/walk.h"
-#include "tape/constant.h"
 
 /* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
 static const double passage = 0x1p-42;
@@ -44,7 +44,7 @@ qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, doub
 
     return (qdot_expr_node(pool, exponent)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0 &&
            !qdot_expr_to_int(pool, exponent, &whole) &&
-           qdot_tape_constant((qdot_pool *)pool, exponent, p) == QDOT_OK;
+           qdot_constant_double((qdot_pool *)pool, exponent, p) == QDOT_OK;
 }
 
 static void

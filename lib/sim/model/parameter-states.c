@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/print.h"
 #include "expr/walk.h"
-#include "tape/constant.h"
 
 /* --- the request ---------------------------------------------------------------------- */
 

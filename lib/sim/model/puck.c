@@ -4,11 +4,11 @@
 #include <stdio.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/solve/linear.h"
 #include "sim/model/substitute.h"
-#include "tape/constant.h"
 
 /* --- finding ------------------------------------------------------------------------- */
 
@@ -99,7 +99,7 @@ find_follow(qdot_pool *pool, qdot_puck *puck)
             const qdot_expr slope = qdot_diff(pool, puck->to[j], puck->symbol[a]);
 
             QDOT_TRY(qdot_pool_check(pool));
-            QDOT_TRY(qdot_tape_constant(pool, slope, &puck->follow[j][a]));
+            QDOT_TRY(qdot_constant_double(pool, slope, &puck->follow[j][a]));
         }
     return QDOT_OK;
 }

@@ -4,10 +4,10 @@
 #include <math.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/walk.h"
 #include "sim/model/simple-zeros.h"
-#include "tape/constant.h"
 
 static bool
 jumps(const qdot_pool *pool, qdot_expr e)
@@ -67,10 +67,10 @@ of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr k, qdot
 
     if (!qdot_constant_is(pool, b))
         return QDOT_OK;
-    QDOT_TRY(qdot_tape_constant(pool, b, &period));
+    QDOT_TRY(qdot_constant_double(pool, b, &period));
     if (period == 0)
         return QDOT_OK;
-    QDOT_TRY(qdot_tape_constant(pool, qdot_div(pool, k, b), &part));
+    QDOT_TRY(qdot_constant_double(pool, qdot_div(pool, k, b), &part));
     if (!(part >= 0 && part < 1)) { /* none; where k is b it comes as near as one likes */
         out->u = QDOT_ONE;
         return QDOT_OK;
@@ -87,7 +87,7 @@ of_floor(qdot_pool *pool, qdot_expr a, qdot_expr c, qdot_expr k, qdot_repeated *
     qdot_expr ends[] = {over, QDOT_ZERO}, beyond[] = {qdot_sub(pool, over, QDOT_ONE), QDOT_ZERO};
     double n;
 
-    QDOT_TRY(qdot_tape_constant(pool, k, &n));
+    QDOT_TRY(qdot_constant_double(pool, k, &n));
     if (n != floor(n)) { /* none */
         out->u = QDOT_ONE;
         return QDOT_OK;
@@ -103,12 +103,12 @@ of_angle(qdot_pool *pool, qdot_expr y, qdot_expr x, qdot_expr c, qdot_expr k, qd
     double angle, forward;
     int side;
 
-    QDOT_TRY(qdot_tape_constant(pool, c, &forward));
+    QDOT_TRY(qdot_constant_double(pool, c, &forward));
     QDOT_TRY(qdot_constant_round(pool, qdot_sub(pool, k, QDOT_PI), &angle, &side));
     out->touches = angle == 0;
     if (angle > 0)
         out->u = QDOT_ONE;
-    QDOT_TRY(qdot_tape_constant(pool, qdot_add(pool, k, QDOT_PI), &angle));
+    QDOT_TRY(qdot_constant_double(pool, qdot_add(pool, k, QDOT_PI), &angle));
     if (angle <= 0)
         out->u = QDOT_ONE;
     if (out->u == QDOT_ONE)

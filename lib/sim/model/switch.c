@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
@@ -13,7 +14,6 @@
 #include "mech/dynamics/quantity.h"
 #include "sim/model/layer.h"
 #include "sim/model/substitute.h"
-#include "tape/constant.h"
 
 void
 qdot_switches_clear(qdot_switches *s)
@@ -223,7 +223,7 @@ vanishes_in_time(qdot_pool *pool, const qdot_run_request *request, qdot_expr bas
     ends[0] = qdot_subs(pool, base, 1, &now, &request->t0);
     ends[1] = qdot_subs(pool, base, 1, &now, &request->t1);
     for (size_t k = 0; k < 2; k++)
-        if (ends[k] == QDOT_NIL || qdot_tape_constant(pool, ends[k], &at[k]) != QDOT_OK)
+        if (ends[k] == QDOT_NIL || qdot_constant_double(pool, ends[k], &at[k]) != QDOT_OK)
             return false;
     return at[0] * at[1] <= 0;
 }

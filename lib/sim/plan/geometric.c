@@ -1,9 +1,9 @@
 /* geometric.c -- looks whether momenta are q' times constants, and forces free of q'. */
 #include "sim/plan/geometric.h"
 
+#include "expr/constant.h"
 #include "ode/geometric/geometric.h"
 #include "sim/form/phase-space.h"
-#include "tape/constant.h"
 
 /* The first coordinate whose row of M is no row of numbers; n: none. */
 static size_t

@@ -6,13 +6,13 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"
+#include "series/program.h"
 #include "sim/form/derived.h"
 #include "sim/plan/cost.h"
 #include "sim/plan/form.h"
-#include "series/program.h"
-#include "tape/constant.h"
 
 /* Longer expressions than this many operations are not simplified. */
 enum { SHORT = 120, SHORT_ENTRY = 60 };
@@ -433,7 +433,7 @@ find_start(routh *e, const qdot_plan *r, double *in)
 
         x = qdot_plan_substitute(e->p, x);
         QDOT_TRY(qdot_pool_check(e->pool));
-        QDOT_TRY(qdot_tape_constant(e->pool, x, &in[i]));
+        QDOT_TRY(qdot_constant_double(e->pool, x, &in[i]));
     }
     work = qdot_calloc(qdot_tape_work(r->momenta) + 1, sizeof *work);
     if (!work)

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "sim/model/substitute.h"
-#include "tape/constant.h"
 
 qdot_expr
 qdot_chart_at_start(const qdot_scene *s, const qdot_run_request *request, qdot_expr e)
@@ -25,7 +25,7 @@ qdot_status
 qdot_chart_start_sign(const qdot_scene *s, const qdot_run_request *request, qdot_expr e,
                 int *sign, double *value)
 {
-    QDOT_TRY(qdot_tape_constant(s->pool, qdot_chart_at_start(s, request, e), value));
+    QDOT_TRY(qdot_constant_double(s->pool, qdot_chart_at_start(s, request, e), value));
     *sign = *value < 0 ? -1 : 1;
     return QDOT_OK;
 }
@@ -36,7 +36,7 @@ find_angles(const qdot_run_request *request, qdot_run_chart *x)
     const qdot_chart *c = &x->chart;
 
     for (size_t i = 0; i < c->moved.n; i++) {
-        const qdot_status status = qdot_tape_constant(
+        const qdot_status status = qdot_constant_double(
             c->of->pool, qdot_chart_at_start(c->of, request, c->moved.at[i].given), x->angles + i);
 
         if (status == QDOT_EDOMAIN)

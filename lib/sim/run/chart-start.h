@@ -9,7 +9,7 @@
 qdot_expr qdot_chart_at_start(const qdot_scene *s, const qdot_run_request *request,
                               qdot_expr e);
 
-/* The value of e there, and its sign, 1 or -1. Errors: as qdot_tape_constant. */
+/* The value of e there, and its sign, 1 or -1. Errors: as qdot_constant_double. */
 QDOT_MUST_CHECK qdot_status qdot_chart_start_sign(const qdot_scene *s,
                                             const qdot_run_request *request, qdot_expr e,
                                             int *sign, double *value);

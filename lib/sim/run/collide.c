@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/print.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
@@ -12,10 +13,9 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/linear.h"
 #include "sim/error/horizon.h"
+#include "sim/model/substitute.h"
 #include "sim/run/chart-run.h"
 #include "sim/run/chart-start.h"
-#include "sim/model/substitute.h"
-#include "tape/constant.h"
 
 /* A run came near if R falls below so much of its largest value; one that arrived, if it was nearly
  * a collision. */
@@ -263,7 +263,7 @@ find_scales(const ground *g, attempt *a)
     double *s = a->scales, fast = sqrt(a->k), speed, energy;
 
     for (size_t i = 0; i < 2 * n; i++) {
-        QDOT_TRY(qdot_tape_constant(c->pool, a->start[i], s + i));
+        QDOT_TRY(qdot_constant_double(c->pool, a->start[i], s + i));
         s[i] = fabs(s[i]);
     }
     for (size_t i = 0; i < m; i++)
@@ -335,11 +335,11 @@ attempt_prepare(const ground *g, attempt *a)
         a->start[i] = at_start(g, c->q0.at[i]);
         a->start[a->n + i] = at_start(g, c->v0.at[i]);
     }
-    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t0, &t0));
-    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t1, &t1));
-    QDOT_TRY(qdot_tape_constant(c->pool, c->strength, &a->k));
+    QDOT_TRY(qdot_constant_double(c->pool, g->request->t0, &t0));
+    QDOT_TRY(qdot_constant_double(c->pool, g->request->t1, &t1));
+    QDOT_TRY(qdot_constant_double(c->pool, c->strength, &a->k));
     a->T = t1 - t0;
-    return qdot_tape_constant(c->pool, at_start(g, c->pair.distance), &a->R);
+    return qdot_constant_double(c->pool, at_start(g, c->pair.distance), &a->R);
 }
 
 static qdot_status
@@ -455,8 +455,8 @@ put_in_time(const ground *g, qdot_run *run)
         clock++;
     while (strcmp(run->stage.events.at[end].name, at_end) != 0)
         end++;
-    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t0, &run->t0));
-    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t1, &run->t1));
+    QDOT_TRY(qdot_constant_double(c->pool, g->request->t0, &run->t0));
+    QDOT_TRY(qdot_constant_double(c->pool, g->request->t1, &run->t1));
     QDOT_TRY(time_of(run, clock, &r->horizon));
     QDOT_TRY(time_of(run, clock, &r->standstill));
     QDOT_TRY(time_course(&run->course, clock, end, run->t1));

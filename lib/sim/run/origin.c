@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
-#include "tape/constant.h"
 
 /* Times so many lengths of the run away from 0 are counted from its start. */
 static const double far = 1024;

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "normal/refute/ball.h"
-#include "tape/constant.h"
 
 enum { MOST_REFINEMENTS = 150 };
 

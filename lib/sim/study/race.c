@@ -7,10 +7,10 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "mech/coordinates/minimal.h"
 #include "sim/course/run-state.h"
 #include "sim/model/substitute.h"
-#include "tape/constant.h"
 
 static const double reference_tol = 1e-15;
 static const double ladder[QDOT_RACE_TOLERANCES] = {1e-4,  1e-6,  1e-8,

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "sim/course/course.h"
 #include "sim/course/reader.h"
 #include "sim/model/massless.h"
@@ -15,7 +16,6 @@
 #include "sim/study/method-run.h"
 #include "sim/study/tangents.h"
 #include "sim/study/variation.h"
-#include "tape/constant.h"
 
 struct qdot_response {
     qdot_response_of of;
@@ -461,7 +461,7 @@ qdot_response_new(const qdot_response_of *of, qdot_response **out)
     if (status == QDOT_OK)
         status = lower_start(r);
     if (status == QDOT_OK)
-        status = qdot_tape_constant(r->pool, of->request->t0, &r->t0);
+        status = qdot_constant_double(r->pool, of->request->t0, &r->t0);
     if (status == QDOT_OK && r->once)
         status = qdot_tangents_begin(&r->tangents, of->scene, of->request, r->n_parameters, r->parameters);
     return status;

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/constant.h"
 #include "expr/walk.h"
 #include "num/zero.h"
-#include "tape/constant.h"
 #include "tape/derivative.h"
 
 /* How much may grow what the states between are first taken from. */
@@ -307,7 +307,7 @@ shooting_begin(shooting *x, const double *u)
             x->place[p++] = k;
         }
     QDOT_TRY(shooting_lower(x));
-    QDOT_TRY(qdot_tape_constant(s->pool, of->request->t0, &x->t0));
+    QDOT_TRY(qdot_constant_double(s->pool, of->request->t0, &x->t0));
     embed(x, u);
     for (size_t i = 0; i < p; i++)
         x->p[i] = u[x->place[i]];

@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "mech/dynamics/integrated.h"
 #include "sim/model/massless-jump.h"
-#include "tape/constant.h"
 
 /* A value of a start that is off by more has been moved. */
 static const double moved = 1e-9;
@@ -209,7 +209,7 @@ check_condition(const qdot_variation *v, qdot_expr e, size_t k)
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_expr_node(pool, e)->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY))
         return QDOT_OK;
-    QDOT_TRY(qdot_tape_constant(pool, e, &value));
+    QDOT_TRY(qdot_constant_double(pool, e, &value));
     return fabs(value) <= moved ? QDOT_OK : say_bound(v, k);
 }
 
@@ -329,7 +329,7 @@ qdot_variation_check_state(const qdot_variation *v, const double *y)
 
         if (!v->named[j] || i < v->n)
             continue;
-        QDOT_TRY(qdot_tape_constant(v->of->pool, v->start[j], &wanted));
+        QDOT_TRY(qdot_constant_double(v->of->pool, v->start[j], &wanted));
         if (!(fabs(y[j] - wanted) <= moved * fmax(1, fabs(wanted))))
             return say_bound(v, i / v->n - 1);
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "expr/constant.h"
 #include "num/sort.h"
 #include "ode/integrate.h"
 #include "ode/scale.h"
@@ -16,7 +17,6 @@
 #include "sim/model/constrained.h"
 #include "sim/model/parameter-states.h"
 #include "sim/study/method-run.h"
-#include "tape/constant.h"
 
 enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
 

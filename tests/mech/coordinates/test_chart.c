@@ -1,9 +1,9 @@
 /* Scenes in other coordinates: which there are, and that the motion is the same in them. */
 #include "mech/kit.h"
 
+#include "expr/constant.h"
 #include "mech/coordinates/chart.h"
 #include "mech/dynamics/quantity.h"
-#include "tape/constant.h"
 
 enum { MOST = 6 };
 
@@ -39,7 +39,7 @@ number(kit *k, const state *s, qdot_expr e)
     double x;
 
     must(
-        qdot_tape_constant(k->pool, qdot_subs(k->pool, e, 3 * s->n, s->from, s->to), &x));
+        qdot_constant_double(k->pool, qdot_subs(k->pool, e, 3 * s->n, s->from, s->to), &x));
     return x;
 }
 

@@ -1,9 +1,9 @@
 /* Scenes in which a collision is regular: which pairs there are, and that the motion is the same. */
 #include "mech/kit.h"
 
+#include "expr/constant.h"
 #include "mech/coordinates/collision.h"
 #include "mech/dynamics/quantity.h"
-#include "tape/constant.h"
 
 enum { MOST = 9, MANY = 24 };
 
@@ -48,7 +48,7 @@ number(const given *g, qdot_expr e)
 {
     double x;
 
-    must(qdot_tape_constant(g->k->pool,
+    must(qdot_constant_double(g->k->pool,
                             qdot_subs(g->k->pool, e, 2 * g->n + 1, g->from, g->to), &x));
     return x;
 }

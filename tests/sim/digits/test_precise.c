@@ -7,7 +7,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "tape/constant.h"
+#include "expr/constant.h"
 
 static qdot_run *
 run_digits(fixture *f, int digits)

@@ -1,5 +1,5 @@
 /* switch.c -- what switches at a point. */
-#include "lang/functions/switch.h"
+#include "normal/calculus/switch.h"
 
 #include "base/memory.h"
 #include "expr/calculus.h"

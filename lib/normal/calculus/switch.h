@@ -1,7 +1,7 @@
 /* switch.h -- finds functions that switch at a point: abs(x) at 0, floor(x) at 1, if(x > 0, ...)
  * at 0. */
-#ifndef QDOT_LANG_SWITCH_H
-#define QDOT_LANG_SWITCH_H
+#ifndef QDOT_NORMAL_SWITCH_H
+#define QDOT_NORMAL_SWITCH_H
 
 #include "normal/field/facts.h"
 

@@ -1,6 +1,6 @@
 /* value-kind.h -- checks the result of a constructor, and names kinds of values. */
-#ifndef QDOT_LANG_VALUE_KIND_H
-#define QDOT_LANG_VALUE_KIND_H
+#ifndef QDOT_EXPR_VALUE_KIND_H
+#define QDOT_EXPR_VALUE_KIND_H
 
 #include "expr/expr.h"
 

@@ -1,5 +1,5 @@
 /* value-kind.c -- what a constructor made, and what that is called. */
-#include "lang/session/value-kind.h"
+#include "expr/value-kind.h"
 
 qdot_status
 qdot_value_kind_check(qdot_pool *pool, qdot_expr value)

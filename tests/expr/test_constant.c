@@ -10,7 +10,7 @@
 
 #include <mpfr.h>
 
-#include "tape/constant.h"
+#include "expr/constant.h"
 #include "tape/tape.h"
 
 static double
@@ -18,7 +18,7 @@ constant(qdot_pool *pool, qdot_expr e)
 {
     double x;
 
-    if (qdot_tape_constant(pool, e, &x) != QDOT_OK)
+    if (qdot_constant_double(pool, e, &x) != QDOT_OK)
         fail_msg("%s", qdot_last_error()->message);
     return x;
 }
@@ -27,7 +27,7 @@ static qdot_status
 refused(qdot_pool *pool, qdot_expr e)
 {
     double x = 1;
-    qdot_status status = qdot_tape_constant(pool, e, &x);
+    qdot_status status = qdot_constant_double(pool, e, &x);
 
     assert_true(isnan(x) || status == QDOT_EDOMAIN);
     return status;

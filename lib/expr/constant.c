@@ -1,6 +1,6 @@
 /* constant.c -- a constant in balls (Arb) of growing precision until one double is
  * left. */
-#include "tape/constant.h"
+#include "expr/constant.h"
 
 #include <mpfr.h>
 #include <math.h>
@@ -581,7 +581,7 @@ qdot_constant_round(qdot_pool *pool, qdot_expr e, double *value, int *side)
 }
 
 qdot_status
-qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value)
+qdot_constant_double(qdot_pool *pool, qdot_expr e, double *value)
 {
     int side;
 

@@ -1,5 +1,5 @@
 /* closed-sum.c -- sums of very many terms by formula. */
-#include "lang/language/closed-sum.h"
+#include "normal/calculus/closed-sum.h"
 
 #include "base/memory.h"
 #include "expr/calculus.h"

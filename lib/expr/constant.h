@@ -1,9 +1,9 @@
 /* constant.h -- values of expressions without symbols, from balls, as doubles or MPFR numbers.
  *
- * Tests  tests/tape/test_constant.c
+ * Tests  tests/expr/test_constant.c
  */
-#ifndef QDOT_TAPE_CONSTANT_H
-#define QDOT_TAPE_CONSTANT_H
+#ifndef QDOT_EXPR_CONSTANT_H
+#define QDOT_EXPR_CONSTANT_H
 
 #include <mpfr.h>
 
@@ -14,7 +14,7 @@ bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
 
 /* One constant expression (no symbols) as a double, correctly rounded if 256 bits decide.
  * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
-QDOT_MUST_CHECK qdot_status qdot_tape_constant(qdot_pool *pool, qdot_expr e, double *value);
+QDOT_MUST_CHECK qdot_status qdot_constant_double(qdot_pool *pool, qdot_expr e, double *value);
 
 /* The same, and *side, the sign of the exact value less *value: -1, 0 or 1. */
 QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_constant_split(qdot_pool *pool, qdot_expr e,
 
 /* e rounded to the precision of x, to within a unit of its last bit, found in balls of growing
  * precision. A value that is 0 to eight times that precision is taken as 0. Errors: as
- * qdot_tape_constant. */
+ * qdot_constant_double. */
 QDOT_MUST_CHECK qdot_status qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x);
 
 /* x as an exact rational number; nil: not finite, or a failure of the pool. */

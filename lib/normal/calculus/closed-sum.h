@@ -6,8 +6,8 @@
  * and linear combinations of these with coefficients free of k. A symbolic rho is generic: not 1.
  * Tests: tests/script/solve/long-sums.lag, tests/bad/solve/sum-too-long.lag
  */
-#ifndef QDOT_LANG_CLOSED_SUM_H
-#define QDOT_LANG_CLOSED_SUM_H
+#ifndef QDOT_NORMAL_CLOSED_SUM_H
+#define QDOT_NORMAL_CLOSED_SUM_H
 
 #include "expr/expr.h"
 

@@ -1,0 +1,239 @@
+/* decimal.c -- constants by their digits, alone and beside symbols. */
+#include "normal/calculus/decimal.h"
+
+#include <float.h>
+#include <math.h>
+#include <mpfr.h>
+
+#include "base/text.h"
+#include "expr/constant.h"
+#include "expr/print.h"
+#include "expr/value-kind.h"
+#include "expr/walk.h"
+#include "normal/prove/decide.h"
+
+enum { LEAST_EXPONENT = -100000, PASSES = 4 };
+
+/* --- a constant ---------------------------------------------------------------------- */
+
+/* e, a constant, in x; 0 where that is proved. */
+static qdot_status
+real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
+{
+    qdot_decision seen = {.verdict = QDOT_UNDECIDED};
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_constant_real(pool, e, x));
+    if (!mpfr_zero_p(x) || e == QDOT_ZERO)
+        return QDOT_OK;
+    QDOT_TRY(qdot_decide_equal(pool, e, QDOT_ZERO, NULL, &seen));
+    if (seen.verdict == QDOT_PROVED)
+        return QDOT_OK;
+    status = qdot_print(pool, e, QDOT_PLAIN, &text);
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.120s%s could not be told from 0",
+                           qdot_text_str(&text), text.n > 120 ? "..." : "");
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* A bound of |x - text|; x itself may be off by |x| 2^(3 - its precision). */
+static double
+text_distance(mpfr_srcptr x, const char *text)
+{
+    double error;
+    mpfr_t y, slack;
+
+    mpfr_init2(y, mpfr_get_prec(x));
+    mpfr_init2(slack, 64);
+    mpfr_set_str(y, text, 10, MPFR_RNDN);
+    mpfr_sub(y, y, x, MPFR_RNDA);
+    mpfr_abs(y, y, MPFR_RNDU);
+    mpfr_mul_2si(slack, x, 3 - (long)mpfr_get_prec(x), MPFR_RNDA);
+    mpfr_abs(slack, slack, MPFR_RNDU);
+    mpfr_add(y, y, slack, MPFR_RNDU);
+    error = mpfr_get_d(y, MPFR_RNDU);
+    mpfr_clear(y);
+    mpfr_clear(slack);
+    return error;
+}
+
+/* x to so many digits, an exact number, and what that is off by. */
+static qdot_status
+round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *error)
+{
+    qdot_text text = {0};
+    mpfr_exp_t exponent;
+    char *d;
+    bool minus;
+
+    *error = 0;
+    *value = QDOT_ZERO;
+    if (mpfr_zero_p(x))
+        return QDOT_OK;
+    d = mpfr_get_str(NULL, &exponent, 10, (size_t)digits, x, MPFR_RNDN);
+    if (d == NULL)
+        return QDOT_ENOMEM;
+    minus = *d == '-';
+    qdot_text_format(&text, "%s0.%se%ld", minus ? "-" : "", d + minus, (long)exponent);
+    mpfr_free_str(d);
+    if (exponent > DBL_MAX_10_EXP || exponent < LEAST_EXPONENT) {
+        qdot_text_clear(&text);
+        return qdot_fail(QDOT_ELIMIT, "a number near 10^%ld is not written in digits",
+                         (long)exponent - 1);
+    }
+    *value = QDOT_NIL;
+    if (qdot_text_status(&text) == QDOT_OK) {
+        *error = text_distance(x, qdot_text_str(&text));
+        *value = qdot_expr_decimal(pool, qdot_text_str(&text) + minus, text.n - minus);
+    }
+    if (minus && *value != QDOT_NIL)
+        *value = qdot_neg(pool, *value);
+    qdot_text_clear(&text);
+    return qdot_value_kind_check(pool, *value);
+}
+
+qdot_status
+qdot_decimal(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value, double *error)
+{
+    qdot_status status;
+    mpfr_t x;
+
+    mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
+    status = real_of(pool, e, x);
+    if (status == QDOT_OK)
+        status = round_to(pool, x, digits, value, error);
+    if (status == QDOT_OK && *value == e)
+        *error = 0;
+    mpfr_clear(x);
+    return status;
+}
+
+/* --- beside symbols ------------------------------------------------------------------ */
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_walk *walk; /* the value of a node: with decimals for what is constant */
+    int digits;
+} writer;
+
+static qdot_expr
+known(const writer *w, qdot_expr e)
+{
+    return (qdot_expr)qdot_walk_get(w->walk, e);
+}
+
+static bool
+is_number(const writer *w, qdot_expr e)
+{
+    return qdot_expr_is_scalar(w->pool, e) && qdot_constant_is(w->pool, e) &&
+           e != QDOT_TRUE && e != QDOT_FALSE;
+}
+
+static qdot_status
+written(const writer *w, qdot_expr e, qdot_expr *value)
+{
+    double error;
+
+    QDOT_TRY(qdot_value_kind_check(w->pool, e));
+    return qdot_decimal(w->pool, e, w->digits, value, &error);
+}
+
+/* c e, e a product or none: what is constant of it as one number. */
+static qdot_status
+product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
+{
+    qdot_pool *pool = w->pool;
+    qdot_expr rest = QDOT_ONE;
+
+    if (qdot_expr_kind(pool, e) != QDOT_PROD) {
+        rest = known(w, e);
+    } else {
+        c = qdot_mul(pool, c, qdot_expr_arg(pool, e, 0));
+        for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+            qdot_expr b = qdot_expr_arg(pool, e, i), x = qdot_expr_arg(pool, e, i + 1);
+
+            if (is_number(w, b) && is_number(w, x))
+                c = qdot_mul(pool, c, qdot_pow(pool, b, x));
+            else
+                rest = qdot_mul(pool, rest,
+                                qdot_pow(pool, known(w, b),
+                                         qdot_expr_rational(pool, x) ? x : known(w, x)));
+        }
+    }
+    QDOT_TRY(written(w, c, &c));
+    *value = qdot_mul(pool, c, rest);
+    return QDOT_OK;
+}
+
+static qdot_status
+sum(const writer *w, qdot_expr e, qdot_expr *value)
+{
+    qdot_pool *pool = w->pool;
+    qdot_expr constant = qdot_expr_arg(pool, e, 0), term;
+
+    *value = QDOT_ZERO;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr t = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
+
+        if (is_number(w, t)) {
+            constant = qdot_add(pool, constant, qdot_mul(pool, c, t));
+            continue;
+        }
+        QDOT_TRY(product(w, c, t, &term));
+        *value = qdot_add(pool, *value, term);
+    }
+    QDOT_TRY(written(w, constant, &constant));
+    *value = qdot_add(pool, *value, constant);
+    return QDOT_OK;
+}
+
+static qdot_status
+node(const writer *w, qdot_expr e, qdot_expr *value)
+{
+    if (is_number(w, e))
+        return written(w, e, value);
+    switch (qdot_expr_kind(w->pool, e)) {
+    case QDOT_SUM: return sum(w, e, value);
+    case QDOT_PROD: return product(w, QDOT_ONE, e, value);
+    default: *value = qdot_walk_rebuild(w->pool, w->walk, e); return QDOT_OK;
+    }
+}
+
+/* e with decimals for all that is constant of it. */
+static qdot_status
+with_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
+{
+    qdot_walk walk;
+    writer w = {pool, &walk, digits};
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_walk_begin(pool, e, &walk));
+    for (size_t i = 0; i < walk.n && status == QDOT_OK; i++) {
+        qdot_expr to = QDOT_NIL;
+
+        status = node(&w, walk.at[i], &to);
+        if (status == QDOT_OK)
+            status = qdot_value_kind_check(pool, to);
+        qdot_walk_set(&walk, walk.at[i], to);
+    }
+    *value = status == QDOT_OK ? known(&w, e) : QDOT_NIL;
+    qdot_walk_end(&walk);
+    return status;
+}
+
+qdot_status
+qdot_decimals_beside_symbols(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
+{
+    *value = e;
+    /* again while that makes constants anew: sqrt(2.5*m) is written sqrt(2.5)*sqrt(m) */
+    for (int pass = 0; pass < PASSES; pass++) {
+        qdot_expr before = *value;
+
+        QDOT_TRY(with_decimals(pool, before, digits, value));
+        if (*value == before)
+            break;
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,590 @@
+/* series.c -- Taylor series in several symbols, also where a quotient is 0/0 at the point.
+ *
+ * In x = a + ray u, y = b + ray v ... a series in x, y is one in `ray`, whose coefficients are polynomials
+ * in u, v. Where all derivatives exist at ray = 0 they are the coefficients. Where one does not, sums,
+ * products, powers and functions are taken apart into Laurent series: sin(x)/x is (x - ...)/x. What then
+ * has a negative power or a coefficient that is no polynomial has no Taylor series, nor has
+ * what switches at the point: abs(x), floor(x), if(x > 0, ...).
+ *
+ * Source  powers by Miller's recurrence: Knuth, TAOCP 2, 4.7.
+ * Tests   tests/script/solve/series-removable.lag, tests/bad/definitions/series-none.sh
+ */
+#include "normal/calculus/series.h"
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/calculus.h"
+#include "expr/print.h"
+#include "expr/tensor.h"
+#include "expr/value-kind.h"
+#include "expr/walk.h"
+#include "normal/calculus/switch.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+
+/* Orders up to which a leading coefficient is looked for; nested parts that are taken apart. */
+enum { MOST_LEADING = 64, MOST_DEPTH = 100 };
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_facts facts;
+    qdot_expr ray;
+    size_t n;                                 /* of each of these: */
+    const qdot_expr *symbols;                 /* x */
+    qdot_vec(qdot_expr) places, steps, moves; /* a + ray u; u; x - a */
+    int depth;
+} course;
+
+/* sum c[i] ray^(least + i) */
+typedef struct {
+    long least;
+    qdot_vec(qdot_expr) c;
+} laurent;
+
+static qdot_status laurent_of(course *x, qdot_expr e, long most, laurent *s);
+
+/* --- answers ------------------------------------------------------------------------ */
+
+/* Whether the term is a product in which a sum holds one of the steps. */
+static bool
+is_nested(const course *x, qdot_expr term)
+{
+    for (uint32_t i = 1; qdot_expr_kind(x->pool, term) == QDOT_PROD &&
+                         i < qdot_expr_count(x->pool, term);
+         i += 2) {
+        qdot_expr base = qdot_expr_arg(x->pool, term, i);
+
+        for (size_t k = 0; qdot_expr_kind(x->pool, base) == QDOT_SUM && k < x->steps.n; k++)
+            if (qdot_expr_contains(x->pool, base, x->steps.at[k]))
+                return true;
+    }
+    return false;
+}
+
+/* Of one degree, its products of sums in u multiplied out. */
+static qdot_expr
+multiplied_out(const course *x, qdot_expr scalar)
+{
+    bool nested;
+
+    if (scalar == QDOT_NIL)
+        return scalar;
+    nested = is_nested(x, scalar);
+    for (uint32_t i = 1; qdot_expr_kind(x->pool, scalar) == QDOT_SUM && !nested &&
+                         i < qdot_expr_count(x->pool, scalar);
+         i += 2)
+        nested = is_nested(x, qdot_expr_arg(x->pool, scalar, i));
+    return nested ? qdot_expand(x->pool, scalar) : scalar;
+}
+
+/* e in the symbols of the series again. */
+static qdot_expr
+in_symbols(const course *x, qdot_expr e)
+{
+    const qdot_expr one = QDOT_ONE;
+
+    e = qdot_subs(x->pool, e, 1, &x->ray, &one);
+    return qdot_subs(x->pool, e, x->steps.n, x->steps.at, x->moves.at);
+}
+
+static qdot_status
+no_series(course *x, qdot_expr e, const char *why)
+{
+    qdot_text text = {0};
+    qdot_expr shown = in_symbols(x, e);
+    qdot_status status = qdot_pool_check(x->pool);
+
+    if (status == QDOT_OK)
+        status = qdot_print(x->pool, shown, QDOT_PLAIN, &text);
+    if (status == QDOT_OK || status == QDOT_EDOMAIN)
+        status = text.n > 0 && text.n < 100
+                     ? qdot_fail(QDOT_EDOMAIN, "`%s` has no Taylor series there: %s",
+                                 qdot_text_str(&text), why)
+                     : qdot_fail(QDOT_EDOMAIN, "there is no Taylor series there: %s", why);
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+check_switches(course *x, qdot_expr e)
+{
+    qdot_expr part;
+
+    QDOT_TRY(qdot_switch_find(x->pool, e, x->ray, &x->facts, &part));
+    return part == QDOT_NIL ? QDOT_OK
+                            : no_series(x, qdot_expr_is_scalar(x->pool, part) ? part : e,
+                                        "it switches at the point");
+}
+
+/* --- arithmetic of series ----------------------------------------------------------- */
+
+static qdot_expr
+coefficient(const laurent *s, long k)
+{
+    return k < s->least || k - s->least >= (long)s->c.n ? QDOT_ZERO : s->c.at[k - s->least];
+}
+
+static void
+laurent_drop(laurent *s)
+{
+    qdot_free(s->c.at);
+    *s = (laurent){0};
+}
+
+static qdot_status
+coefficient_shorten(course *x, qdot_expr *e)
+{
+    *e = qdot_simplify(x->pool, *e, &x->facts);
+    return qdot_value_kind_check(x->pool, *e);
+}
+
+/* Drop leading coefficients that are 0. */
+static void
+trim(course *x, laurent *s)
+{
+    size_t zeros = 0;
+
+    while (zeros < s->c.n && qdot_is_zero(x->pool, s->c.at[zeros], &x->facts))
+        zeros++;
+    for (size_t i = zeros; i < s->c.n; i++)
+        s->c.at[i - zeros] = s->c.at[i];
+    s->c.n -= zeros;
+    s->least += (long)zeros;
+}
+
+/* s <- s b up to ray^most. */
+static qdot_status
+multiply(course *x, laurent *s, const laurent *b, long most)
+{
+    laurent made = {.least = s->least + b->least};
+    qdot_status status = QDOT_OK;
+
+    for (long k = made.least; k <= most && status == QDOT_OK; k++) {
+        qdot_expr sum = QDOT_ZERO;
+
+        for (long i = s->least; i <= k - b->least; i++)
+            sum = qdot_add(x->pool, sum,
+                           qdot_mul(x->pool, coefficient(s, i), coefficient(b, k - i)));
+        status = qdot_value_kind_check(x->pool, sum);
+        if (status == QDOT_OK)
+            status = coefficient_shorten(x, &sum);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&made.c, sum);
+    }
+    laurent_drop(s);
+    *s = made;
+    return status;
+}
+
+/* b^q, b begins with what does not vanish; Miller: k b_0 a_k = sum_j (q j - k + j) b_j a_{k-j}. */
+static qdot_status
+laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
+{
+    qdot_pool *pool = x->pool;
+    qdot_expr a = qdot_pow(pool, b->c.at[0], q);
+
+    s->least = least;
+    for (long k = 0; k <= most - least; k++) {
+        if (k > 0) {
+            a = QDOT_ZERO;
+            for (long j = 1; j <= k; j++) {
+                qdot_expr weight = qdot_add(pool, qdot_mul(pool, q, qdot_expr_int(pool, j)),
+                                            qdot_expr_int(pool, j - k));
+
+                weight = qdot_mul(pool, weight, coefficient(b, b->least + j));
+                a = qdot_add(pool, a, qdot_mul(pool, weight, s->c.at[k - j]));
+            }
+            a = qdot_div(pool, a, qdot_mul(pool, qdot_expr_int(pool, k), b->c.at[0]));
+        }
+        QDOT_TRY(qdot_value_kind_check(pool, a));
+        QDOT_TRY(coefficient_shorten(x, &a));
+        QDOT_TRY(qdot_vec_push(&s->c, a));
+        QDOT_TRY(qdot_interrupt_check());
+    }
+    return QDOT_OK;
+}
+
+/* --- taken apart -------------------------------------------------------------------- */
+
+/* Whether 0^a stands in e, whose value depends on a. */
+static bool
+holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_walk w;
+    bool found = false;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !found; i++)
+        for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD &&
+                             k < qdot_expr_count(pool, w.at[i]);
+             k += 2)
+            found = found || qdot_expr_arg(pool, w.at[i], k) == QDOT_ZERO;
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* Coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN: one of them does not exist. */
+static qdot_status
+derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, laurent *s)
+{
+    s->least = 0;
+    for (long k = 0; k <= most; k++) {
+        qdot_expr c;
+
+        if (k > 0 && e != QDOT_ZERO)
+            e = qdot_div(x->pool, qdot_diff(x->pool, e, symbol), qdot_expr_int(x->pool, k));
+        QDOT_TRY(qdot_value_kind_check(x->pool, e));
+        c = multiplied_out(x, qdot_subs(x->pool, e, 1, &symbol, &at));
+        QDOT_TRY(qdot_value_kind_check(x->pool, c));
+        if (holds_power_of_zero(x->pool, c))
+            return QDOT_EDOMAIN;
+        QDOT_TRY(qdot_vec_push(&s->c, c));
+        QDOT_TRY(qdot_interrupt_check());
+    }
+    return QDOT_OK;
+}
+
+/* The order of the first term of e. */
+static qdot_status
+find_leading(course *x, qdot_expr e, long *least)
+{
+    for (long most = 4; most <= MOST_LEADING; most *= 2) {
+        laurent s = {0};
+        qdot_status status = laurent_of(x, e, most, &s);
+        bool found;
+
+        if (status == QDOT_OK)
+            trim(x, &s);
+        found = s.c.n > 0;
+        *least = s.least;
+        laurent_drop(&s);
+        QDOT_TRY(status);
+        if (found)
+            return QDOT_OK;
+    }
+    return no_series(x, e, "no term of it is known to differ from 0");
+}
+
+static qdot_status
+sum_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    const uint32_t n = qdot_expr_count(x->pool, e);
+    laurent *parts = qdot_calloc(n + 1, sizeof *parts);
+    long least = 0;
+    qdot_status status = parts == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        status = laurent_of(x, qdot_expr_arg(x->pool, e, i), most, &parts[i]);
+        least = parts[i].least < least ? parts[i].least : least;
+    }
+    s->least = least;
+    for (long k = least; k <= most && status == QDOT_OK; k++) {
+        qdot_expr sum = k == 0 ? qdot_expr_arg(x->pool, e, 0) : QDOT_ZERO;
+
+        for (uint32_t i = 1; i < n; i += 2)
+            sum = qdot_add(x->pool, sum,
+                           qdot_mul(x->pool, coefficient(&parts[i], k),
+                                    qdot_expr_arg(x->pool, e, i + 1)));
+        status = qdot_value_kind_check(x->pool, sum);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&s->c, sum);
+    }
+    for (uint32_t i = 0; parts != NULL && i < n; i++)
+        laurent_drop(&parts[i]);
+    qdot_free(parts);
+    return status;
+}
+
+/* base^q up to ray^most; base begins at ray^first. */
+static qdot_status
+power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
+{
+    laurent b = {0};
+    long times = 0;
+    qdot_status status;
+
+    if (qdot_expr_contains(x->pool, q, x->ray) ||
+        (first != 0 && !qdot_expr_to_int(x->pool, q, &times)))
+        return no_series(x, qdot_pow(x->pool, base, q), "it is no power series in the symbols");
+    if (times * first > most) {
+        s->least = most + 1;
+        return QDOT_OK;
+    }
+    status = laurent_of(x, base, first + most - times * first, &b);
+    if (status == QDOT_OK)
+        trim(x, &b);
+    if (status == QDOT_OK)
+        status = laurent_power(x, &b, q, times * first, most, s);
+    laurent_drop(&b);
+    return status;
+}
+
+static qdot_status
+product_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    qdot_pool *pool = x->pool;
+    const uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr outside = qdot_expr_arg(pool, e, 0);
+    long *first = qdot_calloc(n + 1, sizeof *first), total = 0, times;
+    qdot_status status = first == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
+
+        if (!qdot_expr_contains(pool, base, x->ray))
+            continue;
+        status = find_leading(x, base, &first[i]);
+        if (status == QDOT_OK && first[i] != 0 && qdot_expr_to_int(pool, q, &times))
+            total += times * first[i];
+    }
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
+
+        if (!qdot_expr_contains(pool, base, x->ray) && !qdot_expr_contains(pool, q, x->ray))
+            outside = qdot_mul(pool, outside, qdot_pow(pool, base, q));
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_kind_check(pool, outside);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&s->c, outside);
+    s->least = 0;
+    for (uint32_t i = 1; i < n && status == QDOT_OK; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i), q = qdot_expr_arg(pool, e, i + 1);
+        laurent part = {0};
+        long own = 0;
+
+        if (!qdot_expr_contains(pool, base, x->ray) && !qdot_expr_contains(pool, q, x->ray))
+            continue;
+        if (first[i] != 0 && qdot_expr_to_int(pool, q, &times))
+            own = times * first[i];
+        /* to the order that the others leave for it */
+        status = power_of(x, base, q, first[i], most - (total - own), &part);
+        if (status == QDOT_OK)
+            status = multiply(x, s, &part, most - total + s->least + own);
+        laurent_drop(&part);
+    }
+    qdot_free(first);
+    return status;
+}
+
+/* tan, cot, sec, csc as quotients of sine and cosine; e itself if it is none. */
+static qdot_expr
+as_quotient(qdot_pool *pool, qdot_expr e)
+{
+    const qdot_expr u = qdot_expr_arg(pool, e, 0);
+
+    switch ((qdot_fun_id)qdot_expr_node(pool, e)->op) {
+    case QDOT_TAN:
+        return qdot_div(pool, qdot_fun1(pool, QDOT_SIN, u), qdot_fun1(pool, QDOT_COS, u));
+    case QDOT_COT:
+        return qdot_div(pool, qdot_fun1(pool, QDOT_COS, u), qdot_fun1(pool, QDOT_SIN, u));
+    case QDOT_SEC: return qdot_div(pool, QDOT_ONE, qdot_fun1(pool, QDOT_COS, u));
+    case QDOT_CSC: return qdot_div(pool, QDOT_ONE, qdot_fun1(pool, QDOT_SIN, u));
+    default: return e;
+    }
+}
+
+/* f(a + h), h without a term of order 0. */
+static qdot_status
+function_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    qdot_pool *pool = x->pool;
+    const qdot_expr z = qdot_symbol_get(pool, QDOT_FORMAL, "a place");
+    const qdot_node *node = qdot_expr_node(pool, e);
+    laurent inner = {0}, outer = {0};
+    qdot_status status;
+
+    if (node->n != 1)
+        return no_series(x, e, "a derivative does not exist at the point");
+    const qdot_fun_id id = (qdot_fun_id)node->op;
+    if (as_quotient(pool, e) != e)
+        return laurent_of(x, as_quotient(pool, e), most, s);
+    status = laurent_of(x, qdot_expr_arg(pool, e, 0), most, &inner);
+    if (status == QDOT_OK)
+        trim(x, &inner);
+    if (status == QDOT_OK && inner.least < 0)
+        status = no_series(x, e, "its argument grows without bound at the point");
+    if (status == QDOT_OK &&
+        qdot_switch_at(x->pool, id, coefficient(&inner, 0), &x->facts))
+        status = no_series(x, e, "it switches at the point");
+    if (status == QDOT_OK) {
+        status = derivatives(x, qdot_fun1(pool, id, z), z, coefficient(&inner, 0), most, &outer);
+        if (status == QDOT_EDOMAIN)
+            status = no_series(x, e, "a derivative does not exist at the point");
+    }
+    if (status == QDOT_OK && inner.c.n > 0 && inner.least == 0) {
+        inner.c.at[0] = QDOT_ZERO;
+    }
+    s->least = 0;
+    for (long k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner */
+        if (s->c.n > 0)
+            status = multiply(x, s, &inner, most);
+        while (status == QDOT_OK && s->least > 0) { /* from order 0 on */
+            laurent whole = {0};
+
+            for (long i = 0; i < s->least + (long)s->c.n && status == QDOT_OK; i++)
+                status = qdot_vec_push(&whole.c, coefficient(s, i));
+            laurent_drop(s);
+            *s = whole;
+        }
+        if (status == QDOT_OK && s->c.n == 0)
+            status = qdot_vec_push(&s->c, QDOT_ZERO);
+        if (status == QDOT_OK)
+            s->c.at[0] = qdot_add(pool, s->c.at[0], coefficient(&outer, k));
+    }
+    laurent_drop(&inner);
+    laurent_drop(&outer);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* e up to ray^most. */
+static qdot_status
+laurent_of(course *x, qdot_expr e, long most, laurent *s)
+{
+    qdot_status status;
+
+    *s = (laurent){0};
+    QDOT_TRY(qdot_interrupt_check());
+    if (!qdot_expr_contains(x->pool, e, x->ray))
+        return qdot_vec_push(&s->c, e);
+    status = derivatives(x, e, x->ray, QDOT_ZERO, most > 0 ? most : 0, s);
+    if (status != QDOT_EDOMAIN)
+        return status;
+    laurent_drop(s);
+    if (x->depth >= MOST_DEPTH)
+        return no_series(x, e, "it is nested too deep");
+    x->depth++;
+    switch (qdot_expr_kind(x->pool, e)) {
+    case QDOT_SUM: status = sum_of(x, e, most, s); break;
+    case QDOT_PROD: status = product_of(x, e, most, s); break;
+    case QDOT_FUN: status = function_of(x, e, most, s); break;
+    default: status = no_series(x, e, "it is not defined at the point");
+    }
+    x->depth--;
+    return status;
+}
+
+/* --- the sum ------------------------------------------------------------------------ */
+
+/* Whether the bases that hold `step` have powers 1, 2, ... */
+static bool
+has_whole_powers(qdot_pool *pool, qdot_expr product, qdot_expr step)
+{
+    for (uint32_t j = 1; j < qdot_expr_node(pool, product)->n; j += 2) {
+        long times;
+
+        if (qdot_expr_contains(pool, qdot_expr_arg(pool, product, j), step) &&
+            (!qdot_expr_to_int(pool, qdot_expr_arg(pool, product, j + 1), &times) ||
+             times <= 0))
+            return false;
+    }
+    return true;
+}
+
+static bool
+is_polynomial(const course *x, qdot_expr e)
+{
+    qdot_walk w;
+    bool sound = qdot_walk_begin(x->pool, e, &w) == QDOT_OK;
+
+    for (size_t i = 0; i < w.n && sound; i++) {
+        const qdot_node *node = qdot_expr_node(x->pool, w.at[i]);
+
+        for (size_t k = 0; k < x->steps.n && sound; k++)
+            sound = node->kind == QDOT_FUN || node->kind == QDOT_UFUN
+                        ? !qdot_expr_contains(x->pool, w.at[i], x->steps.at[k])
+                        : node->kind != QDOT_PROD ||
+                              has_whole_powers(x->pool, w.at[i], x->steps.at[k]);
+    }
+    qdot_walk_end(&w);
+    return sound;
+}
+
+typedef struct {
+    course *x;
+    long most;
+} degree;
+
+/* A scalar's series, in u. */
+static qdot_expr
+sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
+{
+    const degree *d = user;
+    course *x = d->x;
+    laurent s = {0};
+    qdot_expr f = qdot_subs(pool, scalar, x->n, x->symbols, x->places.at), sum = QDOT_ZERO;
+    qdot_status status = qdot_value_kind_check(pool, f);
+
+    if (status == QDOT_OK)
+        status = check_switches(x, f);
+    if (status == QDOT_OK)
+        status = laurent_of(x, f, d->most, &s);
+    if (status == QDOT_OK)
+        for (long k = s.least; k < 0 && status == QDOT_OK; k++)
+            if (!qdot_is_zero(pool, coefficient(&s, k), &x->facts))
+                status = no_series(x, f, "it grows without bound at the point");
+    for (long k = 0; k <= d->most && status == QDOT_OK; k++) {
+        qdot_expr c = coefficient(&s, k);
+
+        if (!is_polynomial(x, c)) {
+            status = coefficient_shorten(x, &c);
+            if (status == QDOT_OK && !is_polynomial(x, c))
+                status = no_series(x, f, "its value depends on the way to the point");
+        }
+        sum = qdot_add(pool, sum, multiplied_out(x, c));
+    }
+    laurent_drop(&s);
+    return status == QDOT_OK ? sum : qdot_pool_fail(pool);
+}
+
+/* Fill places, steps and moves for the point `at`. */
+static qdot_status
+series_set_ways(course *x, const qdot_expr *at)
+{
+    qdot_pool *pool = x->pool;
+
+    for (size_t i = 0; i < x->n; i++) {
+        qdot_text name = {0};
+        qdot_status status;
+
+        qdot_text_format(&name, "ray %zu", i);
+        status = qdot_text_status(&name);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&x->steps, qdot_symbol_get(pool, QDOT_FORMAL, name.at));
+        qdot_text_clear(&name);
+        QDOT_TRY(status);
+        QDOT_TRY(qdot_vec_push(&x->moves, qdot_sub(pool, x->symbols[i], at[i])));
+        QDOT_TRY(qdot_vec_push(&x->places, qdot_add(pool, at[i],
+                                                    qdot_mul(pool, x->ray, x->steps.at[i]))));
+    }
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_series(qdot_pool *pool, const qdot_facts *facts, qdot_expr e, size_t n,
+            const qdot_expr *symbols, const qdot_expr *at, long most, qdot_expr *value)
+{
+    course x = {.pool = pool,
+                .facts = *facts,
+                .ray = qdot_symbol_get(pool, QDOT_FORMAL, "ray"),
+                .n = n,
+                .symbols = symbols};
+    degree d = {&x, most};
+    qdot_status status = series_set_ways(&x, at);
+
+    if (status == QDOT_OK) {
+        qdot_expr sum = qdot_value_map(pool, e, sum_along, &d);
+
+        status = qdot_value_kind_check(pool, sum);
+        if (status == QDOT_OK) {
+            *value = in_symbols(&x, sum);
+            status = qdot_value_kind_check(pool, *value);
+        }
+    }
+    qdot_free(x.places.at);
+    qdot_free(x.steps.at);
+    qdot_free(x.moves.at);
+    return status;
+}
