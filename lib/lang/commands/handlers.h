@@ -4,12 +4,7 @@
 
 #include "lang/language/cursor.h"
 
-qdot_status qdot_declare_param(qdot_cursor *c);
-qdot_status qdot_declare_coord(qdot_cursor *c);
-qdot_status qdot_declare_function(qdot_cursor *c);
-qdot_status qdot_declare_assume(qdot_cursor *c);
 qdot_status qdot_check(qdot_cursor *c);
-qdot_status qdot_set_values(qdot_cursor *c);
 qdot_status qdot_run_statement(qdot_cursor *c);
 qdot_status qdot_run_plan_statement(qdot_cursor *c);
 qdot_status qdot_table_statement(qdot_cursor *c);

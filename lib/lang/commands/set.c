@@ -5,12 +5,21 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
-#include "lang/language/formals.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+
+static qdot_status set_values(qdot_record *r);
+
+QDOT_STATEMENT(set) = {
+    .word = "set",
+    .group = QDOT_NUMBERS,
+    .usage = "set NAME = VALUE, F(ARGUMENTS) = EXPR, ...",
+    .summary = "values of parameters and of declared functions, for numbers",
+    .example = "set m = 1, L = 1",
+    .handler = set_values,
+};
 
 qdot_status
 qdot_set_unknown(const qdot_session *session, const char *what, const char *name)
@@ -78,6 +87,39 @@ qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
     return parameter_of(c, start, name, symbol);
 }
 
+/* p[q] */
+static qdot_status
+find_momentum(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
+{
+    qdot_pool *pool = r->cursor.session->pool;
+    const qdot_token *index = r->compiled.at[part->first].from;
+    const char *name;
+    qdot_expr q;
+
+    QDOT_TRY(qdot_record_bare_name(r, part, 0, &name));
+    if (name == NULL)
+        return qdot_record_expected(r, index, "a coordinate");
+    QDOT_TRY(qdot_read_jet_of(&r->cursor, index, name, 0, &q));
+    if (part->n > 1)
+        return qdot_record_expected(r, r->compiled.at[part->first].to, "`]`");
+    *symbol = qdot_symbol_of(pool, QDOT_MOMENTUM, q);
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_set_find_parameter(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
+{
+    const char *name;
+
+    if (is_momentum(r->cursor.session, part->from)) {
+        QDOT_TRY(find_momentum(r, part, symbol));
+    } else {
+        QDOT_TRY(qdot_record_name(r, part, &name));
+        QDOT_TRY(parameter_of(&r->cursor, part->from, name, symbol));
+    }
+    return qdot_record_no_prime(r, part, "`=`");
+}
+
 static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY |
                                QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER |
                                QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
@@ -120,45 +162,34 @@ in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr
     return qdot_pool_check(pool);
 }
 
-/* NAME(u, v) = BODY of a declared function. */
+/* F(u, v) = BODY of a declared function. */
 static qdot_status
-read_function(qdot_cursor *c, qdot_expr *symbol, qdot_expr *body)
+set_read_function(qdot_record *r, const qdot_filled *part, qdot_expr *symbol, qdot_expr *body)
 {
-    qdot_pool *pool = c->session->pool;
-    const qdot_token *start = c->at, **names = NULL;
-    const qdot_name *known = qdot_names_find(c->session->names, start->text);
-    qdot_expr formals = QDOT_NIL;
+    qdot_session *session = r->cursor.session;
+    const char *name = part->name->text;
+    const qdot_name *known = qdot_names_find(session->names, name);
+    qdot_formals f = {0};
     qdot_status status;
-    uint32_t id;
-    size_t n = 0;
 
-    c->error_at = start->start;
+    qdot_record_blame(r, part);
     if (known == NULL || known->kind != QDOT_NAME_UFUN) {
-        (void)qdot_fail(QDOT_ENAME, "`%s` is not an undefined function", start->text);
+        (void)qdot_fail(QDOT_ENAME, "`%s` is not an undefined function", name);
         return qdot_hint(
-            "%s(...) = ... defines a function; `function` declares an undefined one",
-            start->text);
+            "%s(...) = ... defines a function; `function` declares an undefined one", name);
     }
-    id = known->ufun;
-    c->at++;
-    status = qdot_formals_read(c, &formals, &names, &n);
-    if (status == QDOT_OK && n != qdot_ufun_get(pool, id)->arity) {
-        c->error_at = start->start;
-        status = qdot_fail(QDOT_ETYPE, "`%s` has %u arguments, not %zu", start->text,
-                           qdot_ufun_get(pool, id)->arity, n);
-    }
+    status = qdot_record_formals(r, part, &f);
+    if (status == QDOT_OK && f.n != qdot_ufun_get(session->pool, known->ufun)->arity)
+        status = qdot_fail(QDOT_ETYPE, "`%s` has %u arguments, not %zu", name,
+                           qdot_ufun_get(session->pool, known->ufun)->arity, f.n);
     if (status == QDOT_OK)
-        status = qdot_cursor_expect_op(c, "=");
-    if (status == QDOT_OK)
-        status = qdot_formals_read_body(c, formals, n, names, body);
-    if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = check_body(pool, formals, *body);
-    }
-    if (status == QDOT_OK) /* said in the arguments of its declaration */
-        status = in_declared_arguments(pool, id, formals, symbol, body);
-    qdot_free(names);
-    return status;
+        status = qdot_record_body(r, qdot_record_next(r, part, "EXPR"), &f, body);
+    qdot_formals_leave(session, &f);
+    QDOT_TRY(status);
+    qdot_record_blame(r, part);
+    QDOT_TRY(check_body(session->pool, f.list, *body));
+    /* said in the arguments of its declaration */
+    return in_declared_arguments(session->pool, known->ufun, f.list, symbol, body);
 }
 
 qdot_status
@@ -209,37 +240,42 @@ qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr *value
     return check_constant(&r->cursor, part->from, value);
 }
 
-qdot_status
-qdot_set_values(qdot_cursor *c)
+/* NAME = VALUE, F(u, v) = EXPR, ... */
+static qdot_status
+set_read(qdot_record *r, qdot_pairs *list)
 {
-    qdot_session *session = c->session;
-    qdot_status status = QDOT_OK;
-    qdot_pairs list = {0};
-
-    do {
-        const qdot_token *start = c->at;
-        bool function = c->at->kind == QDOT_TOKEN_NAME &&
-                        c->at[1].kind == QDOT_TOKEN_OPERATOR &&
-                        strcmp(c->at[1].text, "(") == 0;
+    for (size_t i = 1; i < r->parts.n; i++) {
+        const qdot_filled *part = &r->parts.at[i];
         qdot_expr symbol = QDOT_NIL, value = QDOT_NIL;
 
-        status = function ? read_function(c, &symbol, &value)
-                          : qdot_set_read_parameter(c, &symbol);
-        if (status == QDOT_OK && !function)
-            status = qdot_set_read_constant(c, &value);
-        if (status == QDOT_OK)
-            status = qdot_pairs_push(&list, start, symbol, value);
-    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
-    if (status == QDOT_OK)
-        status = qdot_cursor_expect_end(c);
+        if (part->name == NULL)
+            continue;
+        if (qdot_filled_is(part, "NAME")) {
+            QDOT_TRY(qdot_set_find_parameter(r, part, &symbol));
+            QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+        } else {
+            QDOT_TRY(set_read_function(r, part, &symbol, &value));
+        }
+        QDOT_TRY(qdot_pairs_push(list, part->from, symbol, value));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+set_values(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_pairs list = {0};
+    qdot_status status = set_read(r, &list);
+
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++) {
         if (!qdot_expr_is_class(session->pool, list.symbols.at[i], QDOT_PARAM))
             continue;
-        c->error_at = list.places.at[i]->start;
+        r->cursor.error_at = list.places.at[i]->start;
         status = qdot_session_in_domain(session, list.symbols.at[i], list.values.at[i]);
     }
     if (status == QDOT_OK)
-        status = qdot_value_check(c, &list);
+        status = qdot_value_check(&r->cursor, &list);
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         qdot_session_set(session, list.symbols.at[i], list.values.at[i], &status);
     qdot_pairs_free(&list);

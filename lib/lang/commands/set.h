@@ -9,7 +9,9 @@
 QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
-/* The same of what a statement was read to: q or q' of `start`; a value. */
+/* The same of what a statement was read to: a name as a parameter or p[NAME]; as q or q'; a value. */
+QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_filled *name,
+                                                    qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *value);

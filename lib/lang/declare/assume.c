@@ -3,11 +3,20 @@
  * All relations are read before the first is kept. None is kept if they are proved to contradict each other, an
  * earlier one, or a declared domain.
  */
-#include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
-#include "lang/declare/declare.h"
-#include "lang/language/read.h"
+#include "lang/syntax/record.h"
 #include "normal/inequality/contradiction.h"
+
+static qdot_status assume_relations(qdot_record *r);
+
+QDOT_STATEMENT(assume) = {
+    .word = "assume",
+    .group = QDOT_DECLARING,
+    .usage = "assume RELATION, ...",
+    .summary = "relations that the engine may use",
+    .example = "assume diff(x(s), s)^2 + diff(y(s), s)^2 = 1",
+    .handler = assume_relations,
+};
 
 typedef qdot_vec(qdot_assumption) assumptions;
 typedef qdot_vec(qdot_expr) exprs;
@@ -24,18 +33,17 @@ says_greater(const qdot_token *from, const qdot_token *to)
     return false;
 }
 
-/* One of the relations between the commas; `0 < a < c` is two. */
+/* One of the relations; `0 < a < c` is two. */
 static qdot_status
-read_assumption(qdot_cursor *c, assumptions *said)
+read_assumption(qdot_record *r, const qdot_filled *part, assumptions *said)
 {
-    const qdot_token *start = c->at;
-    const qdot_pool *pool = c->session->pool;
+    const qdot_pool *pool = r->cursor.session->pool;
+    const bool greater = says_greater(part->from, part->to);
     qdot_expr e;
-    bool several, greater;
+    bool several;
     uint32_t n;
 
-    QDOT_TRY(qdot_read_value(c, &e));
-    greater = says_greater(start, c->at);
+    QDOT_TRY(qdot_record_value(r, part, &e));
     several = qdot_expr_kind(pool, e) == QDOT_LOGIC && qdot_expr_node(pool, e)->op == QDOT_AND;
     n = several ? qdot_expr_count(pool, e) : 1;
     for (uint32_t i = 0; i < n; i++) {
@@ -109,21 +117,18 @@ add_assumptions(qdot_session *session, const assumptions *said)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_declare_assume(qdot_cursor *c)
+static qdot_status
+assume_relations(qdot_record *r)
 {
-    const qdot_token *start = c->at;
     assumptions said = {0};
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
-    do
-        status = read_assumption(c, &said);
-    while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
-    if (status == QDOT_OK)
-        status = qdot_cursor_expect_end(c);
+    for (const qdot_filled *part = qdot_record_hole(r, NULL, "RELATION"); part != NULL && status == QDOT_OK;
+         part = qdot_record_next(r, part, "RELATION"))
+        status = read_assumption(r, part, &said);
     if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = add_assumptions(c->session, &said);
+        r->cursor.error_at = r->start->start;
+        status = add_assumptions(r->cursor.session, &said);
     }
     qdot_free(said.at);
     return status;

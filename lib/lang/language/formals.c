@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "expr/calculus.h"
-#include "lang/language/read.h"
 
 qdot_status
 qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)
@@ -73,23 +72,24 @@ qdot_formals_read(qdot_cursor *c, qdot_expr *formals, const qdot_token ***names,
 }
 
 qdot_status
-qdot_formals_read_body(qdot_cursor *c, qdot_expr formals, size_t n,
-                       const qdot_token *const *names, qdot_expr *body)
+qdot_formals_enter(qdot_session *session, qdot_formals *f)
 {
-    qdot_status status = QDOT_OK;
-    size_t pushed = 0;
-
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_expr formal = qdot_expr_arg(c->session->pool, formals, (uint32_t)i);
+    for (size_t i = 0; i < f->n; i++) {
+        const qdot_expr formal = qdot_expr_arg(session->pool, f->list, (uint32_t)i);
 
         if (formal == QDOT_T)
             continue;
-        status = qdot_names_push(c->session->names, names[i]->text, formal);
-        pushed += status == QDOT_OK;
+        QDOT_TRY(qdot_names_push(session->names, f->names[i]->text, formal));
+        f->entered++;
     }
-    if (status == QDOT_OK)
-        status = qdot_read_value(c, body);
-    while (pushed-- > 0)
-        qdot_names_pop(c->session->names);
-    return status;
+    return QDOT_OK;
+}
+
+void
+qdot_formals_leave(qdot_session *session, qdot_formals *f)
+{
+    for (; f->entered > 0; f->entered--)
+        qdot_names_pop(session->names);
+    qdot_free(f->names);
+    f->names = NULL;
 }

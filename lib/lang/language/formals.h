@@ -7,14 +7,20 @@
 /* `(a, b, c)`: the tokens [*n] of the names, owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c,
                                                     const qdot_token ***names, size_t *n);
+/* Arguments while they hide the names outside. */
+typedef struct {
+    qdot_expr list; /* of FORMAL symbols */
+    const qdot_token **names; /* [n], owned */
+    size_t n, entered;
+} qdot_formals;
+
+/* Let the names mean these symbols, t the time; undo that and free them. */
+QDOT_MUST_CHECK qdot_status qdot_formals_enter(qdot_session *session, qdot_formals *f);
+void qdot_formals_leave(qdot_session *session, qdot_formals *f);
+
 /* `(u, v)`: a LIST of FORMAL symbols, and the tokens [*n] of their names, owned by the
  * caller. */
 QDOT_MUST_CHECK qdot_status qdot_formals_read(qdot_cursor *c, qdot_expr *formals,
                                               const qdot_token ***names, size_t *n);
-/* An expression in which these names mean these values. */
-QDOT_MUST_CHECK qdot_status qdot_formals_read_body(qdot_cursor *c, qdot_expr formals,
-                                                   size_t n,
-                                                   const qdot_token *const *names,
-                                                   qdot_expr *body);
 
 #endif

@@ -11,14 +11,19 @@
     "`from`, `range`, `log`, `title`, `labels`, `size`, `keep`, `to` or the end of the " \
     "statement"
 
-static const struct {
+typedef struct {
     const char *statement, *before, *what, *hint;
-} rows[] = {
-#define EXPECTED(statement, before, what, hint) {statement, before, what, hint},
+    bool name; /* for a name that stands there */
+} expected_row;
+
+static const expected_row rows[] = {
+#define EXPECTED(statement, before, what, hint) {statement, before, what, hint, false},
+#define EXPECTED_AT_NAME(statement, before, what, hint) {statement, before, what, hint, true},
 #define REFUSED(statement, beside, word, status, message, hint)
 #include "lang/syntax/expected.def"
 };
 #undef EXPECTED
+#undef EXPECTED_AT_NAME
 #undef REFUSED
 
 static const struct {
@@ -27,11 +32,13 @@ static const struct {
     const char *message, *hint;
 } refused[] = {
 #define EXPECTED(statement, before, what, hint)
+#define EXPECTED_AT_NAME(statement, before, what, hint)
 #define REFUSED(statement, beside, word, status, message, hint)                          \
     {statement, beside, word, status, message, hint},
 #include "lang/syntax/expected.def"
 };
 #undef EXPECTED
+#undef EXPECTED_AT_NAME
 #undef REFUSED
 
 static bool
@@ -116,6 +123,17 @@ list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                                    i == 0 ? "" : i + 1 < n ? ", " : " or ", word[i]);
 }
 
+/* The row for the node; NULL: none. */
+static const expected_row *
+expected_find_row(const qdot_expected *list, const qdot_usage_node *node)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (is_of(rows[i].statement, list) && strcmp(rows[i].before, node->before) == 0 &&
+            (!rows[i].name || list->token->kind == QDOT_TOKEN_NAME))
+            return &rows[i];
+    return NULL;
+}
+
 const char *
 qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 {
@@ -123,17 +141,16 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                           *sign = expected_first(list, QDOT_USAGE_SIGN),
                           *hole = expected_first(list, QDOT_USAGE_HOLE),
                           *first = word != NULL ? word : sign;
+    const expected_row *row = first != NULL ? expected_find_row(list, first) : NULL;
 
-    if (sign != NULL && strcmp(sign->text, "=") == 0) {
+    if (word != NULL && sign != NULL && strcmp(sign->text, "=") == 0) {
         snprintf(what, QDOT_EXPECTED_TEXT, "`=`");
         return NULL;
     }
-    if (first != NULL)
-        for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-            if (is_of(rows[i].statement, list) && strcmp(rows[i].before, first->before) == 0) {
-                snprintf(what, QDOT_EXPECTED_TEXT, "%s", rows[i].what);
-                return rows[i].hint;
-            }
+    if (row != NULL) {
+        snprintf(what, QDOT_EXPECTED_TEXT, "%s", row->what);
+        return row->hint;
+    }
     if (word != NULL)
         list_words(list, what);
     else if (expected_first(list, QDOT_USAGE_END) != NULL)
@@ -146,28 +163,37 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
     return NULL;
 }
 
-/* The hint with the token behind the word in place of its `%s`. */
+/* The hint with what it holds in place of its `%s` or `%n`. */
 static void
-hint_give(const char *hint, const qdot_token *behind)
+hint_give(const char *hint, const qdot_token *token, const qdot_record *r)
 {
-    const char *gap = strstr(hint, "%s");
+    const char *gap = strchr(hint, '%');
+    const qdot_filled *last = &r->parts.at[r->parts.n - 1];
 
     if (gap == NULL)
         (void)qdot_hint("%s", hint);
-    else
-        (void)qdot_hint("%.*s%.100s%s", (int)(gap - hint), hint, behind->text, gap + 2);
+    else if (gap[1] == 's')
+        (void)qdot_hint("%.*s%.100s%s", (int)(gap - hint), hint, token[1].text, gap + 2);
+    else if (last->name != NULL)
+        (void)qdot_hint("%.*s%.*s%s", (int)(gap - hint), hint,
+                        (int)(last->primes[-1].start + last->primes[-1].length - last->name->start),
+                        r->cursor.source->text + last->name->start, gap + 2);
 }
 
 bool
 qdot_expected_refuses(const qdot_expected *list, const qdot_record *r)
 {
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        if (!is_of(refused[i].statement, list) || !qdot_token_is_word(list->token, refused[i].word) ||
+        const bool is = refused[i].word == NULL ? !list->hole
+                                                : qdot_token_is_word(list->token, refused[i].word) ||
+                                                      qdot_token_is(list->token, refused[i].word);
+
+        if (!is_of(refused[i].statement, list) || !is ||
             (refused[i].beside != NULL && (!list->given || qdot_record_word(r, refused[i].beside) == NULL)))
             continue;
         (void)qdot_fail(refused[i].status, "%s", refused[i].message);
         if (refused[i].hint != NULL)
-            hint_give(refused[i].hint, list->token + 1);
+            hint_give(refused[i].hint, list->token, r);
         return true;
     }
     return false;

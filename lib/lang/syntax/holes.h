@@ -14,8 +14,10 @@ typedef enum {
     QDOT_HOLE_RANGE,      /* SIDE..SIDE */
     QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), as many as the hole names */
     QDOT_HOLE_NAME,       /* name or name[SIDE, ...] */
+    QDOT_HOLE_DOMAIN,     /* the same of a new name, with its bounds: SIDE < name < SIDE */
     QDOT_HOLE_COORDINATE, /* the same with primes */
     QDOT_HOLE_CALL,       /* name(name, ...) */
+    QDOT_HOLE_BODY,       /* an expression in the names of the call before it */
     QDOT_HOLE_WORD,       /* a single name */
     QDOT_HOLE_TEXT        /* a text in quotes */
 } qdot_hole_class;

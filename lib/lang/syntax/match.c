@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "lang/functions/builtin.h"
 #include "lang/language/formals.h"
 #include "lang/syntax/expected.h"
 #include "lang/syntax/holes.h"
@@ -77,6 +78,23 @@ leads_to(const qdot_usage *u, int node, const qdot_token *token)
     return leads_to(u, at->next, token) || (at->other >= 0 && leads_to(u, at->other, token));
 }
 
+/* The token behind the name that begins at t, with its brackets. */
+static const qdot_token *
+behind_name(const qdot_token *t)
+{
+    long depth = 0;
+
+    t++;
+    if (!t->glued || !qdot_token_is(t, "["))
+        return t;
+    for (; t->kind != QDOT_TOKEN_END; t++) {
+        depth += qdot_token_bracket(t);
+        if (depth == 0)
+            return t + 1;
+    }
+    return t;
+}
+
 /* --- one hole ------------------------------------------------------------------------ */
 
 static qdot_status
@@ -101,7 +119,7 @@ read_name(matcher *m, const qdot_hole *hole, qdot_filled *part)
 
     if (c->at->kind != QDOT_TOKEN_NAME)
         return qdot_cursor_expected(c, hole->expected);
-    c->at++;
+    part->name = c->at++;
     if (c->at->glued && qdot_cursor_accept_op(c, "[")) {
         do
             QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
@@ -114,6 +132,73 @@ read_name(matcher *m, const qdot_hole *hole, qdot_filled *part)
             continue;
     return QDOT_OK;
 }
+
+/* --- a new name with its bounds ------------------------------------------------------ */
+
+static bool
+is_relation(const qdot_token *t)
+{
+    return t->kind == QDOT_TOKEN_OPERATOR && strchr("<>", t->text[0]) != NULL;
+}
+
+/* Whether the name is declared, or stands in the statement already. */
+static bool
+is_declared(const matcher *m, const char *name)
+{
+    for (size_t i = 0; i < m->r->parts.n; i++)
+        if (m->r->parts.at[i].name != NULL && strcmp(m->r->parts.at[i].name->text, name) == 0)
+            return true;
+    return qdot_names_find(m->c->session->names, name) != NULL;
+}
+
+/* Whether a bound stands before the name: a number, a sign, a bracket, a call, or a name that is
+ * declared and followed by one that is not. */
+static bool
+begins_with_bound(const matcher *m)
+{
+    const qdot_token *t = m->c->at, *next = behind_name(t);
+    const bool more = next->kind != QDOT_TOKEN_END && !qdot_token_is(next, ",") && !qdot_token_is(next, "=");
+
+    if (t->kind != QDOT_TOKEN_NAME)
+        return true;
+    if (strcmp(t->text, "pi") == 0) /* alone it is a name, which is refused */
+        return more && (!is_relation(next) || next[1].kind == QDOT_TOKEN_NAME);
+    if (!is_declared(m, t->text))
+        return qdot_token_is(t + 1, "(") && qdot_builtin_find(t->text) != NULL;
+    if (!is_relation(next))
+        return more;
+    return next[1].kind == QDOT_TOKEN_NAME && strcmp(next[1].text, "pi") != 0 &&
+           !is_declared(m, next[1].text);
+}
+
+/* name, LO < name, name > LO, LO < name < HI */
+static qdot_status
+read_domain(matcher *m, const qdot_hole *hole, qdot_filled *part)
+{
+    qdot_cursor *c = m->c;
+    const qdot_token *first = c->at;
+
+    if (first->kind != QDOT_TOKEN_NAME && first->kind != QDOT_TOKEN_NUMBER &&
+        (first->kind != QDOT_TOKEN_OPERATOR ||
+         (strchr("-+(", first->text[0]) == NULL && strcmp(first->text, "sqrt") != 0)))
+        return qdot_cursor_expected(c, hole->expected);
+    if (begins_with_bound(m)) {
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+        if (!is_relation(c->at)) {
+            c->at = first;
+            return qdot_cursor_expected(c, hole->expected);
+        }
+        c->at++;
+    }
+    QDOT_TRY(read_name(m, hole, part));
+    while (is_relation(c->at)) {
+        c->at++;
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    }
+    return QDOT_OK;
+}
+
+/* --- a hole -------------------------------------------------------------------------- */
 
 /* SIDE = SIDE, or an equation by its name */
 static qdot_status
@@ -159,17 +244,31 @@ read_range(matcher *m, const qdot_hole *hole, qdot_filled *part)
 }
 
 static qdot_status
-read_call(matcher *m, const qdot_hole *hole)
+read_call(matcher *m, const qdot_hole *hole, qdot_filled *part)
 {
     const qdot_token **names = NULL;
     qdot_status status;
     size_t n;
 
-    if (m->c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(m->c, hole->expected);
-    m->c->at++;
+    QDOT_TRY(read_name(m, hole, part));
     status = qdot_formals_read_names(m->c, &names, &n);
     qdot_free(names);
+    return status;
+}
+
+/* An expression in which the arguments of the call before it hide other names. */
+static qdot_status
+read_body(matcher *m, qdot_filled *part)
+{
+    const qdot_filled *call = &m->r->parts.at[m->r->parts.n - 2]; /* before `=` */
+    qdot_formals f;
+    qdot_status status = qdot_record_formals(m->r, call, &f);
+
+    if (status == QDOT_OK)
+        status = qdot_formals_enter(m->c->session, &f);
+    if (status == QDOT_OK)
+        status = read_expression(m, QDOT_PARSE_VALUE, part);
+    qdot_formals_leave(m->c->session, &f);
     return status;
 }
 
@@ -195,30 +294,15 @@ read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
     case QDOT_HOLE_TUPLE: return read_tuple(m, node->text, part);
     case QDOT_HOLE_NAME:
     case QDOT_HOLE_COORDINATE: return read_name(m, hole, part);
-    case QDOT_HOLE_CALL: return read_call(m, hole);
+    case QDOT_HOLE_DOMAIN: return read_domain(m, hole, part);
+    case QDOT_HOLE_CALL: return read_call(m, hole, part);
+    case QDOT_HOLE_BODY: return read_body(m, part);
     case QDOT_HOLE_WORD: return read_token(m, hole, QDOT_TOKEN_NAME);
     default: return read_token(m, hole, QDOT_TOKEN_STRING);
     }
 }
 
 /* --- which hole ---------------------------------------------------------------------- */
-
-/* The token behind the name that begins at t, with its brackets. */
-static const qdot_token *
-behind_name(const qdot_token *t)
-{
-    long depth = 0;
-
-    t++;
-    if (!t->glued || !qdot_token_is(t, "["))
-        return t;
-    for (; t->kind != QDOT_TOKEN_END; t++) {
-        depth += qdot_token_bracket(t);
-        if (depth == 0)
-            return t + 1;
-    }
-    return t;
-}
 
 /* Whether the class can begin with the token, where others may stand too. */
 static bool
@@ -231,7 +315,7 @@ class_suits(const matcher *m, const qdot_usage_node *node)
     case QDOT_HOLE_NAME:
         return t->kind == QDOT_TOKEN_NAME && leads_to(m->u, node->next, behind_name(t));
     case QDOT_HOLE_CALL: return t->kind == QDOT_TOKEN_NAME && qdot_token_is(t + 1, "(");
-    case QDOT_HOLE_COORDINATE:
+    case QDOT_HOLE_COORDINATE: return t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t + 1, "(");
     case QDOT_HOLE_WORD: return t->kind == QDOT_TOKEN_NAME;
     default: return t->kind != QDOT_TOKEN_STRING;
     }
@@ -300,7 +384,13 @@ fail_at_token(matcher *m)
         return qdot_last_error()->status;
     hint = qdot_expected_words(&list, what);
     status = qdot_cursor_expected(m->c, what);
-    return hint != NULL ? qdot_hint("%s", hint) : status;
+    if (hint == NULL)
+        return status;
+    if (strncmp(qdot_last_error()->message, "expected ", 9) != 0) { /* a sign between two names, which may be a comma */
+        m->c->error_at = m->c->at->start;
+        (void)qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.100s`", what, m->c->at->text);
+    }
+    return qdot_hint("%s", hint);
 }
 
 /* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a

@@ -160,21 +160,42 @@ spell_name(const qdot_record *r, const char *name, size_t n, const long *index, 
 qdot_status
 qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name)
 {
-    long *index;
+    qdot_vec(long) index = {0};
     qdot_status status = QDOT_OK;
 
-    *name = part->from->text;
-    if (part->n == 0)
-        return QDOT_OK;
-    index = qdot_calloc(part->n, sizeof *index);
-    if (index == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < part->n && status == QDOT_OK; i++)
-        status = qdot_compiled_integer(&r->cursor, &r->compiled.at[part->first + i], &index[i]);
-    if (status == QDOT_OK)
-        status = spell_name(r, *name, part->n, index, name);
-    qdot_free(index);
+    *name = part->name->text;
+    for (size_t i = 0; i < part->n && status == QDOT_OK; i++) {
+        const qdot_compiled *one = &r->compiled.at[part->first + i];
+        long value = 0;
+
+        if (one->from < part->name || one->from >= part->primes)
+            continue; /* a bound */
+        status = qdot_compiled_integer(&r->cursor, one, &value);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&index, value);
+    }
+    if (status == QDOT_OK && index.n > 0)
+        status = spell_name(r, *name, index.n, index.at, name);
+    qdot_free(index.at);
     return status;
+}
+
+qdot_status
+qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k, qdot_bound *bound, bool *is)
+{
+    for (size_t i = 0; i < part->n; i++) {
+        const qdot_compiled *one = &r->compiled.at[part->first + i];
+        const bool before = one->from < part->name;
+        const char *relation = before ? one->to->text : one->from[-1].text;
+
+        if ((!before && one->from < part->primes) || k-- > 0)
+            continue;
+        *is = true;
+        *bound = (qdot_bound){.at = one->from, .upper = (relation[0] == '<') != before, .strict = relation[1] == '\0'};
+        return qdot_compiled_value(&r->cursor, one, &bound->value);
+    }
+    *is = false;
+    return QDOT_OK;
 }
 
 /* The same of the name that the code [0, at] is, with its indices before it. */
@@ -236,6 +257,23 @@ qdot_record_label_in(qdot_record *r, const qdot_filled *part, const char *functi
         if (whole->code.list.at[i].op == QDOT_POSTFIX_LABEL)
             return spell_code(r, whole, i, label);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_record_formals(qdot_record *r, const qdot_filled *call, qdot_formals *f)
+{
+    qdot_cursor c = r->cursor;
+
+    c.at = call->primes;
+    *f = (qdot_formals){0};
+    return qdot_formals_read(&c, &f->list, &f->names, &f->n);
+}
+
+qdot_status
+qdot_record_body(qdot_record *r, const qdot_filled *part, qdot_formals *f, qdot_expr *body)
+{
+    QDOT_TRY(qdot_formals_enter(r->cursor.session, f));
+    return qdot_record_value(r, part, body);
 }
 
 qdot_status

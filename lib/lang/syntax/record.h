@@ -17,6 +17,7 @@
 #define QDOT_LANG_RECORD_H
 
 #include "lang/language/compiled.h"
+#include "lang/language/formals.h"
 #include "lang/syntax/row.h"
 #include "lang/syntax/usage.h"
 
@@ -27,8 +28,16 @@ typedef struct {
     const qdot_usage_node *node;
     const qdot_token *from, *to; /* its tokens */
     size_t first, n;             /* its expressions among record->compiled */
-    const qdot_token *primes;    /* those of a coordinate [primes, to) */
+    const qdot_token *name;      /* of a name; its bounds may stand before it */
+    const qdot_token *primes;    /* behind the name; those of a coordinate [primes, to) */
 } qdot_filled;
+
+/* A bound of a new name. */
+typedef struct {
+    const qdot_token *at;
+    qdot_expr value;
+    bool upper, strict; /* the name is less than it; not equal */
+} qdot_bound;
 
 typedef struct qdot_record {
     const qdot_statement *row;
@@ -77,6 +86,13 @@ QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_fill
                                                  qdot_expr *left, qdot_expr *right);
 /* A name with its indices evaluated, in the source's arena. */
 QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
+/* Bound k of a name with bounds, as they stand there; *is: there are so many. */
+QDOT_MUST_CHECK qdot_status qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k,
+                                              qdot_bound *bound, bool *is);
+/* The arguments of NAME(u, v); and an expression in which they hide other names. Leave them in any case. */
+QDOT_MUST_CHECK qdot_status qdot_record_formals(qdot_record *r, const qdot_filled *call, qdot_formals *f);
+QDOT_MUST_CHECK qdot_status qdot_record_body(qdot_record *r, const qdot_filled *part, qdot_formals *f,
+                                             qdot_expr *body);
 /* A declared coordinate with its primes. */
 QDOT_MUST_CHECK qdot_status qdot_record_coordinate(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *jet);

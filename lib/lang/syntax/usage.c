@@ -346,6 +346,22 @@ end_of_list(const compiler *c, int i, int to)
     return more - 1;
 }
 
+/* What is behind the relations and other sides that are read with a hole of that class. */
+static int
+behind_relation(const compiler *c, int i, int to, qdot_hole_class class)
+{
+    if (class == QDOT_HOLE_DOMAIN)
+        for (bool option; i + 1 < to; i += option ? 4 : 2) {
+            option = c->piece[i].kind == OPEN;
+            if (strchr("<>", c->piece[i + option].text[0]) == NULL)
+                break;
+        }
+    else if (i + 1 < to && (strcmp(c->piece[i].text, "==") == 0 ||
+                            (strcmp(c->piece[i].text, "=") == 0 && class == QDOT_HOLE_EQUATION)))
+        i += 2;
+    return i;
+}
+
 /* Pieces one after the other, without alternatives. */
 static void
 compile_sequence(compiler *c, int i, int to)
@@ -390,11 +406,7 @@ compile_sequence(compiler *c, int i, int to)
         } else if (p->kind == HOLE) {
             const int hole = emit(c, QDOT_USAGE_HOLE, p->text);
 
-            i++;
-            if (i + 1 < to && (strcmp(c->piece[i].text, "==") == 0 ||
-                               (strcmp(c->piece[i].text, "=") == 0 &&
-                                qdot_hole_at(c->u->node[hole].hole)->class == QDOT_HOLE_EQUATION)))
-                i += 2;
+            i = behind_relation(c, i + 1, to, qdot_hole_at(c->u->node[hole].hole)->class);
         } else {
             c->failed = true;
         }

@@ -12,7 +12,8 @@
  *     X, Y, ...     a list, of X and Y in any order
  *     (X, Y)        as many expressions, in brackets
  *     [| run ...]   the sign, behind which the statement begins again
- *     , : = < > ==  themselves; around `==` the two sides are read as one expression
+ *     , : = < > ==  themselves; around `==` the two sides are read as one expression, and a new
+ *                   name with its bounds as one: NAME [> 0], LO < NAME < HI
  *
  * Two or more clauses `word HOLE` outside of brackets may come in any order too, with the options
  * among them: `particle NAME mass M at R`. Each must be there; of alternatives that end them,

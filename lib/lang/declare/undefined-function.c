@@ -1,12 +1,21 @@
-/* declare-function.c -- functions that stay undefined. */
+/* undefined-function.c -- `function`: functions that stay undefined. */
 #include <string.h>
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/declare/declare.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/formals.h"
-#include "lang/language/read.h"
+#include "lang/syntax/record.h"
+
+static qdot_status declare_functions(qdot_record *r);
+
+QDOT_STATEMENT(function) = {
+    .word = "function",
+    .group = QDOT_DECLARING,
+    .usage = "function NAME(ARGUMENTS), ...",
+    .summary = "declare undefined functions; the bare name means the function at these arguments",
+    .example = "function x(s), y(s, t)",
+    .handler = declare_functions,
+};
 
 /* --- undefined functions ------------------------------------------------------------ */
 
@@ -50,34 +59,39 @@ declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n
     return status;
 }
 
-qdot_status
-qdot_declare_function(qdot_cursor *c)
+/* NAME(u, v) */
+static qdot_status
+declare_call(qdot_record *r, const qdot_filled *part, const char **name)
 {
+    qdot_formals f;
+    qdot_status status;
+
+    QDOT_TRY(qdot_record_name(r, part, name));
+    status = qdot_record_formals(r, part, &f);
+    if (status == QDOT_OK)
+        status = declare_ufun(&r->cursor, part->from, *name, f.n, f.names);
+    qdot_formals_leave(r->cursor.session, &f);
+    return status;
+}
+
+static qdot_status
+declare_functions(qdot_record *r)
+{
+    const char *const hole = "NAME(ARGUMENTS)";
     qdot_vec(const char *) done = {0};
     qdot_status status = QDOT_OK;
 
-    do {
-        const qdot_token *start = c->at, **names = NULL;
+    for (const qdot_filled *part = qdot_record_hole(r, NULL, hole); part != NULL && status == QDOT_OK;
+         part = qdot_record_next(r, part, hole)) {
         const char *name;
-        size_t n = 0;
 
-        status = qdot_read_name(c, &name);
-        if (status == QDOT_OK)
-            status = qdot_formals_read_names(c, &names, &n);
-        if (status == QDOT_OK && !qdot_cursor_is_op(c, ",")) {
-            status = qdot_cursor_expect_end(c);
-            if (status == QDOT_OK)
-                status = declare_ufun(c, start, name, n, names);
-        } else if (status == QDOT_OK) {
-            status = declare_ufun(c, start, name, n, names);
-        }
+        status = declare_call(r, part, &name);
         if (status == QDOT_OK)
             status = qdot_vec_push(&done, name);
-        qdot_free(names);
-    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    }
     if (status != QDOT_OK)
         while (done.n > 0)
-            qdot_names_remove(c->session->names, done.at[--done.n]);
+            qdot_names_remove(r->cursor.session->names, done.at[--done.n]);
     qdot_free(done.at);
     return status;
 }

@@ -1,0 +1,51 @@
+/* coord.c -- `coord`: generalized coordinates, each with its domain. */
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "lang/declare/new-names.h"
+
+static qdot_status coord_declare(qdot_record *r);
+
+QDOT_STATEMENT(coord) = {
+    .word = "coord",
+    .group = QDOT_DECLARING,
+    .usage = "coord NAME, LO < NAME < HI, ...",
+    .summary = "declare generalized coordinates, each with its own domain",
+    .example = "coord r > 0, 0 < theta < pi, phi",
+    .handler = coord_declare,
+};
+
+/* That every name of a coord statement is free is seen first: a scene keeps its
+ * coordinates. */
+static qdot_status
+coord_check(qdot_cursor *c, const qdot_new_names *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        const qdot_new_name *x = &list->at[i];
+        const qdot_name *old = qdot_names_find(c->session->names, x->name);
+
+        c->error_at = x->start->start;
+        QDOT_TRY(qdot_interrupt_check());
+        if (old != NULL)
+            return qdot_fail(QDOT_ENAME, "`%s` was declared before, at %s:%u", x->name,
+                             old->file, old->line);
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(list->at[k].name, x->name) == 0)
+                return qdot_fail(QDOT_ENAME, "`%s` stands here twice", x->name);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+coord_declare(qdot_record *r)
+{
+    qdot_new_names list = {0};
+    qdot_status status = qdot_new_names_read(r, false, &list);
+
+    if (status == QDOT_OK)
+        status = coord_check(&r->cursor, &list);
+    if (status == QDOT_OK)
+        status = qdot_new_names_declare(&r->cursor, QDOT_NAME_COORD, &list);
+    qdot_free(list.at);
+    return status;
+}

@@ -1,0 +1,184 @@
+/* new-names.c -- names that a statement declares, each with its domain. */
+#include "lang/declare/new-names.h"
+
+#include "lang/commands/set.h"
+#include "lang/declare/declare.h"
+#include "lang/syntax/holes.h"
+
+/* --- reading ------------------------------------------------------------------------ */
+
+/* What a bound of a domain may not depend on. */
+#define MOVING                                                                           \
+    (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |    \
+     QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA | QDOT_HAS_TIME)
+
+/* x < b gives hi, x > b gives lo. */
+static qdot_status
+new_name_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
+{
+    const qdot_pool *pool = c->session->pool;
+
+    c->error_at = b->at->start;
+    if (!qdot_expr_is_scalar(pool, b->value) || (qdot_expr_node(pool, b->value)->holds & MOVING))
+        return qdot_fail(QDOT_ETYPE,
+                         "a bound is a number or an expression of parameters");
+    if ((b->upper ? x->hi : x->lo) != QDOT_NIL)
+        return qdot_fail(QDOT_EINVAL, "`%s` has two %s bounds", x->name,
+                         b->upper ? "upper" : "lower");
+    *(b->upper ? &x->hi : &x->lo) = b->value;
+    *(b->upper ? &x->hi_open : &x->lo_open) = b->strict;
+    x->own = true;
+    return QDOT_OK;
+}
+
+/* The name that `part` is, and the value that follows it. */
+static qdot_status
+new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
+{
+    const qdot_filled *value = part + 2; /* behind `=` */
+    qdot_session *session = r->cursor.session;
+    qdot_bound bound;
+    qdot_status status;
+    bool more = true;
+
+    *x = (qdot_new_name){.start = part->name};
+    QDOT_TRY(qdot_record_name(r, part, &x->name));
+    for (size_t k = 0; more; k++) {
+        QDOT_TRY(qdot_record_bound(r, part, k, &bound, &more));
+        if (more)
+            QDOT_TRY(new_name_bound(&r->cursor, x, &bound));
+    }
+    if (value >= r->parts.at + r->parts.n || !qdot_filled_is(value, "VALUE"))
+        return QDOT_OK;
+    session->declares = false; /* numbers of runs as `set` takes them, with their errors */
+    status = qdot_record_scalar(r, value, &x->value);
+    session->declares = true;
+    return status == QDOT_OK ? qdot_set_keep_measured(session, &x->value) : status;
+}
+
+/* A sign also applies to the bare names before it: `param m, L > 0`. */
+static void
+new_names_spread(qdot_new_names *list)
+{
+    const qdot_new_name *last = &list->at[list->n - 1];
+
+    if (!last->own || (last->lo != QDOT_NIL && last->hi != QDOT_NIL))
+        return;
+    for (size_t i = list->n - 1; i-- > 0;) {
+        qdot_new_name *x = &list->at[i];
+
+        if (x->own || x->value != QDOT_NIL)
+            continue;
+        x->lo = last->lo;
+        x->hi = last->hi;
+        x->lo_open = last->lo_open;
+        x->hi_open = last->hi_open;
+        x->own = true;
+    }
+}
+
+/* What comes behind a parameter in its list may use it: `param a = 2, b = a^2`. */
+static qdot_status
+new_name_show(qdot_session *session, const qdot_new_name *x, size_t *shown)
+{
+    qdot_expr symbol;
+
+    if (qdot_names_find(session->names, x->name) != NULL)
+        return QDOT_OK;
+    symbol = qdot_symbol_get(session->pool, QDOT_PARAM, x->name);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_names_push(session->names, x->name, symbol));
+    ++*shown;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_new_names_read(qdot_record *r, bool params, qdot_new_names *list)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_status status = QDOT_OK;
+    size_t shown = 0;
+
+    for (size_t i = 1; i < r->parts.n && status == QDOT_OK; i++) {
+        const qdot_filled *part = &r->parts.at[i];
+        qdot_new_name x;
+
+        if (part->node->kind != QDOT_USAGE_HOLE || part->name == NULL)
+            continue;
+        status = new_name_read(r, part, &x);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(list, x);
+        if (status == QDOT_OK && params)
+            new_names_spread(list);
+        if (status == QDOT_OK)
+            r->cursor.error_at = x.start->start;
+        if (status == QDOT_OK && params)
+            status = new_name_show(session, &x, &shown);
+    }
+    while (shown-- > 0)
+        qdot_names_pop(session->names);
+    return status;
+}
+
+/* --- declaring ---------------------------------------------------------------------- */
+
+static bool
+new_name_same_domain(const qdot_symbol *s, const qdot_new_name *x)
+{
+    return s->lo == x->lo && s->hi == x->hi &&
+           (x->lo == QDOT_NIL || s->lo_open == x->lo_open) &&
+           (x->hi == QDOT_NIL || s->hi_open == x->hi_open);
+}
+
+/* Declare one name; *fresh: it was not there before. */
+static qdot_status
+new_name_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bool *fresh)
+{
+    qdot_session *session = c->session;
+    const qdot_name *old = qdot_names_find(session->names, x->name);
+    qdot_class class = kind == QDOT_NAME_PARAM ? QDOT_PARAM : QDOT_COORD;
+    qdot_name entry = {.name = (char *)x->name, .kind = kind};
+
+    *fresh = false;
+    c->error_at = x->start->start;
+    entry.value = qdot_symbol_get(session->pool, class, x->name);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    if (old != NULL && old->kind == QDOT_NAME_PARAM && kind == QDOT_NAME_PARAM) {
+        if (x->own && !new_name_same_domain(qdot_expr_symbol(session->pool, old->value), x))
+            return qdot_fail(QDOT_ENAME, "`%s` was declared with another domain at %s:%u",
+                             x->name, old->file, old->line);
+    } else {
+        QDOT_TRY(qdot_declare_name(c, x->start, &entry));
+        *fresh = true;
+        if (x->own)
+            qdot_symbol_domain(session->pool, entry.value, x->lo, x->lo_open, x->hi,
+                               x->hi_open);
+        else
+            qdot_symbol_domain(session->pool, entry.value, QDOT_NIL, false, QDOT_NIL,
+                               false);
+        QDOT_TRY(qdot_declare_meet_functions(session, x->name, entry.value));
+    }
+    if (kind == QDOT_NAME_COORD)
+        return qdot_scene_coordinate(session->scene, entry.value);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_new_names_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_names *list)
+{
+    qdot_vec(const char *) fresh = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < list->n && status == QDOT_OK; i++) {
+        bool is_fresh;
+
+        status = new_name_declare(c, kind, &list->at[i], &is_fresh);
+        if (is_fresh && qdot_vec_push(&fresh, list->at[i].name) != QDOT_OK)
+            status = QDOT_ENOMEM;
+    }
+    if (status != QDOT_OK && kind == QDOT_NAME_PARAM)
+        while (fresh.n > 0)
+            qdot_names_remove(c->session->names, fresh.at[--fresh.n]);
+    qdot_free(fresh.at);
+    return status;
+}

@@ -1,0 +1,85 @@
+/* param.c -- `param`: symbols, with their domains and values. */
+#include "lang/commands/value-check.h"
+#include "lang/declare/new-names.h"
+#include "lang/session/bind.h"
+
+static qdot_status param_declare(qdot_record *r);
+
+QDOT_STATEMENT(param) = {
+    .word = "param",
+    .group = QDOT_DECLARING,
+    .usage = "param NAME [> 0] [= VALUE], ...",
+    .summary = "declare parameters; a sign spreads back over the bare names before it",
+    .example = "param m, L > 0, g = 9.81",
+    .handler = param_declare,
+};
+
+/* Values that parameters get anew. */
+static qdot_status
+param_check_values(qdot_cursor *c, const qdot_new_names *list)
+{
+    qdot_pairs values = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < list->n && status == QDOT_OK; i++) {
+        const qdot_new_name *x = &list->at[i];
+        const qdot_name *old = qdot_names_find(c->session->names, x->name);
+
+        if (x->value != QDOT_NIL && old != NULL && old->kind == QDOT_NAME_PARAM)
+            status = qdot_pairs_push(&values, x->start, old->value, x->value);
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_check(c, &values);
+    qdot_pairs_free(&values);
+    return status;
+}
+
+/* Parameters with their values; a value outside its domain takes all back. */
+static qdot_status
+param_declare_list(qdot_cursor *c, const qdot_new_names *list)
+{
+    qdot_session *session = c->session;
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < list->n; i++) {
+        const qdot_new_name *x = &list->at[i];
+        const qdot_name *old = qdot_names_find(session->names, x->name);
+        double number, bound;
+
+        c->error_at = x->start->start;
+        if (x->value != QDOT_NIL && old != NULL && old->kind == QDOT_NAME_PARAM)
+            QDOT_TRY(qdot_session_in_domain(session, old->value, x->value));
+        if (x->value == QDOT_NIL || !x->own ||
+            qdot_session_number(session, x->value, &number, NULL) != QDOT_OK)
+            continue;
+        c->error_at = x->start->start;
+        if ((x->lo != QDOT_NIL &&
+             qdot_session_number(session, x->lo, &bound, NULL) == QDOT_OK &&
+             (number < bound || (x->lo_open && number == bound))) ||
+            (x->hi != QDOT_NIL &&
+             qdot_session_number(session, x->hi, &bound, NULL) == QDOT_OK &&
+             (number > bound || (x->hi_open && number == bound))))
+            return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its own domain",
+                             x->name, number);
+    }
+    QDOT_TRY(param_check_values(c, list));
+    QDOT_TRY(qdot_new_names_declare(c, QDOT_NAME_PARAM, list));
+    for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
+        if (list->at[i].value != QDOT_NIL)
+            qdot_session_set(session,
+                             qdot_names_find(session->names, list->at[i].name)->value,
+                             list->at[i].value, &status);
+    return status;
+}
+
+static qdot_status
+param_declare(qdot_record *r)
+{
+    qdot_new_names list = {0};
+    qdot_status status = qdot_new_names_read(r, true, &list);
+
+    if (status == QDOT_OK)
+        status = param_declare_list(&r->cursor, &list);
+    qdot_free(list.at);
+    return status;
+}
