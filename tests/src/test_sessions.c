@@ -1,15 +1,17 @@
-/* test_readme.c -- the sessions in README.md, typed at a terminal: each line that is shown is printed.
+/* test_sessions.c -- the conversations of README.md and of the manual's tutorial, typed at a terminal: each line
+ * that they show is printed.
  *
- * top_srcdir says where it is. Times, and digits behind the sixth, may differ.
+ * top_srcdir says where they are. Times, and digits behind the sixth, may differ.
  */
 #include <ctype.h>
 #include <math.h>
 
 #include "src/terminal.h"
 
-enum { LINES = 200, WIDTH = 400 };
+enum { LINES = 300, WIDTH = 400 };
 
-static char text[LINES][WIDTH]; /* the sessions, without their four blanks */
+static const char *file;        /* the one at hand */
+static char text[LINES][WIDTH]; /* its conversation, as at the terminal */
 static size_t n_lines;
 
 static bool
@@ -25,21 +27,28 @@ typed(const char *line)
     return strstr(line, "> ") + 2;
 }
 
-/* Lines of code behind the first prompt, up to the text that follows. */
-static int
-read_sessions(void **state)
+static FILE *
+open_text(void)
 {
-    char line[WIDTH];
-    bool inside = false;
     char path[4096];
     FILE *f;
 
-    snprintf(path, sizeof path, "%s/README.md", getenv("top_srcdir") != NULL ? getenv("top_srcdir") : ".");
+    n_lines = 0;
+    snprintf(path, sizeof path, "%s/%s", getenv("top_srcdir") != NULL ? getenv("top_srcdir") : ".", file);
     f = fopen(path, "r");
-    if (f == NULL) {
-        fputs("top_srcdir must say where README.md is\n", stderr);
-        return -1;
-    }
+    if (f == NULL)
+        fail_msg("top_srcdir must say where %s is", file);
+    return f;
+}
+
+/* Of Markdown: lines of code behind the first prompt, up to the text that follows, without their four blanks. */
+static void
+read_markdown(void)
+{
+    char line[WIDTH];
+    bool inside = false;
+    FILE *f = open_text();
+
     while (fgets(line, sizeof line, f) != NULL && n_lines < LINES) {
         line[strcspn(line, "\n")] = '\0';
         if (strncmp(line, "    ", 4) != 0) {
@@ -51,7 +60,36 @@ read_sessions(void **state)
             strcpy(text[n_lines++], line + 4);
     }
     fclose(f);
-    return enter(state);
+}
+
+/* Of Texinfo: the examples behind `@c screen`. */
+static void
+read_texinfo(void)
+{
+    char line[WIDTH];
+    enum { OUTSIDE, MARKED, INSIDE } place = OUTSIDE;
+    FILE *f = open_text();
+
+    while (fgets(line, sizeof line, f) != NULL && n_lines < LINES) {
+        line[strcspn(line, "\n")] = '\0';
+        if (strcmp(line, "@c screen") == 0) {
+            place = MARKED;
+        } else if (place == MARKED) {
+            place = strcmp(line, "@example") == 0 ? INSIDE : OUTSIDE;
+        } else if (strcmp(line, "@end example") == 0) {
+            place = OUTSIDE;
+        } else if (place == INSIDE) {
+            char *to = text[n_lines++];
+
+            for (const char *c = line; *c != '\0'; c++)
+                if (*c != '@' || strchr("@{}", c[1]) == NULL || c[1] == '\0')
+                    *to++ = *c;
+                else
+                    *to++ = *++c;
+            *to = '\0';
+        }
+    }
+    fclose(f);
 }
 
 /* --- comparing ---------------------------------------------------------------------------- */
@@ -117,16 +155,16 @@ compare(const char *answer, size_t from, size_t to)
             found = same_line(text[i], line);
         }
         if (!found)
-            fail_msg("README says `%s`; what came: %s", text[i], seen);
+            fail_msg("%s says `%s`; what came: %s", file, text[i], seen);
     }
 }
 
+/* Type what is behind the prompts, and compare. */
 static void
-sessions_are_what_the_program_says(void **state)
+converse(void)
 {
     size_t answers = 0;
 
-    (void)state;
     setenv("LC_ALL", "C.UTF-8", 1);
     start("-q");
     ready();
@@ -147,12 +185,35 @@ sessions_are_what_the_program_says(void **state)
     assert_true(n_lines > 20 && answers > 20);
 }
 
+static void
+readme_is_what_the_program_says(void **state)
+{
+    (void)state;
+    file = "README.md";
+    read_markdown();
+    converse();
+}
+
+static void
+tutorial_is_what_the_program_says(void **state)
+{
+    const unsigned short usual = columns;
+
+    (void)state;
+    file = "doc/tutorial.texi";
+    read_texinfo();
+    columns = 80;
+    converse();
+    columns = usual;
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sessions_are_what_the_program_says),
+        cmocka_unit_test(readme_is_what_the_program_says),
+        cmocka_unit_test(tutorial_is_what_the_program_says),
     };
 
-    return cmocka_run_group_tests(tests, read_sessions, leave);
+    return cmocka_run_group_tests(tests, enter, leave);
 }
