@@ -228,7 +228,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
 
 /* Tell at which values of parameters the list is none: `where a = 0 the places are others`. */
 static qdot_status
-answer_special(qdot_session *session, qdot_expr special)
+answer_special(qdot_session *session, qdot_expr special, const char *words)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -238,7 +238,7 @@ answer_special(qdot_session *session, qdot_expr special)
         status = qdot_print(session->pool, qdot_expr_arg(session->pool, special, i), QDOT_PLAIN, &text);
         qdot_text_add(&text, " = 0");
     }
-    qdot_text_add(&text, " the places are others");
+    qdot_text_add(&text, words);
     return qdot_answer_notice_text(session, status, &text);
 }
 
@@ -249,7 +249,9 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
     qdot_text text = {0};
 
     if (all->special != QDOT_NIL)
-        QDOT_TRY(answer_special(session, all->special));
+        QDOT_TRY(answer_special(session, all->special, " the places are others"));
+    if (all->meeting != QDOT_NIL)
+        QDOT_TRY(answer_special(session, all->meeting, " kinks meet: the places may be others"));
     if (all->recurs)
         QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
                                              "domain each recurs after every whole turn"));

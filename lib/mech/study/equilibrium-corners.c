@@ -12,11 +12,15 @@
  */
 #include <stdio.h>
 
+#include "expr/elementary.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
 #include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
 
 enum { MOST_CORNERS = 4 };
 
@@ -180,6 +184,40 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
     return status;
 }
 
+/* Add what is 0 where the u [n] of two kinks of the only coordinate q are 0 at one place: for other values of parameters
+ * these are solved for one by one. */
+static qdot_status
+meetings_add(qdot_rest *r, qdot_expr q, size_t n, const qdot_expr *u)
+{
+    qdot_pool *pool = r->pool;
+
+    for (size_t i = 0; i + 1 < n; i++) {
+        qdot_solutions zero = {0};
+        qdot_status status = qdot_solve(pool, u[i], q, &r->facts, &zero);
+
+        for (size_t k = 0; k < zero.root.n && status == QDOT_OK; k++)
+            for (size_t j = i + 1; j < n && status == QDOT_OK; j++) {
+                qdot_expr at = zero.root.at[k].value, gap = qdot_subs(pool, u[j], 1, &q, &at), factors;
+
+                factors = gap == QDOT_NIL ? QDOT_NIL : qdot_solve_factors(pool, qdot_simplify(pool, gap, &r->facts));
+                for (uint32_t f = 0; factors != QDOT_NIL && f < qdot_expr_count(pool, factors); f++) {
+                    const qdot_expr pair[2] = {qdot_expr_arg(pool, factors, f), at};
+                    qdot_expr meeting = qdot_list(pool, 2, pair);
+
+                    if (qdot_is_generic(pool, pair[0]) && !qdot_is_constant(pool, pair[0]) &&
+                        (qdot_expr_node(pool, pair[0])->sign & QDOT_NE0) == 0)
+                        r->meeting = qdot_list_appended(pool, r->meeting, 1, &meeting);
+                }
+                status = qdot_pool_check(pool);
+                if (status == QDOT_EDOMAIN)
+                    status = QDOT_OK;
+            }
+        qdot_solutions_clear(&zero);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 {
@@ -196,6 +234,8 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
         r->system.complete = false;
         return QDOT_OK;
     }
+    if (r->s->coordinates.n == 1)
+        QDOT_TRY(meetings_add(r, r->s->coordinates.at[0], n, u));
     for (size_t k = 0; k < n; k++)
         QDOT_TRY(qdot_vec_push(&r->system.unknowns, side_symbol(pool, MOST_CORNERS + k)));
     for (unsigned which = 1; which < 1u << n; which++)
@@ -228,4 +268,56 @@ qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes)
         *yes = there != QDOT_NIL && qdot_is_zero(r->pool, there, &r->facts);
     }
     return qdot_pool_check(r->pool);
+}
+
+/* The force beside a place at a kink, on the upper side or the lower one: signs of what is 0 at the place as they are
+ * there. Nil: it is not known. */
+static qdot_expr
+force_beside(const qdot_rest *r, qdot_expr force, qdot_expr q, qdot_expr at, bool upper, const qdot_facts *facts)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr there = force;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, force, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && there != QDOT_NIL; i++) {
+        qdot_expr u, slope, side;
+
+        if (!qdot_expr_is_function(pool, w.at[i], QDOT_SIGN))
+            continue;
+        u = qdot_expr_arg(pool, w.at[i], 0);
+        if (!qdot_expr_contains(pool, u, q) || !qdot_is_zero(pool, qdot_subs(pool, u, 1, &q, &at), facts))
+            continue;
+        slope = qdot_simplify(pool, qdot_subs(pool, qdot_diff(pool, u, q), 1, &q, &at), facts);
+        side = slope == QDOT_ZERO ? QDOT_NIL : qdot_div(pool, qdot_fun1(pool, QDOT_ABS, slope), slope);
+        side = upper ? side : qdot_neg(pool, side);
+        there = side == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, there, 1, &w.at[i], &side);
+    }
+    qdot_walk_end(&w);
+    return there == QDOT_NIL ? QDOT_NIL : qdot_simplify(pool, qdot_subs(pool, there, 1, &q, &at), facts);
+}
+
+qdot_status
+qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value, const qdot_facts *facts, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr forces, q, at, upper, lower;
+    qdot_status status;
+
+    *yes = false;
+    if (r->s->coordinates.n != 1 || r->s->constraints.n > 0 || r->friction != QDOT_NIL || qdot_expr_count(pool, values) != 1)
+        return QDOT_OK;
+    q = r->s->coordinates.at[0];
+    at = qdot_expr_arg(pool, qdot_expr_arg(pool, values, 0), 1);
+    QDOT_TRY(qdot_rest_by_signs(r, r->forces, &forces));
+    forces = qdot_subs(pool, qdot_expr_arg(pool, forces, 0), 1, &p, &value);
+    upper = forces == QDOT_NIL ? QDOT_NIL : force_beside(r, forces, q, at, true, facts);
+    lower = upper == QDOT_NIL ? QDOT_NIL : force_beside(r, forces, q, at, false, facts);
+    if (lower != QDOT_NIL)
+        *yes = qdot_condition(pool, qdot_neg(pool, upper), false, facts) == QDOT_TRUE &&
+               qdot_condition(pool, lower, false, facts) == QDOT_TRUE;
+    status = qdot_pool_check(pool);
+    *yes = *yes && status == QDOT_OK;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }

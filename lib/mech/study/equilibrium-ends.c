@@ -124,9 +124,10 @@ typedef enum {
     IS_NEW     /* a rest that no other place is */
 } verdict;
 
-/* The verdict on the k-th place at p = root->value, where both sides of its i-th condition are equal. */
+/* The verdict on the k-th place, which exists where `exists` holds, at p = root->value, where both sides of the i-th
+ * relation of that are equal. */
 static verdict
-judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root)
+judge_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr p, const qdot_root *root)
 {
     qdot_expr value = root->value;
     qdot_pool *pool = r->pool;
@@ -136,9 +137,9 @@ judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root
     qdot_expr values, there, others = root->condition;
 
     exact.exact = true;
-    for (uint32_t n = 0; n < qdot_expr_count(pool, place->exists); n++)
+    for (uint32_t n = 0; n < qdot_expr_count(pool, exists); n++)
         if (n != i)
-            others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, place->exists, n));
+            others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, exists, n));
     e.others = qdot_conditions_at(pool, others, 1, &p, &value, &exact);
     if (is_undefined(pool) || e.others == QDOT_FALSE) /* it does not exist there by these */
         return IS_LISTED;
@@ -148,8 +149,15 @@ judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root
         return IS_NONE;
     there = qdot_list_appended(pool, at_end(&e, r->system.equations), 0, NULL);
     there = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, there, values));
-    if (is_undefined(pool) || !are_zero(&e, there))
+    if (is_undefined(pool))
         return IS_NONE;
+    if (!are_zero(&e, there)) { /* at a kink the equations have another value than beside it */
+        bool held;
+
+        if (qdot_rest_is_held(r, values, p, value, &e.facts, &held) != QDOT_OK)
+            (void)qdot_pool_fail(pool);
+        return !held ? IS_NONE : is_listed(&e, values) ? IS_LISTED : IS_NEW;
+    }
     (void)qdot_simultaneous_put(pool, at_end(&e, r->system.defined), values);
     if (is_undefined(pool))
         return IS_NONE;
@@ -162,7 +170,7 @@ judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root
 /* The verdict where `factor`, one of those of right - left of the condition, is 0, by the first parameter of which
  * exactly one value makes it so; IS_NONE if there is no such parameter. */
 static qdot_status
-judge_factor(qdot_rest *r, size_t k, uint32_t i, qdot_expr factor, verdict *out)
+judge_factor(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr factor, verdict *out)
 {
     qdot_pool *pool = r->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, factor, false);
@@ -184,7 +192,7 @@ judge_factor(qdot_rest *r, size_t k, uint32_t i, qdot_expr factor, verdict *out)
         known = status == QDOT_OK && zero.complete && zero.root.n == 1 && zero.root.at[0].period == QDOT_NIL &&
                 zero.root.at[0].value != p;
         if (known)
-            *out = judge_end(r, k, i, p, &zero.root.at[0]);
+            *out = judge_end(r, k, exists, i, p, &zero.root.at[0]);
         qdot_solutions_clear(&zero);
         if (status != QDOT_EDOMAIN)
             QDOT_TRY(status);
@@ -194,16 +202,17 @@ judge_factor(qdot_rest *r, size_t k, uint32_t i, qdot_expr factor, verdict *out)
     return qdot_pool_check(pool);
 }
 
-/* Whether the k-th place exists wherever both sides of its i-th condition are equal, and is listed nowhere else at some
- * of these values. */
+/* Whether the k-th place exists wherever both sides of the i-th relation of `exists` are equal, and is listed nowhere
+ * else at some of these values. *new: a LIST of the factors of right - left that are 0 at such values; nil: none. */
 static qdot_status
-exists_at_end(qdot_rest *r, size_t k, uint32_t i, bool *yes)
+exists_at_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, bool *yes, qdot_expr *new)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr relation = qdot_expr_arg(pool, r->found.at[k].exists, i), gap, factors;
+    qdot_expr relation = qdot_expr_arg(pool, exists, i), gap, factors;
     verdict all = IS_LISTED;
 
     *yes = false;
+    *new = QDOT_NIL;
     if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_node(pool, relation)->op != QDOT_LT ||
         !qdot_is_generic(pool, relation) || qdot_expr_size(pool, relation) > LONGEST ||
         qdot_conditions_nonzero(pool, relation) != QDOT_NIL)
@@ -212,15 +221,18 @@ exists_at_end(qdot_rest *r, size_t k, uint32_t i, bool *yes)
     QDOT_TRY(qdot_pool_check(pool));
     factors = qdot_solve_factors(pool, gap);
     QDOT_TRY(qdot_pool_check(pool));
-    for (uint32_t n = 0; n < qdot_expr_count(pool, factors) && all != IS_NONE; n++) {
+    for (uint32_t n = 0; n < qdot_expr_count(pool, factors); n++) {
+        qdot_expr factor = qdot_expr_arg(pool, factors, n);
         verdict one = IS_NONE;
 
         if (n < MOST_FACTORS)
-            QDOT_TRY(judge_factor(r, k, i, qdot_expr_arg(pool, factors, n), &one));
-        all = one == IS_LISTED ? all : one;
+            QDOT_TRY(judge_factor(r, k, exists, i, factor, &one));
+        if (one == IS_NEW)
+            *new = qdot_list_appended(pool, *new, 1, &factor);
+        all = one == IS_LISTED || all == IS_NONE ? all : one;
     }
     *yes = all == IS_NEW;
-    return QDOT_OK;
+    return qdot_pool_check(pool);
 }
 
 /* The list with a <= b in place of the i-th relation a < b. */
@@ -240,34 +252,111 @@ weakened(qdot_pool *pool, qdot_expr list, uint32_t i)
     return all;
 }
 
+/* Append the members of `more` that the LIST does not have. */
+static void
+append_new(qdot_pool *pool, qdot_expr *list, qdot_expr more)
+{
+    for (uint32_t i = 0; more != QDOT_NIL && i < qdot_expr_count(pool, more); i++) {
+        qdot_expr one = qdot_expr_arg(pool, more, i);
+        bool has = false;
+
+        for (uint32_t k = 0; *list != QDOT_NIL && k < qdot_expr_count(pool, *list) && !has; k++)
+            has = qdot_expr_arg(pool, *list, k) == one;
+        if (!has)
+            *list = qdot_list_appended(pool, *list, 1, &one);
+    }
+}
+
+/* Weaken the relations of the k-th place, *exists, one by one, the others as they are by then: where both sides of two
+ * are equal at once, it may exist by neither alone. What is 0 where a relation that stays strict is too much to ask is
+ * added to the LIST *special. */
+static qdot_status
+weaken_place(qdot_rest *r, size_t k, qdot_expr *exists, qdot_expr *special)
+{
+    qdot_pool *pool = r->pool;
+    qdot_equilibrium *e = &r->found.at[k];
+    const uint32_t n = qdot_expr_count(pool, e->exists);
+
+    for (uint32_t i = 0; i < n && qdot_expr_count(pool, *exists) == n; i++) {
+        qdot_expr strict = qdot_expr_arg(pool, *exists, i), new;
+        bool yes, alone = false;
+
+        QDOT_TRY(exists_at_end(r, k, *exists, i, &yes, &new));
+        if (!yes && new == QDOT_NIL && *exists != e->exists)
+            QDOT_TRY(exists_at_end(r, k, e->exists, i, &alone, &new));
+        if (!yes)
+            append_new(pool, special, new);
+        if (yes)
+            *exists = weakened(pool, *exists, i);
+        if (yes && e->stability != QDOT_STABILITY_UNDECIDED)
+            e->stable_when = qdot_conditions_and(pool, e->stable_when, strict);
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
-qdot_rest_ends(qdot_rest *r)
+qdot_rest_ends(qdot_rest *r, qdot_expr *special)
 {
     qdot_pool *pool = r->pool;
     qdot_expr *exists = qdot_malloc((r->found.n + 1) * sizeof *exists);
     qdot_status status = exists == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (size_t k = 0; k < r->found.n && status == QDOT_OK; k++) {
-        qdot_equilibrium *e = &r->found.at[k];
-        uint32_t n = e->exists == QDOT_NIL ? 0 : qdot_expr_count(pool, e->exists);
+        const qdot_equilibrium *e = &r->found.at[k];
 
         exists[k] = e->exists;
-        if (e->numeric || e->range != QDOT_NIL || qdot_solve_integers(pool, e->equations) > 0)
-            continue;
-        for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
-            qdot_expr strict = qdot_expr_arg(pool, e->exists, i);
-            bool yes;
-
-            status = exists_at_end(r, k, i, &yes);
-            if (status != QDOT_OK || !yes)
-                continue;
-            exists[k] = weakened(pool, exists[k], i);
-            if (e->stability != QDOT_STABILITY_UNDECIDED)
-                e->stable_when = qdot_conditions_and(pool, e->stable_when, strict);
-        }
+        if (!e->numeric && e->range == QDOT_NIL && e->exists != QDOT_NIL && qdot_solve_integers(pool, e->equations) == 0)
+            status = weaken_place(r, k, &exists[k], special);
     }
     for (size_t k = 0; k < r->found.n && status == QDOT_OK; k++)
         r->found.at[k].exists = exists[k];
     qdot_free(exists);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* Whether the place at which kinks meet where `gap` is 0 is listed there. */
+static qdot_status
+meeting_is_listed(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr atoms = qdot_expr_atoms(pool, gap, false);
+    end e = {.r = r, .place = SIZE_MAX, .p = QDOT_NIL, .others = QDOT_NIL, .facts = r->facts};
+    qdot_solutions zero = {0};
+    qdot_status status = qdot_pool_check(pool);
+
+    *yes = false;
+    for (uint32_t i = 0; status == QDOT_OK && i < qdot_expr_count(pool, atoms) && e.p == QDOT_NIL; i++)
+        if (qdot_expr_is_class(pool, qdot_expr_arg(pool, atoms, i), QDOT_PARAM))
+            e.p = qdot_expr_arg(pool, atoms, i);
+    if (status != QDOT_OK || e.p == QDOT_NIL)
+        return status;
+    e.facts.exact = true;
+    status = qdot_solve(pool, gap, e.p, &r->facts, &zero);
+    if (status == QDOT_OK && zero.complete && zero.root.n == 1 && zero.root.at[0].period == QDOT_NIL) {
+        qdot_expr equation;
+
+        e.value = zero.root.at[0].value;
+        equation = qdot_rel(pool, QDOT_EQ, r->s->coordinates.at[0], at_end(&e, at));
+        *yes = !is_undefined(pool) && is_listed(&e, qdot_list(pool, 1, &equation));
+    }
+    qdot_solutions_clear(&zero);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+qdot_status
+qdot_rest_meetings(qdot_rest *r, qdot_expr *left)
+{
+    qdot_pool *pool = r->pool;
+
+    *left = QDOT_NIL;
+    for (uint32_t i = 0; r->meeting != QDOT_NIL && i < qdot_expr_count(pool, r->meeting); i++) {
+        qdot_expr one = qdot_expr_arg(pool, r->meeting, i), gap = qdot_expr_arg(pool, one, 0);
+        bool listed;
+
+        QDOT_TRY(meeting_is_listed(r, gap, qdot_expr_arg(pool, one, 1), &listed));
+        if (!listed)
+            append_new(pool, left, qdot_list(pool, 1, &gap));
+    }
+    return qdot_pool_check(pool);
 }

@@ -25,7 +25,7 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
-enum { SAMPLES = 64 };
+enum { SAMPLES = 64, MOST_NESTED = 3 };
 
 static bool
 holds_coordinate(const qdot_rest *r, qdot_expr e)
@@ -172,6 +172,51 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
     return half_of(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
 }
 
+/* The sign of u / v, where v > 0 (up) or v < 0, |v| and sign v put in; 0: it is not known. */
+static int
+sign_beside(qdot_pool *pool, qdot_expr u, qdot_expr v, bool up, const qdot_facts *facts)
+{
+    const qdot_expr from[2] = {qdot_fun1(pool, QDOT_ABS, v), qdot_fun1(pool, QDOT_SIGN, v)},
+                    to[2] = {up ? v : qdot_neg(pool, v), up ? QDOT_ONE : QDOT_MINUS_ONE};
+    qdot_expr ratio = qdot_subs(pool, u, 2, from, to);
+
+    for (int i = 0; i < MOST_NESTED && ratio != QDOT_NIL; i++) /* |4 x + |x||, |5 x|, 5 |x|, 5 x */
+        ratio = qdot_subs(pool, qdot_simplify(pool, ratio, facts), 2, from, to);
+    ratio = qdot_simplify(pool, qdot_div(pool, ratio, v), facts);
+    if (ratio == QDOT_NIL || (qdot_expr_node(pool, ratio)->sign & QDOT_NE0) == 0)
+        return 0;
+    return qdot_expr_node(pool, ratio)->sign & QDOT_GE0 ? 1 : qdot_expr_node(pool, ratio)->sign & QDOT_LE0 ? -1 : 0;
+}
+
+/* By sign v alone the sign of a u that is v times another number on either side of v = 0: sign(x) for
+ * sign(5 x + |x|), so that max(x, 2 x, -x) has one kink. */
+static qdot_expr
+sign_of_sides(qdot_pool *pool, qdot_expr e, void *user)
+{
+    rewriting *w = user;
+    qdot_expr u = qdot_expr_arg(pool, e, 0), by = e;
+    qdot_walk walk;
+
+    if (w->status != QDOT_OK || !qdot_expr_is_function(pool, e, QDOT_SIGN) || !holds_coordinate(w->r, u))
+        return e;
+    w->status = qdot_walk_begin(pool, u, &walk);
+    for (size_t i = 0; w->status == QDOT_OK && i < walk.n && by == e; i++) {
+        qdot_expr v;
+        int above, below;
+
+        if (!qdot_expr_is_function(pool, walk.at[i], QDOT_ABS) && !qdot_expr_is_function(pool, walk.at[i], QDOT_SIGN))
+            continue;
+        v = qdot_expr_arg(pool, walk.at[i], 0);
+        above = sign_beside(pool, u, v, true, &w->r->facts);
+        below = above == 0 ? 0 : -sign_beside(pool, u, v, false, &w->r->facts);
+        if (above != 0 && below != 0)
+            by = above == below ? qdot_expr_int(pool, above)
+                                : qdot_mul(pool, qdot_expr_int(pool, above), qdot_fun1(pool, QDOT_SIGN, v));
+    }
+    qdot_walk_end(&walk);
+    return by;
+}
+
 /* A product with sign(u) u^k for |u|^k, k < 0 odd. */
 static qdot_expr
 product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
@@ -249,12 +294,17 @@ qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out)
     qdot_pool *pool = r->pool;
     rewriting w = {r, QDOT_OK};
     uint32_t n = qdot_expr_count(pool, list);
-    qdot_expr all = QDOT_NIL, by;
+    qdot_expr all = QDOT_NIL, by, nested;
 
     *out = list;
     by = qdot_walk_replace(pool, list, QDOT_PROD, product_by_signs, NULL);
     if (by != QDOT_NIL)
         by = qdot_walk_replace(pool, by, QDOT_FUN, function_by_signs, &w);
+    nested = by;
+    if (by != QDOT_NIL)
+        by = qdot_walk_replace(pool, by, QDOT_FUN, sign_of_sides, &w);
+    if (by != QDOT_NIL && by != nested)
+        by = qdot_walk_replace(pool, qdot_expand(pool, by), QDOT_PROD, product_of_signs, NULL);
     QDOT_TRY(w.status);
     QDOT_TRY(qdot_pool_check(pool));
     if (by == list)

@@ -26,6 +26,7 @@ typedef struct {
     qdot_vec(qdot_equilibrium) found;
     qdot_binder bind; /* values of parameters for numbers; may be NULL */
     void *user;
+    qdot_expr meeting; /* a LIST of LISTs of what is 0 where two kinks of one coordinate meet, and the place; nil: none */
     bool unresolved; /* there may be rests at kinks that were not searched: the list is not complete */
 } qdot_rest;
 
@@ -57,6 +58,11 @@ QDOT_MUST_CHECK qdot_status qdot_rest_is_corner(qdot_rest *r, qdot_expr place, b
 /* Branches to do for the places at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
 
+/* Whether the only coordinate, at its value in `values`, a LIST, is proved to be held there with p = value put in: the
+ * force beside it does not push away. (equilibrium-corners.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value,
+                                              const qdot_facts *facts, bool *yes);
+
 /* The members of a LIST with jumps of coordinates written as signs, where that is possible: else r->unresolved.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out);
@@ -82,8 +88,11 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
 
 /* After the places are judged: a condition a < b of parameters becomes a <= b where the place is a rest for a = b
- * too, and no other place is the same one there. (equilibrium-ends.c) */
-QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r);
+ * too, and no other place is the same one there. Where that holds of some factors of b - a alone, these are added to
+ * the LIST *special (nil: none). (equilibrium-ends.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r, qdot_expr *special);
+/* Behind that: a LIST of what is 0 where two kinks meet at a place that is not listed there; nil: none. */
+QDOT_MUST_CHECK qdot_status qdot_rest_meetings(qdot_rest *r, qdot_expr *left);
 
 /* A LIST of what the places [n] divide by that may be 0 at some values of parameters; nil: none.
  * (equilibrium-special.c) */

@@ -460,7 +460,9 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
     if (status == QDOT_OK)
         status = rest_judge(&r, out->special, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
-        status = qdot_rest_ends(&r);
+        status = qdot_rest_ends(&r, &out->special);
+    if (status == QDOT_OK && !first_only)
+        status = qdot_rest_meetings(&r, &out->meeting);
     if (status == QDOT_OK && !first_only) /* behind the ends: these are not ends of what is assumed */
         status = keep_assumed(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))
