@@ -143,6 +143,23 @@ of_all_members(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr
     return all;
 }
 
+/* Where f divides by 0 at the value of a family, but not at all of its members, as sin(x)/x does at 0 of n pi: *each, the
+ * conditions that tell these apart; else nil. */
+static qdot_status
+poles_apart(const qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr *each)
+{
+    qdot_expr at = qdot_subs(s->pool, s->f, 1, &s->x, &value), all;
+    qdot_status status = qdot_pool_check(s->pool);
+
+    *each = QDOT_NIL;
+    if (at != QDOT_NIL || status != QDOT_EDOMAIN)
+        return status;
+    all = of_all_members(s, qdot_conditions_of_divisors(s->pool, s->f, s->x), period, each);
+    if (*each != QDOT_NIL && qdot_conditions_at(s->pool, all, 1, &s->x, &value, s->facts) == QDOT_FALSE)
+        *each = QDOT_NIL;
+    return qdot_pool_check(s->pool);
+}
+
 qdot_status
 qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr when)
 {
@@ -174,6 +191,8 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
             qdot_conditions_join(s->pool, &s->out->root.at[i].condition, root.condition,
                                  s->facts))
             return qdot_pool_check(s->pool);
+    if (period != QDOT_NIL && root.members == QDOT_NIL && !lifted)
+        QDOT_TRY(poles_apart(s, root.value, period, &root.members));
     if (root.members != QDOT_NIL || lifted) /* the value itself may be none; or it is proved to be one */
         return qdot_vec_push(&s->out->root, root);
     facts = qdot_facts_and(s->pool, s->facts, root.condition, room);
