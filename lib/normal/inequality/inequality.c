@@ -15,7 +15,7 @@
 #include "normal/prove/domain.h"
 #include "normal/refute/constant.h"
 
-enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, MOST_SAID = 8 };
+enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, SMALLEST_PART = 128, MOST_SAID = 8 };
 #define WORK 20000
 #define ALL_WORK 30000000
 
@@ -158,7 +158,7 @@ drop_unconnected(qdot_pool *pool, qdot_question *q)
 
 /* --- one question ------------------------------------------------------------------------- */
 
-/* e - c m >= 0 for some c > 0 and m > 0 proves e > 0. */
+/* e - c m >= 0 for some c > 0 and m > 0 proves e > 0; where it is refuted for a small c it is for every larger one. */
 static qdot_status
 with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
 {
@@ -173,16 +173,12 @@ with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
     for (size_t i = 1; i < singles; i++)
         for (size_t j = i; j < singles && n < MOST_MARGINS; j++)
             margin[n++] = qdot_mul(pool, margin[i], margin[j]);
-    for (size_t i = 0; i < n && !*proved; i++)
-        for (long c = 2; c <= 128 && !*proved; c *= 8) {
-            qdot_expr less = qdot_sub(
-                pool, q->e, qdot_mul(pool, qdot_expr_ratio(pool, 1, c), margin[i]));
+    for (size_t i = 0; i < n && !*proved; i++) {
+        qdot_expr less = qdot_sub(pool, q->e, qdot_mul(pool, qdot_expr_ratio(pool, 1, SMALLEST_PART), margin[i]));
 
-            QDOT_TRY(
-                qdot_cells_decide(pool, less, q->n, q->condition, q->work, &result, &at));
-            *proved = result == QDOT_CELLS_POSITIVE ||
-                      result == QDOT_CELLS_NOT_NEGATIVE || result == QDOT_CELLS_ZERO;
-        }
+        QDOT_TRY(qdot_cells_decide(pool, less, q->n, q->condition, q->work, &result, &at));
+        *proved = result == QDOT_CELLS_POSITIVE || result == QDOT_CELLS_NOT_NEGATIVE || result == QDOT_CELLS_ZERO;
+    }
     return QDOT_OK;
 }
 
