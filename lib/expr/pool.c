@@ -263,13 +263,23 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
     return true;
 }
 
+/* Room in the pool's own memory, which never moves; NULL where there is none. */
+static void *
+pool_room(qdot_pool *pool, size_t bytes)
+{
+    qdot_scope *scope = qdot_scope_pause(); /* the pool outlives it */
+    void *room = qdot_arena_take(pool->arena, bytes);
+
+    qdot_scope_resume(scope);
+    return room;
+}
+
 /* *y = x for as long as the pool lives: a large integer is one of GMP's that is only read, in the
  * pool's own memory, so that any thread may use it, whose FLINT made it or not. */
 static bool
 keep_integer(qdot_pool *pool, fmpz *y, const fmpz_t x)
 {
     const __mpz_struct *from;
-    qdot_scope *scope;
     size_t bytes;
     char *room;
 
@@ -278,9 +288,7 @@ keep_integer(qdot_pool *pool, fmpz *y, const fmpz_t x)
         return true;
     from = COEFF_TO_PTR(*x);
     bytes = mpz_size(from) * sizeof(mp_limb_t);
-    scope = qdot_scope_pause(); /* the pool outlives it */
-    room = qdot_arena_take(pool->arena, sizeof *from + bytes);
-    qdot_scope_resume(scope);
+    room = pool_room(pool, sizeof *from + bytes);
     if (room == NULL)
         return false;
     memcpy(room + sizeof *from, mpz_limbs_read(from), bytes);
@@ -295,7 +303,7 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
 {
     qdot_node node = {.kind = QDOT_NUM, .sign = sign_of_number(x)};
     bool small = rational_is_small(x);
-    fmpq copy;
+    fmpq *copy;
 
     if (!may_work(pool, 0) || qdot_number_too_large(pool, x))
         return QDOT_NIL;
@@ -311,8 +319,9 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
             return e;
     }
     node.at = (uint32_t)pool->numbers.n;
-    if (!keep_integer(pool, fmpq_numref(&copy), fmpq_numref(x)) ||
-        !keep_integer(pool, fmpq_denref(&copy), fmpq_denref(x)) ||
+    copy = pool_room(pool, sizeof *copy);
+    if (copy == NULL || !keep_integer(pool, fmpq_numref(copy), fmpq_numref(x)) ||
+        !keep_integer(pool, fmpq_denref(copy), fmpq_denref(x)) ||
         qdot_vec_push(&pool->numbers, copy) != QDOT_OK)
         return qdot_pool_fail(pool);
     return pool_append(pool, &node);
@@ -570,7 +579,7 @@ qdot_pool_bytes(const qdot_pool *pool)
 {
     return pool->nodes.capacity * sizeof *pool->nodes.at +
            pool->args.capacity * sizeof *pool->args.at +
-           pool->numbers.capacity * sizeof *pool->numbers.at +
+           pool->numbers.capacity * sizeof *pool->numbers.at + pool->numbers.n * sizeof **pool->numbers.at +
            pool->symbols.capacity * sizeof *pool->symbols.at +
            (pool->mask + 1) * sizeof *pool->table;
 }

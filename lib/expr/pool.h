@@ -9,7 +9,7 @@
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* [0] is nil */
     qdot_vec(qdot_expr) args;
-    qdot_vec(fmpq) numbers; /* only read; FLINT is never to clear one */
+    qdot_vec(fmpq *) numbers; /* in the arena: they never move. Only read; FLINT is never to clear one */
     qdot_vec(qdot_symbol) symbols;
     qdot_vec(qdot_ufun) ufuns;
     uint32_t *table; /* open hash table of ids */
@@ -96,7 +96,7 @@ bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 #define NODE(pool, e) (&(pool)->nodes.at[e])
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
 #define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))
-#define RATIONAL(pool, e) (&(pool)->numbers.at[(pool)->nodes.at[e].at])
+#define RATIONAL(pool, e) ((const fmpq *)(pool)->numbers.at[(pool)->nodes.at[e].at])
 /* qdot_expr_rational, qdot_pool_failed without a call */
 #define NUMBER(pool, e)                                                                  \
     ((e) != QDOT_NIL && NODE(pool, e)->kind == QDOT_NUM ? RATIONAL(pool, e) : NULL)

@@ -36,6 +36,21 @@ built_alike_is_the_same_id(void **state)
 }
 
 /* 200,000 numbers of all sizes: the table grows, every one is found again. */
+/* The rational of a number stays where it is, and what it is, whatever is made later. */
+static void
+numbers_stay_where_they_are(void **state)
+{
+    const qdot_expr third = qdot_expr_ratio(p.pool, 1, 3), big = qdot_pow_int(p.pool, qdot_expr_int(p.pool, 3), 99);
+    const fmpq *small_one = qdot_expr_rational(p.pool, third), *large_one = qdot_expr_rational(p.pool, big);
+
+    (void)state;
+    for (long i = 0; i < 50000; i++)
+        (void)qdot_expr_ratio(p.pool, i, 100003);
+    assert_ptr_equal(qdot_expr_rational(p.pool, third), small_one);
+    assert_ptr_equal(qdot_expr_rational(p.pool, big), large_one);
+    assert_true(fmpq_cmp_si(large_one, 1000000) > 0 && fmpz_get_si(fmpq_denref(small_one)) == 3);
+}
+
 static void
 numbers_are_interned_by_value(void **state)
 {
@@ -291,6 +306,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         TEST(first_ids_are_the_constants),
         TEST(built_alike_is_the_same_id),
+        TEST(numbers_stay_where_they_are),
         TEST(numbers_are_interned_by_value),
         TEST(children_have_smaller_ids),
         TEST(nil_absorbs_and_the_first_cause_is_kept),

@@ -69,21 +69,22 @@ qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions, qdot_wind
         qdot_expr one = qdot_expr_arg(pool, conditions, i), gap, slope, end;
         bool open = qdot_expr_node(pool, one)->op == QDOT_LT;
         const fmpq *c;
+        int rises;
 
         gap = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
         slope = qdot_diff(pool, gap, x);
         c = slope == QDOT_NIL ? NULL : qdot_expr_rational(pool, slope);
         if (c == NULL || fmpq_is_zero(c))
             continue;
+        rises = fmpq_sgn(c); /* c is the pool's: it may move with the next node */
         end = qdot_simplify(pool, qdot_sub(pool, x, qdot_div(pool, gap, slope)), facts);
-        c = qdot_expr_rational(pool, slope);
         if (end == QDOT_NIL || !qdot_is_constant(pool, end))
             continue;
-        if (fmpq_sgn(c) > 0 && is_tighter(pool, end, open, w.lo, w.lo_open, true, facts)) {
+        if (rises > 0 && is_tighter(pool, end, open, w.lo, w.lo_open, true, facts)) {
             w.lo = end;
             w.lo_open = open;
             w.turn = w.recurs = false;
-        } else if (fmpq_sgn(c) < 0 && is_tighter(pool, end, open, w.hi, w.hi_open, false, facts)) {
+        } else if (rises < 0 && is_tighter(pool, end, open, w.hi, w.hi_open, false, facts)) {
             w.hi = end;
             w.hi_open = open;
             w.turn = w.recurs = false;
