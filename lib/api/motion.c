@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-#include "lang/commands/handlers.h"
+#include "lang/commands/statement.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/match.h"
 
 /* --- begin and end -------------------------------------------------------------------- */
 
@@ -83,7 +84,7 @@ static qdot_status
 motion_read_run(qdot_cursor *c, void *data)
 {
     (void)data;
-    return qdot_run_statement(c);
+    return qdot_match_carry_out(c, qdot_statement_find("run"));
 }
 
 /* The run that the call added, behind those of before; NULL: it added none. `last`: the latest of

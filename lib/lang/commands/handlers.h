@@ -5,7 +5,6 @@
 #include "lang/language/cursor.h"
 
 qdot_status qdot_check(qdot_cursor *c);
-qdot_status qdot_run_statement(qdot_cursor *c);
 qdot_status qdot_run_plan_statement(qdot_cursor *c);
 qdot_status qdot_table_statement(qdot_cursor *c);
 qdot_status qdot_plot_statement(qdot_cursor *c);

@@ -2,33 +2,44 @@
 #include <string.h>
 
 #include "lang/commands/handlers.h"
+#include "lang/commands/statement.h"
 #include "lang/figures/plot.h"
-#include "lang/language/read.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/runs.h"
 #include "lang/source/source.h"
+#include "lang/syntax/match.h"
 
 typedef struct {
     qdot_session *session;
     char *text;           /* of the run, "0..20 tol 1e-9"; owned */
     qdot_source *source;  /* the same with its tokens */
+    qdot_record record;   /* of these */
     qdot_run_options run; /* as the values in force have them */
 } again;
 
-/* Read the statement with the values in force; the names in it are those of the scene, no indices. */
+/* The names in the statement are those of the scene, no indices. */
 static qdot_status
 again_read_run(again *a)
 {
-    qdot_cursor c = {.session = a->session, .source = a->source, .at = a->source->tokens.at};
-    const qdot_token *start = c.at;
+    const qdot_cursor c = {.session = a->session, .source = a->source, .at = a->source->tokens.at};
     const size_t outer = qdot_names_enclose(a->session->names);
+    const qdot_status status = qdot_match_operands(&c, qdot_statement_find("run"), &a->record);
+
+    qdot_names_disclose(a->session->names, outer);
+    return status;
+}
+
+/* What it says with the values in force. */
+static qdot_status
+again_find_run(again *a)
+{
+    const size_t outer = qdot_names_enclose(a->session->names);
+    qdot_record *r = &a->record;
     qdot_status status;
 
     qdot_run_options_free(&a->run);
     a->run = (qdot_run_options){.tol = 1e-12};
-    status = qdot_read_range(&c, &a->run.from, &a->run.to);
-    if (status == QDOT_OK)
-        status = qdot_run_options_read(&c, start, &a->run);
+    status = qdot_run_options_find(r, r->parts.at + 1, r->parts.at + r->parts.n, &a->run);
     qdot_names_disclose(a->session->names, outer);
     return status;
 }
@@ -63,7 +74,7 @@ again_begin(void *user)
     if (a->text == NULL)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_source_new("a run", a->text, strlen(a->text), &a->source, &at));
-    if (again_read_run(a) == QDOT_OK)
+    if (again_read_run(a) == QDOT_OK && again_find_run(a) == QDOT_OK)
         QDOT_TRY(is_repeatable(a, latest, &is));
     else
         QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* a name that the text holds has gone */
@@ -79,7 +90,7 @@ again_make(void *user)
 {
     again *a = user;
 
-    QDOT_TRY(again_read_run(a));
+    QDOT_TRY(again_find_run(a));
     return qdot_own_run_make(a->session, &a->run, a->run.from, a->run.to, NULL, NULL);
 }
 
@@ -97,6 +108,7 @@ qdot_plot_statement(qdot_cursor *c)
     const qdot_status status = qdot_plot_figure(c, &runs);
 
     qdot_run_options_free(&a.run);
+    qdot_record_free(&a.record);
     qdot_source_free(a.source);
     qdot_free(a.text);
     return status;

@@ -157,6 +157,123 @@ qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options 
     return QDOT_OK;
 }
 
+/* --- of a record ------------------------------------------------------------------------ */
+
+/* NAME = VALUE of a parameter or of a coordinate or velocity. */
+static qdot_status
+with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
+{
+    const qdot_name *known;
+    qdot_expr symbol, value;
+    const char *name;
+
+    QDOT_TRY(qdot_record_name(r, part, &name));
+    known = qdot_names_find(r->cursor.session->names, name);
+    if (known != NULL && known->kind == QDOT_NAME_COORD)
+        QDOT_TRY(qdot_set_find_jet(r, part, &symbol));
+    else
+        QDOT_TRY(qdot_set_find_parameter(r, part, &symbol));
+    QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
+    qdot_record_blame(r, part);
+    QDOT_TRY(qdot_session_in_domain(r->cursor.session, symbol, value));
+    return qdot_pairs_push(with, part->from, symbol, value);
+}
+
+/* Those of the list that begins with `first`. */
+static qdot_status
+with_find(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_pairs *with)
+{
+    for (const qdot_filled *part = first; part < to; part += 4) { /* NAME = VALUE , */
+        QDOT_TRY(with_find_one(r, part, with));
+        if (part + 3 >= to || !qdot_filled_is(part + 3, ","))
+            break;
+    }
+    return qdot_value_check(&r->cursor, with);
+}
+
+static qdot_status
+tolerance_find(qdot_record *r, const qdot_filled *part, qdot_run_options *o)
+{
+    o->tol_given = true;
+    QDOT_TRY(qdot_record_number(r, part, &o->tol));
+    if (o->tol > 0 && o->tol < 1)
+        return QDOT_OK;
+    qdot_record_blame(r, part);
+    return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
+}
+
+/* project, baumgarte or none: how drift off the constraints is treated. */
+static qdot_status
+treatment_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
+{
+    if (r->cursor.session->scene->constraints.n == 0) {
+        qdot_record_blame(r, word);
+        (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
+        return qdot_hint("constraint NAME: A = B");
+    }
+    o->treatment_given = true;
+    o->treatment = qdot_filled_is(word + 1, "project")     ? QDOT_RUN_PROJECT
+                   : qdot_filled_is(word + 1, "baumgarte") ? QDOT_RUN_BAUMGARTE
+                                                           : QDOT_RUN_NONE;
+    return QDOT_OK;
+}
+
+static qdot_status
+digits_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
+{
+    QDOT_TRY(qdot_record_integer(r, word + 1, &o->digits));
+    qdot_record_blame(r, word);
+    if (o->digits >= 1 && o->digits <= INT_MAX)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "%ld digits cannot be asked for", o->digits);
+    return qdot_hint("digits 30");
+}
+
+/* The option whose word is the part, before `to`. */
+static qdot_status
+option_find(qdot_record *r, const qdot_filled *word, const qdot_filled *to, qdot_run_options *o)
+{
+    if (qdot_filled_is(word, "tol"))
+        return tolerance_find(r, word + 1, o);
+    if (qdot_filled_is(word, "digits"))
+        return digits_find(r, word, o);
+    if (qdot_filled_is(word, "constraints"))
+        return treatment_find(r, word, o);
+    if (qdot_filled_is(word, "with"))
+        return with_find(r, word + 1, to, &o->with);
+    if (qdot_filled_is(word, "as"))
+        return qdot_record_name(r, word + 1, &o->name);
+    if (qdot_filled_is(word, "method")) {
+        o->method_at = word[1].from;
+        o->method = word[1].from->text;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_run_options_find(qdot_record *r, const qdot_filled *from, const qdot_filled *to,
+                      qdot_run_options *o)
+{
+    const qdot_filled *said = from;
+
+    if (from < to && qdot_filled_is(from, "T0..T1"))
+        QDOT_TRY(qdot_record_range(r, from, &o->from, &o->to));
+    for (const qdot_filled *part = from; part < to; part++) {
+        if (part->node->kind != QDOT_USAGE_WORD)
+            continue;
+        QDOT_TRY(option_find(r, part, to, o));
+        if (qdot_filled_is(part, "as")) {
+            add_text(&r->cursor, said->from, part->from, o);
+            said = part + 2;
+        }
+    }
+    if (said < to)
+        add_text(&r->cursor, said->from, to[-1].to, o);
+    return add_held(&r->cursor, o);
+}
+
+/* --- read by a cursor --------------------------------------------------------------------- */
+
 /* The next `:` outside of brackets; NULL: there is none. */
 static qdot_token *
 find_colon(const qdot_cursor *c)

@@ -2,8 +2,12 @@
 #ifndef QDOT_LANG_RUN_OPTIONS_H
 #define QDOT_LANG_RUN_OPTIONS_H
 
-#include "lang/language/cursor.h"
 #include "lang/runs/request.h"
+#include "lang/syntax/record.h"
+
+/* The options as usage texts have them, but for a name. */
+#define QDOT_RUN_USAGE                                                                   \
+    "[tol E | digits N] [method NAME] [with NAME = VALUE, ...] [constraints project|baumgarte|none]"
 
 typedef struct {
     qdot_expr from, to;
@@ -17,6 +21,10 @@ typedef struct {
     qdot_text text; /* of the statement, without its name */
 } qdot_run_options;
 
+/* What the parts [from, to) of a statement say: limits, where they begin with T0..T1, options and
+ * a name. From {.tol = 1e-12}; free it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_find(qdot_record *r, const qdot_filled *from,
+                                                  const qdot_filled *to, qdot_run_options *o);
 /* Read the options up to the end; start: the first token of the statement's operands. From {.tol =
  * 1e-12}; free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_read(qdot_cursor *c, const qdot_token *start,

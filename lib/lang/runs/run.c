@@ -6,10 +6,20 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/report.h"
 #include "lang/runs/run.h"
-#include "lang/commands/handlers.h"
 #include "lang/commands/warnings.h"
-#include "lang/language/read.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
+
+static qdot_status run_make(qdot_record *r);
+
+QDOT_STATEMENT(run) = {
+    .word = "run",
+    .group = QDOT_NUMBERS,
+    .usage = "run T0..T1 " QDOT_RUN_USAGE " [as NAME]",
+    .summary = "integrate, and say how well it went",
+    .example = "run 0..20 tol 1e-12",
+    .handler = run_make,
+};
 
 /* Integrate, keep the run, tell how it went. */
 static qdot_status
@@ -73,19 +83,16 @@ qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_optio
     return status;
 }
 
-qdot_status
-qdot_run_statement(qdot_cursor *c)
+static qdot_status
+run_make(qdot_record *r)
 {
-    const qdot_token *start = c->at;
     qdot_run_options o = {.tol = 1e-12};
-    qdot_status status = qdot_read_range(c, &o.from, &o.to);
+    qdot_status status = qdot_run_options_find(r, r->parts.at + 1, r->parts.at + r->parts.n, &o);
 
     if (status == QDOT_OK)
-        status = qdot_run_options_read(c, start, &o);
-    if (status == QDOT_OK)
-        status = qdot_run_carry_out(c, start, &o);
+        status = qdot_run_carry_out(&r->cursor, r->start, &o);
     else
-        qdot_run_options_place(c, &o, status);
+        qdot_run_options_place(&r->cursor, &o, status);
     qdot_run_options_free(&o);
     return status;
 }

@@ -12,6 +12,7 @@ typedef enum {
     QDOT_HOLE_VALUE,      /* an expression, with these */
     QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
     QDOT_HOLE_RANGE,      /* SIDE..SIDE */
+    QDOT_HOLE_VALUES,     /* SIDE..SIDE, or SIDE */
     QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), as many as the hole names */
     QDOT_HOLE_NAME,       /* name or name[SIDE, ...] */
     QDOT_HOLE_DOMAIN,     /* the same of a new name, with its bounds: SIDE < name < SIDE */

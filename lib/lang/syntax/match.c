@@ -291,6 +291,9 @@ read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
     case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
     case QDOT_HOLE_EQUATION: return read_equation(m, node, part);
     case QDOT_HOLE_RANGE: return read_range(m, hole, part);
+    case QDOT_HOLE_VALUES:
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+        return qdot_cursor_accept_op(m->c, "..") ? read_expression(m, QDOT_PARSE_SIDE, part) : QDOT_OK;
     case QDOT_HOLE_TUPLE: return read_tuple(m, node->text, part);
     case QDOT_HOLE_NAME:
     case QDOT_HOLE_COORDINATE: return read_name(m, hole, part);
@@ -521,4 +524,32 @@ qdot_match_operands(const qdot_cursor *c, const qdot_statement *row, qdot_record
     if (status == QDOT_OK)
         m.r->parts.at[0].from = m.r->parts.at[0].to = m.r->parts.at[0].primes = c->at;
     return match_all(&m, status);
+}
+
+qdot_status
+qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end, const qdot_statement *row,
+                       qdot_record *record)
+{
+    qdot_token *const last = (qdot_token *)end;
+    const uint8_t kind = last->kind;
+    qdot_status status;
+
+    last->kind = QDOT_TOKEN_END; /* meanwhile */
+    status = qdot_match_operands(c, row, record);
+    last->kind = kind;
+    return status;
+}
+
+qdot_status
+qdot_match_carry_out(qdot_cursor *c, const qdot_statement *row)
+{
+    qdot_record record;
+    qdot_status status = qdot_match_operands(c, row, &record);
+
+    if (status == QDOT_OK)
+        status = row->handler(&record);
+    c->at = record.cursor.at;
+    c->error_at = record.cursor.error_at;
+    qdot_record_free(&record);
+    return status;
 }

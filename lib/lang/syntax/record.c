@@ -198,35 +198,42 @@ qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k, qdot_bound 
     return QDOT_OK;
 }
 
+/* The n values that the code [0, at) leaves, as a list. */
+static qdot_status
+evaluate_as_list(qdot_record *r, const qdot_compiled *whole, size_t at, uint32_t n, qdot_expr *list)
+{
+    const qdot_token *token = whole->code.list.at[at].token;
+    qdot_compiled part = {.from = whole->from, .to = whole->to};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < at && status == QDOT_OK; i++)
+        status = qdot_vec_push(&part.code.list, whole->code.list.at[i]);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&part.code.list, ((qdot_postfix){QDOT_POSTFIX_LIST, 0, n, 0, token}));
+    if (status == QDOT_OK)
+        status = qdot_compiled_value(&r->cursor, &part, list);
+    qdot_compiled_free(&part);
+    return status;
+}
+
 /* The same of the name that the code [0, at] is, with its indices before it. */
 static qdot_status
 spell_code(qdot_record *r, const qdot_compiled *whole, size_t at, const char **name)
 {
     const qdot_postfix *last = &whole->code.list.at[at];
     qdot_session *session = r->cursor.session;
-    qdot_compiled indices = {.from = whole->from, .to = whole->to};
     long index[QDOT_RECORD_INDICES];
     qdot_expr list = QDOT_NIL;
-    qdot_status status = QDOT_OK;
 
     *name = last->token->text;
     if (last->n == 0 || last->n > QDOT_RECORD_INDICES) {
         *name = last->n == 0 ? *name : NULL;
         return QDOT_OK;
     }
-    for (size_t i = 0; i < at && status == QDOT_OK; i++)
-        status = qdot_vec_push(&indices.code.list, whole->code.list.at[i]);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&indices.code.list,
-                               ((qdot_postfix){QDOT_POSTFIX_LIST, 0, last->n, 0, last->token}));
-    if (status == QDOT_OK)
-        status = qdot_compiled_value(&r->cursor, &indices, &list);
-    for (uint32_t i = 0; i < last->n && status == QDOT_OK; i++)
-        status = qdot_session_integer(session, qdot_expr_arg(session->pool, list, i), &index[i]);
-    if (status == QDOT_OK)
-        status = spell_name(r, *name, last->n, index, name);
-    qdot_compiled_free(&indices);
-    return status;
+    QDOT_TRY(evaluate_as_list(r, whole, at, last->n, &list));
+    for (uint32_t i = 0; i < last->n; i++)
+        QDOT_TRY(qdot_session_integer(session, qdot_expr_arg(session->pool, list, i), &index[i]));
+    return spell_name(r, *name, last->n, index, name);
 }
 
 qdot_status
@@ -274,6 +281,26 @@ qdot_record_body(qdot_record *r, const qdot_filled *part, qdot_formals *f, qdot_
 {
     QDOT_TRY(qdot_formals_enter(r->cursor.session, f));
     return qdot_record_value(r, part, body);
+}
+
+qdot_status
+qdot_record_call_of_two(qdot_record *r, const qdot_filled *part, const char *function, double *values,
+                        bool *is)
+{
+    const qdot_compiled *whole = &r->compiled.at[part->first];
+    const size_t last = whole->code.list.n - 1;
+    const qdot_postfix *call = &whole->code.list.at[last];
+    qdot_session *session = r->cursor.session;
+    qdot_expr list = QDOT_NIL;
+
+    *is = call->op == QDOT_POSTFIX_CALL && call->token == whole->from && call->to == 0 && call->n == 2 &&
+          strcmp(call->token->text, function) == 0;
+    if (!*is)
+        return QDOT_OK;
+    QDOT_TRY(evaluate_as_list(r, whole, last, 2, &list));
+    for (uint32_t i = 0; i < 2; i++)
+        QDOT_TRY(qdot_session_number(session, qdot_expr_arg(session->pool, list, i), &values[i], NULL));
+    return QDOT_OK;
 }
 
 qdot_status

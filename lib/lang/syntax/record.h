@@ -103,6 +103,9 @@ QDOT_MUST_CHECK qdot_status qdot_record_bare_name(qdot_record *r, const qdot_fil
 /* The label in FUNCTION(LABEL, ...), a call and nothing else; *label NULL: it is none. */
 QDOT_MUST_CHECK qdot_status qdot_record_label_in(qdot_record *r, const qdot_filled *part,
                                                  const char *function, const char **label);
+/* The arguments of FUNCTION(A, B), that call and nothing else, as numbers; *is: whether it is such a call. */
+QDOT_MUST_CHECK qdot_status qdot_record_call_of_two(qdot_record *r, const qdot_filled *part,
+                                                    const char *function, double *values, bool *is);
 /* The text of a hole in quotes. */
 const char *qdot_record_text(const qdot_filled *part);
 
