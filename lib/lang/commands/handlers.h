@@ -5,17 +5,10 @@
 #include "lang/language/cursor.h"
 
 qdot_status qdot_check(qdot_cursor *c);
-qdot_status qdot_run_plan_statement(qdot_cursor *c);
 qdot_status qdot_table_statement(qdot_cursor *c);
 qdot_status qdot_plot_statement(qdot_cursor *c);
 qdot_status qdot_table_save(qdot_cursor *c);
-qdot_status qdot_sweep_statement(qdot_cursor *c);
-qdot_status qdot_poincare_statement(qdot_cursor *c);
 qdot_status qdot_animate_statement(qdot_cursor *c);
-qdot_status qdot_sensitivity_statement(qdot_cursor *c);
-qdot_status qdot_find_statement(qdot_cursor *c);
-qdot_status qdot_fit_statement(qdot_cursor *c);
-qdot_status qdot_continue_statement(qdot_cursor *c);
 qdot_status qdot_help(qdot_cursor *c);
 qdot_status qdot_report_page(qdot_cursor *c);
 qdot_status qdot_export_statement(qdot_cursor *c);

@@ -309,3 +309,15 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
     QDOT_TRY(qdot_record_coordinate(r, name, jet));
     return check_jet(&r->cursor, name->from, *jet);
 }
+
+qdot_status
+qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
+{
+    const qdot_name *known;
+    const char *name;
+
+    QDOT_TRY(qdot_record_name(r, part, &name));
+    known = qdot_names_find(r->cursor.session->names, name);
+    return known != NULL && known->kind == QDOT_NAME_COORD ? qdot_set_find_jet(r, part, symbol)
+                                                           : qdot_set_find_parameter(r, part, symbol);
+}

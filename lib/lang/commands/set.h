@@ -15,6 +15,8 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_f
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *value);
+/* A parameter, p[NAME], q or q'. */
+QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
 /* Numbers of runs in a value become rationals; what they make it is off by is kept, for who writes it
  * down (lang/declare/session-file). */
 QDOT_MUST_CHECK qdot_status qdot_set_keep_measured(qdot_session *session, qdot_expr *value);

@@ -12,7 +12,7 @@
 
 #define ROW(word, group, usage, summary, example, handler, alone)
 #define UNBUILT(word, group, usage, summary, example)
-#define STATEMENT(word) extern const qdot_statement qdot_statement_##word;
+#define STATEMENT(word) extern const qdot_statement qdot_statement_row_##word;
 #include "lang/commands/statement.def"
 #undef ROW
 #undef UNBUILT
@@ -23,7 +23,7 @@ static const qdot_statement *const table[] = {
     &(const qdot_statement){word, group, usage, summary, example, NULL, alone, NULL, handler},
 #define UNBUILT(word, group, usage, summary, example)                                    \
     &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL, NULL},
-#define STATEMENT(word) &qdot_statement_##word,
+#define STATEMENT(word) &qdot_statement_row_##word,
 #include "lang/commands/statement.def"
 };
 

@@ -1,93 +1,13 @@
-/* run-options.c -- reads the options of a run. */
+/* run-options.c -- the options of a run. */
 #include "lang/runs/run-options.h"
 
 #include <limits.h>
 
 #include "lang/commands/set.h"
 #include "lang/commands/value-check.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
-
-/* NAME = VALUE of a parameter or of a coordinate or velocity. */
-static qdot_status
-read_with(qdot_cursor *c, qdot_pairs *with)
-{
-    do {
-        const qdot_token *start = c->at;
-        qdot_cursor look = *c;
-        qdot_expr symbol, value;
-        const char *name;
-        const qdot_name *known = NULL;
-
-        if (c->at->kind == QDOT_TOKEN_NAME && qdot_read_name(&look, &name) == QDOT_OK)
-            known = qdot_names_find(c->session->names, name);
-        if (known != NULL && known->kind == QDOT_NAME_COORD)
-            QDOT_TRY(qdot_set_read_jet(c, &symbol));
-        else
-            QDOT_TRY(qdot_set_read_parameter(c, &symbol));
-        QDOT_TRY(qdot_set_read_constant(c, &value));
-        c->error_at = start->start;
-        QDOT_TRY(qdot_session_in_domain(c->session, symbol, value));
-        QDOT_TRY(qdot_pairs_push(with, start, symbol, value));
-    } while (qdot_cursor_accept_op(c, ","));
-    return qdot_value_check(c, with);
-}
-
-static qdot_status
-run_read_tolerance(qdot_cursor *c, qdot_run_options *o)
-{
-    const qdot_token *start = c->at;
-
-    QDOT_TRY(qdot_cursor_once(c, "tol", o->tol_given));
-    o->tol_given = true;
-    QDOT_TRY(qdot_read_number(c, &o->tol));
-    if (o->tol > 0 && o->tol < 1)
-        return QDOT_OK;
-    c->error_at = start->start;
-    return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
-}
-
-/* project, baumgarte or none: how drift off the constraints is treated. */
-static qdot_status
-read_treatment(qdot_cursor *c, qdot_run_options *o)
-{
-    static const struct {
-        const char *word;
-        qdot_run_treatment treatment;
-    } words[] = {{"project", QDOT_RUN_PROJECT},
-                 {"baumgarte", QDOT_RUN_BAUMGARTE},
-                 {"none", QDOT_RUN_NONE}};
-
-    if (c->session->scene->constraints.n == 0) {
-        c->error_at = c->at[-1].start;
-        (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
-        return qdot_hint("constraint NAME: A = B");
-    }
-    QDOT_TRY(qdot_cursor_once(c, "constraints", o->treatment_given));
-    o->treatment_given = true;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (qdot_cursor_accept_word(c, words[i].word)) {
-            o->treatment = words[i].treatment;
-            return QDOT_OK;
-        }
-    return qdot_cursor_expected(c, "`project`, `baumgarte` or `none`");
-}
-
-static qdot_status
-read_digits(qdot_cursor *c, qdot_run_options *o)
-{
-    const qdot_token *start = c->at++;
-
-    QDOT_TRY(qdot_cursor_once(c, "digits", o->digits != 0));
-    QDOT_TRY(qdot_read_integer(c, &o->digits));
-    c->error_at = start->start;
-    if (o->digits >= 1 && o->digits <= INT_MAX)
-        return QDOT_OK;
-    qdot_fail(QDOT_EINVAL, "%ld digits cannot be asked for", o->digits);
-    return qdot_hint("digits 30");
-}
 
 /* What the tokens [from, to) say, behind what was said before. */
 static void
@@ -119,60 +39,13 @@ add_held(qdot_cursor *c, qdot_run_options *o)
     return session->held.n > 0 ? qdot_value_check(c, &o->with) : QDOT_OK;
 }
 
-qdot_status
-qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options *o)
-{
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "tol")) {
-            QDOT_TRY(run_read_tolerance(c, o));
-        } else if (qdot_cursor_is_word(c, "digits")) {
-            QDOT_TRY(read_digits(c, o));
-        } else if (qdot_cursor_accept_word(c, "method")) {
-            QDOT_TRY(qdot_cursor_once(c, "method", o->method != NULL));
-            if (c->at->kind != QDOT_TOKEN_NAME)
-                return qdot_cursor_expected(c, "the name of a method");
-            o->method_at = c->at;
-            o->method = c->at++->text;
-        } else if (qdot_cursor_accept_word(c, "constraints")) {
-            QDOT_TRY(read_treatment(c, o));
-        } else if (qdot_cursor_accept_word(c, "as")) {
-            add_text(c, start, c->at - 1, o);
-            QDOT_TRY(qdot_cursor_once(c, "as", o->name != NULL));
-            QDOT_TRY(qdot_read_name(c, &o->name));
-            start = c->at;
-        } else if (qdot_cursor_accept_word(c, "with")) {
-            QDOT_TRY(read_with(c, &o->with));
-        } else {
-            return qdot_cursor_expected(
-                c, "`tol`, `digits`, `method`, `with`, `constraints` or `as`");
-        }
-    }
-    add_text(c, start, c->at, o);
-    QDOT_TRY(add_held(c, o));
-    if (o->tol_given && o->digits > 0) {
-        c->error_at = c->at->start;
-        qdot_fail(QDOT_EINVAL, "`digits` sets the tolerance itself: no `tol` beside it");
-        return qdot_hint("digits %ld", o->digits);
-    }
-    return QDOT_OK;
-}
-
-/* --- of a record ------------------------------------------------------------------------ */
-
 /* NAME = VALUE of a parameter or of a coordinate or velocity. */
 static qdot_status
 with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
 {
-    const qdot_name *known;
     qdot_expr symbol, value;
-    const char *name;
 
-    QDOT_TRY(qdot_record_name(r, part, &name));
-    known = qdot_names_find(r->cursor.session->names, name);
-    if (known != NULL && known->kind == QDOT_NAME_COORD)
-        QDOT_TRY(qdot_set_find_jet(r, part, &symbol));
-    else
-        QDOT_TRY(qdot_set_find_parameter(r, part, &symbol));
+    QDOT_TRY(qdot_set_find_symbol(r, part, &symbol));
     QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
     qdot_record_blame(r, part);
     QDOT_TRY(qdot_session_in_domain(r->cursor.session, symbol, value));
@@ -194,7 +67,6 @@ with_find(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_
 static qdot_status
 tolerance_find(qdot_record *r, const qdot_filled *part, qdot_run_options *o)
 {
-    o->tol_given = true;
     QDOT_TRY(qdot_record_number(r, part, &o->tol));
     if (o->tol > 0 && o->tol < 1)
         return QDOT_OK;
@@ -211,7 +83,6 @@ treatment_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
         (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
         return qdot_hint("constraint NAME: A = B");
     }
-    o->treatment_given = true;
     o->treatment = qdot_filled_is(word + 1, "project")     ? QDOT_RUN_PROJECT
                    : qdot_filled_is(word + 1, "baumgarte") ? QDOT_RUN_BAUMGARTE
                                                            : QDOT_RUN_NONE;
@@ -270,44 +141,6 @@ qdot_run_options_find(qdot_record *r, const qdot_filled *from, const qdot_filled
     if (said < to)
         add_text(&r->cursor, said->from, to[-1].to, o);
     return add_held(&r->cursor, o);
-}
-
-/* --- read by a cursor --------------------------------------------------------------------- */
-
-/* The next `:` outside of brackets; NULL: there is none. */
-static qdot_token *
-find_colon(const qdot_cursor *c)
-{
-    const qdot_token *t = c->at;
-    int depth = 0;
-
-    for (; t->kind != QDOT_TOKEN_END && (depth > 0 || !qdot_token_is(t, ":")); t++)
-        depth += qdot_token_bracket(t);
-    return t->kind == QDOT_TOKEN_END ? NULL : (qdot_token *)t;
-}
-
-qdot_status
-qdot_run_options_read_to_colon(qdot_cursor *c, const qdot_token *start, qdot_run_options *o)
-{
-    qdot_token *colon = find_colon(c);
-    uint8_t kind;
-    qdot_status status;
-
-    if (colon == NULL) {
-        while (!qdot_cursor_is_end(c))
-            c->at++;
-        (void)qdot_cursor_expected(c, "`:` and what is asked of each run");
-        return qdot_hint("run 0..20 : max(theta), energy as curve");
-    }
-    kind = colon->kind;
-    colon->kind = QDOT_TOKEN_END; /* meanwhile */
-    status = qdot_read_range(c, &o->from, &o->to);
-    if (status == QDOT_OK)
-        status = qdot_run_options_read(c, start, o);
-    colon->kind = kind;
-    QDOT_TRY(status);
-    c->at++;
-    return QDOT_OK;
 }
 
 bool

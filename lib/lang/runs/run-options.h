@@ -1,4 +1,4 @@
-/* run-options.h -- limits and options of a run, as `run`, `plan` and `sweep` read them. */
+/* run-options.h -- limits and options of a run, in `run`, `plan`, `sweep`, `poincare` and `find`. */
 #ifndef QDOT_LANG_RUN_OPTIONS_H
 #define QDOT_LANG_RUN_OPTIONS_H
 
@@ -6,8 +6,9 @@
 #include "lang/syntax/record.h"
 
 /* The options as usage texts have them, but for a name. */
-#define QDOT_RUN_USAGE                                                                   \
-    "[tol E | digits N] [method NAME] [with NAME = VALUE, ...] [constraints project|baumgarte|none]"
+#define QDOT_RUN_USAGE "[tol E | digits N] " QDOT_RUN_USAGE_OTHERS
+#define QDOT_RUN_USAGE_OTHERS                                                            \
+    "[method NAME] [with NAME = VALUE, ...] [constraints project|baumgarte|none]"
 
 typedef struct {
     qdot_expr from, to;
@@ -15,7 +16,6 @@ typedef struct {
     long digits; /* 0: doubles */
     const char *method, *name;
     const qdot_token *method_at;
-    bool tol_given, treatment_given;
     qdot_run_treatment treatment;
     qdot_pairs with;
     qdot_text text; /* of the statement, without its name */
@@ -25,14 +25,6 @@ typedef struct {
  * a name. From {.tol = 1e-12}; free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_find(qdot_record *r, const qdot_filled *from,
                                                   const qdot_filled *to, qdot_run_options *o);
-/* Read the options up to the end; start: the first token of the statement's operands. From {.tol =
- * 1e-12}; free it in any case. */
-QDOT_MUST_CHECK qdot_status qdot_run_options_read(qdot_cursor *c, const qdot_token *start,
-                                                  qdot_run_options *o);
-/* Behind `run`: limits and options up to a colon and over it; start: the word `run`. */
-QDOT_MUST_CHECK qdot_status qdot_run_options_read_to_colon(qdot_cursor *c,
-                                                           const qdot_token *start,
-                                                           qdot_run_options *o);
 /* Whether a start is among the values of `with`. */
 bool qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o);
 /* Put the values of `with` in force; the caller keeps and restores the session's. */

@@ -1,14 +1,25 @@
 /* sensitivity.c -- the statement `sensitivity EXPR of NAME, ...`. */
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/runs/own-run.h"
 #include "lang/slopes/trial.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
+
+static qdot_status sensitivity_tell(qdot_record *r);
+
+QDOT_STATEMENT(sensitivity) = {
+    .word = "sensitivity",
+    .group = QDOT_NUMBERS,
+    .usage = "sensitivity EXPR of NAME, ...",
+    .summary = "derivatives of a number of a run by parameters and initial values (theta, theta'), each with its "
+               "error, by the variational equations",
+    .example = "sensitivity value(theta, 20) of m, L, theta",
+    .handler = sensitivity_tell,
+};
 
 /* --- the slopes ------------------------------------------------------------------------------ */
 
@@ -58,52 +69,49 @@ run_of(const qdot_session *session, size_t first)
     return NULL;
 }
 
-/* `EXPR of NAME, ...`, then the answers. */
+/* The slopes, then the answers. */
 static qdot_status
-sensitivity_carry_out(qdot_cursor *c, qdot_slopes *slopes, qdot_text *text)
+sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
 {
-    const qdot_token *start = c->at, *end;
-    const size_t first = c->session->measured.n;
+    const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
+    qdot_session *session = r->cursor.session;
+    const size_t first = session->measured.n;
     qdot_expr e;
 
-    QDOT_TRY(qdot_read_side(c, &e));
-    end = c->at;
-    if (!qdot_cursor_accept_word(c, "of"))
-        return qdot_cursor_expected(c, "`of` and what the slopes are by: `of m, theta`");
-    QDOT_TRY(qdot_slopes_read(c, slopes));
-    if (!qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, "`,` or the end of the statement");
-    c->error_at = start->start;
-    if (!qdot_expr_is_scalar(c->session->pool, e))
+    QDOT_TRY(qdot_record_value(r, part, &e));
+    QDOT_TRY(qdot_slopes_find(r, "of", slopes));
+    r->cursor.error_at = r->start->start;
+    if (!qdot_expr_is_scalar(session->pool, e))
         return qdot_fail(QDOT_ETYPE, "only a number has slopes: one component at a time");
-    QDOT_TRY(qdot_trial_at_end(c->session, &e));
-    qdot_token_text(c->session, start, end, text);
+    QDOT_TRY(qdot_trial_at_end(session, &e));
+    qdot_token_text(session, part->from, part->to, text);
     QDOT_TRY(qdot_text_status(text));
-    QDOT_TRY(qdot_slopes_make(slopes, run_of(c->session, first), e, first));
+    QDOT_TRY(qdot_slopes_make(slopes, run_of(session, first), e, first));
     return tell_slopes(slopes, qdot_text_str(text), e, first);
 }
 
-qdot_status
-qdot_sensitivity_statement(qdot_cursor *c)
+static qdot_status
+sensitivity_tell(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
     qdot_slopes slopes = {0};
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
-    if (c->session->runs.n == 0) {
-        const qdot_expr end = qdot_own_run_needed(c, QDOT_ZERO);
+    if (session->runs.n == 0) {
+        const qdot_cursor look = {.session = session, .source = r->cursor.source, .at = r->start};
+        const qdot_expr end = qdot_own_run_needed(&look, QDOT_ZERO);
 
         /* without a time, whoever needs a run says that there is none */
         if (end != QDOT_NIL)
-            status = qdot_own_run_make(c->session, NULL, QDOT_ZERO, end, NULL, NULL);
+            status = qdot_own_run_make(session, NULL, QDOT_ZERO, end, NULL, NULL);
         if (status != QDOT_OK)
-            c->error_at = start->start;
+            r->cursor.error_at = r->start->start;
     }
     if (status == QDOT_OK)
-        status = sensitivity_carry_out(c, &slopes, &text);
+        status = sensitivity_carry_out(r, &slopes, &text);
     qdot_text_clear(&text);
     qdot_slopes_free(&slopes);
-    qdot_own_run_drop(c->session);
+    qdot_own_run_drop(session);
     return status;
 }

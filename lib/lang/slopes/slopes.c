@@ -7,7 +7,6 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/commands/set.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -25,22 +24,13 @@ const char qdot_slopes_run[] = "the slopes";
 /* --- names ------------------------------------------------------------------------------ */
 
 qdot_status
-qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x)
+qdot_slope_name_find(qdot_record *r, const qdot_filled *part, qdot_slope_name *x)
 {
-    qdot_cursor look = *c;
-    const qdot_name *known = NULL;
     qdot_text text = {0};
-    const char *name;
 
-    *x = (qdot_slope_name){.place = c->at};
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "a parameter or an initial value: `of m, theta`");
-    if (qdot_read_name(&look, &name) == QDOT_OK)
-        known = qdot_names_find(c->session->names, name);
-    QDOT_TRY(known != NULL && known->kind == QDOT_NAME_COORD
-                 ? qdot_set_read_jet(c, &x->symbol)
-                 : qdot_set_read_parameter(c, &x->symbol));
-    qdot_token_text(c->session, x->place, c->at, &text);
+    *x = (qdot_slope_name){.place = part->from};
+    QDOT_TRY(qdot_set_find_symbol(r, part, &x->symbol));
+    qdot_token_text(r->cursor.session, part->from, part->to, &text);
     x->label = text.at;
     return qdot_text_status(&text);
 }
@@ -64,15 +54,16 @@ qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names, const qdot_slope_
 }
 
 qdot_status
-qdot_slopes_read(qdot_cursor *c, qdot_slopes *s)
+qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s)
 {
-    s->session = c->session;
-    do {
+    s->session = r->cursor.session;
+    for (const qdot_filled *part = qdot_record_hole(r, before, "NAME");
+         part != NULL && strcmp(part->node->before, before) == 0; part = qdot_record_next(r, part, "NAME")) {
         qdot_slope_name x;
-        const qdot_status status = qdot_slope_name_read(c, &x);
+        const qdot_status status = qdot_slope_name_find(r, part, &x);
 
-        QDOT_TRY(qdot_slope_names_take(c, &s->names, &x, status));
-    } while (qdot_cursor_accept_op(c, ","));
+        QDOT_TRY(qdot_slope_names_take(&r->cursor, &s->names, &x, status));
+    }
     return QDOT_OK;
 }
 

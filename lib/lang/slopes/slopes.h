@@ -15,7 +15,7 @@
 #ifndef QDOT_LANG_SLOPES_H
 #define QDOT_LANG_SLOPES_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 #include "sim/study/variation.h"
 
 /* What is differentiated by. */
@@ -43,16 +43,16 @@ typedef struct {
 /* The name under which that run is kept meanwhile. */
 extern const char qdot_slopes_run[];
 
-/* Read one name, a parameter, q or q'; its label is the caller's to free. */
-QDOT_MUST_CHECK qdot_status qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x);
+/* The name that the part is, a parameter, q or q'; its label is the caller's to free. */
+QDOT_MUST_CHECK qdot_status qdot_slope_name_find(qdot_record *r, const qdot_filled *part, qdot_slope_name *x);
 /* Take x and its label into the list if it was read; else it is freed. QDOT_EINVAL: it stands there twice. */
 QDOT_MUST_CHECK qdot_status qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names,
                                                   const qdot_slope_name *x,
                                                   qdot_status read);
 /* Whether the k-th name is a parameter, not a coordinate or a velocity. */
 bool qdot_slopes_is_parameter(const qdot_slopes *s, size_t k);
-/* Read `NAME, ...` into slopes from {0}. Free them in any case. */
-QDOT_MUST_CHECK qdot_status qdot_slopes_read(qdot_cursor *c, qdot_slopes *s);
+/* The holes NAME behind that word of the usage, into slopes from {0}. Free them in any case. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s);
 /* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,
  * measured from the first-th on, need it. Errors: those of qdot_variation_make and of the run; QDOT_EFAILED
  * where it does not end where the run is. */

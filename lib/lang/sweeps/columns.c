@@ -2,7 +2,6 @@
 #include "lang/sweeps/columns.h"
 
 #include "expr/walk.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -10,33 +9,15 @@
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
 
-static bool
-ends(const qdot_cursor *c)
-{
-    static const char *const words[] = {"as", "of", "run", "from", "threads", "resume"};
-
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (qdot_cursor_is_word(c, words[i]))
-            return true;
-    return qdot_cursor_is_end(c);
-}
-
 qdot_status
-qdot_columns_find(qdot_cursor *c, qdot_columns *x)
+qdot_columns_find(const qdot_record *r, qdot_columns *x)
 {
-    int depth = 0;
+    for (size_t i = 0; i < r->parts.n; i++) {
+        const qdot_filled *part = &r->parts.at[i];
 
-    if (ends(c))
-        return qdot_cursor_expected(c, "what is asked of each run: `max(theta), energy`");
-    QDOT_TRY(qdot_vec_push(&x->at, c->at));
-    for (; depth > 0 ? !qdot_cursor_is_end(c) : !ends(c); c->at++) {
-        if (depth == 0 && qdot_token_is(c->at, ",")) {
-            QDOT_TRY(qdot_vec_push(&x->at, c->at + 1));
-            continue;
-        }
-        depth += qdot_token_bracket(c->at);
+        if (part->node->kind == QDOT_USAGE_HOLE && qdot_filled_is(part, "EXPR"))
+            QDOT_TRY(qdot_vec_push(&x->at, &r->compiled.at[part->first]));
     }
-    x->end = c->at;
     return QDOT_OK;
 }
 
@@ -50,21 +31,10 @@ qdot_columns_free(qdot_columns *x)
 qdot_status
 qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
 {
-    qdot_cursor own = *c;
-    qdot_status status;
-
-    own.at = x->at.at[i];
-    own.error_at = own.at->start;
-    status = qdot_read_motion(&own, e);
-    if (status == QDOT_OK && !qdot_token_is(own.at, ",") && own.at != x->end)
-        status = qdot_cursor_expected(&own, "`,`, `as NAME` or the end of the statement");
-    if (status == QDOT_OK) {
-        own.error_at = x->at.at[i]->start;
-        if (!qdot_expr_is_scalar(c->session->pool, *e))
-            status = qdot_fail(QDOT_ETYPE, "a column is one number a row");
-    }
-    c->error_at = own.error_at;
-    return status;
+    QDOT_TRY(qdot_compiled_motion(c, x->at.at[i], e));
+    c->error_at = x->at.at[i]->from->start;
+    return qdot_expr_is_scalar(c->session->pool, *e) ? QDOT_OK
+                                                     : qdot_fail(QDOT_ETYPE, "a column is one number a row");
 }
 
 /* Whether events set a parameter that is in e, or that the value of one in it follows from. */
@@ -119,10 +89,9 @@ qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr 
 bool
 qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t i)
 {
-    const qdot_token *end = i + 1 < x->at.n ? x->at.at[i + 1] - 1 : x->end;
     bool way = false;
 
-    for (const qdot_token *t = x->at.at[i]; t != end; t++) {
+    for (const qdot_token *t = x->at.at[i]->from; t != x->at.at[i]->to; t++) {
         if (t->kind != QDOT_TOKEN_NAME)
             continue;
         if (qdot_scene_find_event(session->scene, t->text) != NULL)
@@ -143,8 +112,7 @@ qdot_columns_table(qdot_session *session, const qdot_columns *x, const char *nam
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         labels[i] = before[i];
     for (size_t i = 0; i < x->at.n && status == QDOT_OK; i++) {
-        qdot_token_text(session, x->at.at[i], i + 1 < x->at.n ? x->at.at[i + 1] - 1 : x->end,
-                        &texts[i]);
+        qdot_token_text(session, x->at.at[i]->from, x->at.at[i]->to, &texts[i]);
         status = qdot_text_status(&texts[i]);
         labels[n + i] = qdot_text_str(&texts[i]);
     }

@@ -1,25 +1,21 @@
 /* columns.h -- what is asked of each run, as `sweep` and `poincare` read it: EXPR, EXPR, ...
  *
- * Only the tokens are kept at first: what they say is read when there is a run, with its values in
- * force.
+ * They are kept as they were parsed, and evaluated when there is a run, with its values in force.
  *
  * Tests  tests/script/sweeps/sweep.sh, poincare.sh
  */
 #ifndef QDOT_LANG_COLUMNS_H
 #define QDOT_LANG_COLUMNS_H
 
-#include "lang/language/cursor.h"
 #include "lang/session/row-table.h"
+#include "lang/syntax/record.h"
 
 typedef struct {
-    qdot_vec(const qdot_token *) at; /* the first token of each */
-    const qdot_token *end;           /* behind the last */
+    qdot_vec(const qdot_compiled *) at; /* of the record */
 } qdot_columns;
 
-/* Step over the columns, up to a word that no expression goes on with: as, of, run, from, threads,
- * resume.
- * Start from {0}; free it in any case. QDOT_ESYNTAX: there is none. */
-QDOT_MUST_CHECK qdot_status qdot_columns_find(qdot_cursor *c, qdot_columns *x);
+/* Every hole EXPR of the statement. Start from {0}; free it in any case, before the record. */
+QDOT_MUST_CHECK qdot_status qdot_columns_find(const qdot_record *r, qdot_columns *x);
 void qdot_columns_free(qdot_columns *x);
 
 /* Column i as a scalar. */

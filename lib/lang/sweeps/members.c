@@ -6,34 +6,23 @@
 
 /* --- reading ---------------------------------------------------------------------------- */
 
-static qdot_status
-members_read_run(qdot_cursor *c, qdot_members *m)
+qdot_status
+qdot_members_find(qdot_record *r, qdot_members *m)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *run = qdot_record_word(r, "run"), *colon = run;
 
-    if (!qdot_cursor_accept_word(c, "run"))
-        return qdot_cursor_expected(c, m->axes.random ? "`run T0..T1`, `count` or `seed`"
-                                                      : "`,` or `run T0..T1`");
-    QDOT_TRY(qdot_run_options_read_to_colon(c, start, &m->run));
+    while (!qdot_filled_is(colon, ":"))
+        colon++;
+    QDOT_TRY(qdot_sweep_axes_find(r, qdot_record_hole(r, NULL, "NAME"), run, &m->axes));
+    QDOT_TRY(qdot_run_options_find(r, run + 1, colon, &m->run));
     for (size_t i = 0; i < m->axes.at.n; i++)
         for (size_t k = 0; k < m->run.with.symbols.n; k++)
             if (m->run.with.symbols.at[k] == m->axes.at.at[i].symbol) {
-                c->error_at = m->axes.at.at[i].place->start;
+                qdot_record_blame(r, m->axes.at.at[i].place);
                 return qdot_fail(QDOT_EINVAL, "%s is swept, and has a value behind `with`",
                                  m->axes.at.at[i].label);
             }
-    if (m->run.name == NULL)
-        return QDOT_OK;
-    c->error_at = start->start;
-    (void)qdot_fail(QDOT_EINVAL, "the runs of a sweep have no names: `as` stands at its end");
-    return qdot_hint("sweep ... run 0..20 : x as %s", m->run.name);
-}
-
-qdot_status
-qdot_members_read(qdot_cursor *c, qdot_members *m)
-{
-    QDOT_TRY(qdot_sweep_axes_read(c, &m->axes));
-    return members_read_run(c, m);
+    return QDOT_OK;
 }
 
 void

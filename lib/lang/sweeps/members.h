@@ -19,8 +19,10 @@ typedef struct {
     qdot_run_options run;
 } qdot_members;
 
-/* Read both, and the colon. From {.run.tol = 1e-12}; free it in any case. */
-QDOT_MUST_CHECK qdot_status qdot_members_read(qdot_cursor *c, qdot_members *m);
+/* As usage texts have them, with what stands before the columns. */
+#define QDOT_MEMBERS_USAGE QDOT_SWEEP_AXES " run T0..T1 " QDOT_RUN_USAGE " : "
+/* Those of the statement. From {.run.tol = 1e-12}; free it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_members_find(qdot_record *r, qdot_members *m);
 void qdot_members_free(qdot_members *m);
 
 /* Put the values of member k in force, swept [axes] out; the caller keeps and restores the session's. */

@@ -1,45 +1,43 @@
 /* plan.c -- the statement `plan`: how a run, or a sweep, would be made. */
 #include "lang/answer/answer.h"
-#include "lang/commands/handlers.h"
 #include "lang/runs/request.h"
 #include "lang/runs/run-options.h"
 #include "lang/sweeps/sweep-parts.h"
+#include "lang/syntax/record.h"
 #include "sim/run/run.h"
 
-/* The options of `run`; those that a plan does not depend on are refused. */
+static qdot_status plan_tell(qdot_record *r);
+
+QDOT_STATEMENT(plan) = {
+    .word = "plan",
+    .group = QDOT_NUMBERS,
+    .usage = "plan [tol E] " QDOT_RUN_USAGE_OTHERS
+             " | plan sweep " QDOT_MEMBERS_USAGE "EXPR, ... [as NAME] [threads N] [resume \"FILE.h5\"]",
+    .summary = "what the numerical side would do with this scene and why; or a sweep with its members: side by side or "
+               "alone, and how long it takes",
+    .example = "plan",
+    .handler = plan_tell,
+};
+
 static qdot_status
-read_plan_options(qdot_cursor *c, qdot_run_options *o)
+plan_tell(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-
-    QDOT_TRY(qdot_run_options_read(c, start, o));
-    if (o->digits == 0 && o->name == NULL)
-        return QDOT_OK;
-    c->error_at = start->start;
-    (void)qdot_fail(QDOT_EINVAL, o->name ? "a plan has no name" : "`digits` has no plan");
-    return qdot_hint("plan tol 1e-9 method taylor");
-}
-
-qdot_status
-qdot_run_plan_statement(qdot_cursor *c)
-{
+    qdot_session *session = r->cursor.session;
     qdot_run_options o = {.tol = 1e-12};
-    const qdot_token *start = c->at - 1;
     qdot_request request = {0};
     qdot_text text = {0};
     qdot_status status;
 
-    if (qdot_cursor_accept_word(c, "sweep"))
-        return qdot_sweep_plan(c);
-    status = read_plan_options(c, &o);
-
+    if (qdot_record_word(r, "sweep") != NULL)
+        return qdot_sweep_plan(r);
+    status = qdot_run_options_find(r, r->parts.at + 1, r->parts.at + r->parts.n, &o);
     if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = qdot_run_options_fill(c->session, &o, QDOT_ZERO, QDOT_ONE, &request);
+        qdot_record_blame(r, r->parts.at);
+        status = qdot_run_options_fill(session, &o, QDOT_ZERO, QDOT_ONE, &request);
     }
     if (status == QDOT_OK)
-        status = qdot_run_plan(c->session->scene, &request.request, &text);
-    status = qdot_answer_written(c->session, "plan", status, &text);
+        status = qdot_run_plan(session->scene, &request.request, &text);
+    status = qdot_answer_written(session, "plan", status, &text);
     qdot_request_free(&request);
     qdot_run_options_free(&o);
     return status;

@@ -5,8 +5,7 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
+#include "lang/commands/statement.h"
 #include "lang/runs/own-run.h"
 #include "lang/sweeps/columns.h"
 #include "lang/sweeps/members.h"
@@ -15,7 +14,23 @@
 #include "lang/session/momenta.h"
 #include "lang/session/row-tables.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/match.h"
+#include "lang/syntax/record.h"
 #include "sim/read/section.h"
+
+static qdot_status poincare_make(qdot_record *r);
+
+QDOT_STATEMENT(poincare) = {
+    .word = "poincare",
+    .group = QDOT_NUMBERS,
+    .usage = "poincare A = B [rising|falling] [of SWEEP | run T0..T1 " QDOT_RUN_USAGE " [as NAME]] : EXPR, ... "
+             "[from A to B] [of SWEEP | run T0..T1 " QDOT_RUN_USAGE "] [as NAME]",
+    .summary = "a section: what the expressions are each time A = B is crossed in the latest run, in a run made "
+               "for it, or in the runs of a sweep, made again; `plot poincare`, `table poincare`, `save poincare "
+               "to` show it",
+    .example = "poincare theta = 0 rising : theta2, theta2'",
+    .handler = poincare_make,
+};
 
 typedef struct {
     qdot_expr g; /* left - right */
@@ -27,6 +42,7 @@ typedef struct {
     double limits[2]; /* of the times, if so */
     const qdot_row_table *sweep; /* whose runs; NULL: one run */
     const char *name;
+    qdot_record swept;    /* the sweep's statement */
     qdot_members members; /* of the sweep */
     qdot_row_table *table;
     size_t beyond;    /* points past the horizon of their run */
@@ -35,129 +51,115 @@ typedef struct {
     double lost;   /* the last such time */
 } poincare;
 
-/* --- reading ---------------------------------------------------------------------------- */
+/* --- what was read ---------------------------------------------------------------------- */
 
 static qdot_status
-read_surface(qdot_cursor *c, poincare *p)
+surface_find(qdot_record *r, poincare *p)
 {
-    qdot_pool *pool = c->session->pool;
-    const qdot_token *start = c->at;
+    const qdot_filled *part = qdot_record_hole(r, "poincare", "A");
+    qdot_session *session = r->cursor.session;
     qdot_expr left, right;
 
-    QDOT_TRY(qdot_read_motion(c, &left));
-    if (qdot_cursor_accept_op(c, "=") || qdot_cursor_accept_op(c, "==")) {
-        QDOT_TRY(qdot_read_motion(c, &right));
-    } else if (qdot_expr_kind(pool, left) == QDOT_REL
-               && qdot_expr_node(pool, left)->op == QDOT_EQ) {
-        right = qdot_expr_arg(pool, left, 1); /* a named equation */
-        left = qdot_expr_arg(pool, left, 0);
-    } else {
-        return qdot_cursor_expected(c, "`=` and the other side");
-    }
-    if (!qdot_expr_is_scalar(pool, left) || !qdot_expr_is_scalar(pool, right)) {
-        c->error_at = start->start;
+    QDOT_TRY(qdot_record_equation(r, part, true, &left, &right));
+    if (!qdot_expr_is_scalar(session->pool, left) || !qdot_expr_is_scalar(session->pool, right)) {
+        qdot_record_blame(r, part);
         return qdot_fail(QDOT_ETYPE, "a section is where two numbers become equal");
     }
     p->g = qdot_momenta_to_velocities(
-        c->session, qdot_measured_as_rationals(c->session, qdot_sub(pool, left, right)));
-    QDOT_TRY(qdot_pool_check(pool));
-    if (qdot_cursor_accept_word(c, "rising"))
-        p->way = 1;
-    else if (qdot_cursor_accept_word(c, "falling"))
-        p->way = -1;
-    return QDOT_OK;
+        session, qdot_measured_as_rationals(session, qdot_sub(session->pool, left, right)));
+    p->way = qdot_record_word(r, "rising") != NULL ? 1 : qdot_record_word(r, "falling") != NULL ? -1 : 0;
+    return qdot_pool_check(session->pool);
 }
 
 /* `of NAME`, a sweep. */
 static qdot_status
-read_sweep(qdot_cursor *c, poincare *p)
+sweep_find(qdot_record *r, const qdot_filled *part, poincare *p)
 {
-    const qdot_token *start = c->at;
     const char *name;
 
-    QDOT_TRY(qdot_read_name(c, &name));
-    p->sweep = qdot_row_tables_find(c->session, name);
+    QDOT_TRY(qdot_record_name(r, part, &name));
+    p->sweep = qdot_row_tables_find(r->cursor.session, name);
     if (p->sweep != NULL && p->sweep->members != NULL)
         return QDOT_OK;
-    c->error_at = start->start;
+    qdot_record_blame(r, part);
     (void)qdot_fail(QDOT_ENAME, "there is no sweep `%s`", name);
     return qdot_hint("sweep omega = 0..5 step 0.1 run 0..20 : max(theta) as %s", name);
 }
 
+/* Where the options of the run end whose word is the part: at the colon, a word of the section, or the end. */
+static const qdot_filled *
+run_end(const qdot_record *r, const qdot_filled *run, bool behind)
+{
+    const qdot_filled *part = run + 1, *end = r->parts.at + r->parts.n;
+
+    while (part < end && !qdot_filled_is(part, ":") &&
+           !(behind && (qdot_filled_is(part, "from") || qdot_filled_is(part, "as"))))
+        part++;
+    return part;
+}
+
 /* Whose section it is, before the colon or behind the columns. */
 static qdot_status
-read_whose(qdot_cursor *c, poincare *p, bool behind)
+whose_find(qdot_record *r, poincare *p)
 {
-    const qdot_token *start = c->at;
-    const bool said = p->run_at != NULL || p->sweep != NULL;
+    bool behind = false;
 
-    if (qdot_cursor_accept_word(c, "of")) {
-        QDOT_TRY(qdot_cursor_once(c, "of", said));
-        return read_sweep(c, p);
+    for (const qdot_filled *part = r->parts.at; part < r->parts.at + r->parts.n; part++) {
+        behind = behind || qdot_filled_is(part, ":");
+        if (part->node->kind != QDOT_USAGE_WORD || (!qdot_filled_is(part, "of") && !qdot_filled_is(part, "run")))
+            continue;
+        if (p->run_at != NULL || p->sweep != NULL) {
+            qdot_record_blame(r, part);
+            return qdot_fail(QDOT_EINVAL, "`%s` is given twice", part->node->text);
+        }
+        if (qdot_filled_is(part, "of")) {
+            QDOT_TRY(sweep_find(r, part + 1, p));
+            continue;
+        }
+        p->run_at = part->from;
+        QDOT_TRY(qdot_run_options_find(r, part + 1, run_end(r, part, behind), &p->run));
     }
-    if (!qdot_cursor_accept_word(c, "run"))
-        return QDOT_OK;
-    QDOT_TRY(qdot_cursor_once(c, "run", said));
-    p->run_at = start;
-    if (!behind)
-        return qdot_run_options_read_to_colon(c, start, &p->run);
-    QDOT_TRY(qdot_read_range(c, &p->run.from, &p->run.to));
-    QDOT_TRY(qdot_run_options_read(c, start, &p->run));
-    p->name = p->run.name;
-    p->run.name = NULL;
     return QDOT_OK;
 }
 
 /* `from A to B`, times. */
 static qdot_status
-read_limits(qdot_cursor *c, poincare *p)
+limits_find(qdot_record *r, poincare *p)
 {
-    QDOT_TRY(qdot_cursor_once(c, "from", p->limited));
-    p->limited = true;
-    QDOT_TRY(qdot_read_number(c, &p->limits[0]));
-    if (!qdot_cursor_accept_word(c, "to"))
-        return qdot_cursor_expected(c, "`to`, as in from 100 to 200");
-    return qdot_read_number(c, &p->limits[1]);
-}
+    const qdot_filled *from = qdot_record_hole(r, "from", "A");
 
-/* What stands behind the columns. */
-static qdot_status
-read_behind(qdot_cursor *c, poincare *p)
-{
-    while (!qdot_cursor_is_end(c)) {
-        const qdot_token *start = c->at;
-
-        if (qdot_cursor_accept_word(c, "from")) {
-            QDOT_TRY(read_limits(c, p));
-        } else if (qdot_cursor_accept_word(c, "as")) {
-            QDOT_TRY(qdot_cursor_once(c, "as", p->name != NULL));
-            QDOT_TRY(qdot_read_name(c, &p->name));
-        } else {
-            QDOT_TRY(read_whose(c, p, true));
-        }
-        if (c->at == start)
-            return qdot_cursor_expected(c, "`run T0..T1`, `of SWEEP`, `from A to B`, `as NAME` or "
-                                           "the end of the statement");
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-read_poincare(qdot_cursor *c, poincare *p)
-{
-    const qdot_token *behind;
-
-    QDOT_TRY(read_surface(c, p));
-    QDOT_TRY(read_whose(c, p, false));
-    if (p->run_at == NULL && !qdot_cursor_accept_op(c, ":"))
-        return qdot_cursor_expected(c, "`:` and what is asked at each crossing");
-    QDOT_TRY(qdot_columns_find(c, &p->columns));
-    behind = c->at;
-    QDOT_TRY(read_behind(c, p));
-    if (p->name == NULL || qdot_names_find(c->session->names, p->name) == NULL)
+    p->limited = from != NULL;
+    if (from == NULL)
         return QDOT_OK;
-    c->error_at = behind->start;
+    QDOT_TRY(qdot_record_number(r, from, &p->limits[0]));
+    return qdot_record_number(r, qdot_record_next(r, from, "B"), &p->limits[1]);
+}
+
+/* `as NAME` behind the columns. */
+static qdot_status
+name_find(qdot_record *r, poincare *p)
+{
+    const qdot_filled *part = qdot_record_next(r, qdot_record_hole(r, NULL, "EXPR"), "NAME");
+
+    while (part != NULL && strcmp(part->node->before, "as") != 0)
+        part = qdot_record_next(r, part, "NAME");
+    if (part == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_record_name(r, part, &p->name));
+    if (qdot_names_find(r->cursor.session->names, p->name) == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, part);
     return qdot_fail(QDOT_ENAME, "`%s` means something else already", p->name);
+}
+
+static qdot_status
+poincare_find_all(qdot_record *r, poincare *p)
+{
+    QDOT_TRY(surface_find(r, p));
+    QDOT_TRY(whose_find(r, p));
+    QDOT_TRY(qdot_columns_find(r, &p->columns));
+    QDOT_TRY(limits_find(r, p));
+    return name_find(r, p);
 }
 
 /* --- the points ------------------------------------------------------------------------- */
@@ -311,12 +313,11 @@ static qdot_status
 find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
 {
     qdot_function_body *body = qdot_function_body_keep(p->sweep->members);
-    qdot_cursor own = *c;
-    qdot_status status;
+    const qdot_cursor own = {.session = c->session, .source = body->source, .at = body->from};
+    qdot_status status = qdot_match_operands_to(&own, body->to, qdot_statement_find("sweep"), &p->swept);
 
-    own.source = body->source;
-    own.at = body->from;
-    status = qdot_members_read(&own, &p->members);
+    if (status == QDOT_OK)
+        status = qdot_members_find(&p->swept, &p->members);
     if (status == QDOT_OK)
         status = make_table(c->session, p);
     if (status == QDOT_OK)
@@ -386,16 +387,16 @@ find_of_run(qdot_cursor *c, poincare *p)
     return find_points(c, p, run->run, NULL);
 }
 
-qdot_status
-qdot_poincare_statement(qdot_cursor *c)
+static qdot_status
+poincare_make(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_cursor *c = &r->cursor;
     poincare p = {.run.tol = 1e-12, .members.run.tol = 1e-12};
     bool interrupted = false;
-    qdot_status status = read_poincare(c, &p);
+    qdot_status status = poincare_find_all(r, &p);
 
     if (status == QDOT_OK) {
-        c->error_at = start->start;
+        c->error_at = r->start->start;
         status = p.sweep != NULL ? find_of_sweep(c, &p, &interrupted) : find_of_run(c, &p);
     }
     if (status == QDOT_OK) {
@@ -411,6 +412,7 @@ qdot_poincare_statement(qdot_cursor *c)
     }
     qdot_row_table_release(p.table);
     qdot_members_free(&p.members);
+    qdot_record_free(&p.swept);
     qdot_run_options_free(&p.run);
     qdot_columns_free(&p.columns);
     return status;

@@ -1,4 +1,4 @@
-/* sweep-axis.c -- reads what a sweep runs over. */
+/* sweep-axis.c -- what a sweep runs over. */
 #include "lang/sweeps/sweep-axis.h"
 
 #include <math.h>
@@ -8,7 +8,6 @@
 #include <gsl/gsl_rng.h>
 
 #include "lang/commands/set.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -44,15 +43,14 @@ constant(qdot_session *session, qdot_expr e, qdot_expr *value, double *number)
 
 /* `step H` behind A..B. */
 static qdot_status
-read_step(qdot_cursor *c, double a, double b, qdot_sweep_axis *x)
+step_find(qdot_record *r, const qdot_filled *part, double a, double b, qdot_sweep_axis *x)
 {
-    const qdot_token *start = c->at;
     double h, count;
     qdot_expr e;
 
-    QDOT_TRY(qdot_read_scalar(c, &e));
-    c->error_at = start->start;
-    QDOT_TRY(constant(c->session, e, &x->step, &h));
+    QDOT_TRY(qdot_record_scalar(r, part, &e));
+    qdot_record_blame(r, part);
+    QDOT_TRY(constant(r->cursor.session, e, &x->step, &h));
     if (!(h * (b - a) >= 0) || h == 0)
         return qdot_fail(QDOT_EINVAL, "a step of %.6g does not lead from %.6g to %.6g", h, a, b);
     count = floor((b - a) / h * (1 + 1e-12)) + 1;
@@ -64,108 +62,129 @@ read_step(qdot_cursor *c, double a, double b, qdot_sweep_axis *x)
 
 /* `count N` behind A..B. */
 static qdot_status
-read_count(qdot_cursor *c, qdot_expr from, qdot_expr to, qdot_sweep_axis *x)
+count_find(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axis *x)
 {
-    qdot_pool *pool = c->session->pool;
-    const qdot_token *start = c->at;
+    qdot_pool *pool = r->cursor.session->pool;
     long n;
 
-    QDOT_TRY(qdot_read_integer(c, &n));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_record_integer(r, part, &n));
+    qdot_record_blame(r, part);
     if (n < 1)
         return qdot_fail(QDOT_EINVAL, "a sweep of %ld values has none", n);
     if ((double)n > most_members)
         return qdot_fail(QDOT_ELIMIT, "%ld values: more than %.0e", n, most_members);
     x->n = (size_t)n;
     x->step = n == 1 ? QDOT_ZERO
-                     : qdot_div(pool, qdot_sub(pool, to, from), qdot_expr_int(pool, n - 1));
+                     : qdot_div(pool, qdot_sub(pool, to, x->from), qdot_expr_int(pool, n - 1));
     return qdot_pool_check(pool);
 }
 
-static qdot_status
-read_ladder(qdot_cursor *c, qdot_sweep_axis *x)
+/* The options of an axis, [its values, to): the words that are there. */
+typedef struct {
+    const qdot_filled *step, *count, *seed;
+} axis_options;
+
+static axis_options
+find_options(const qdot_filled *values, const qdot_filled *to)
 {
-    const qdot_token *start = c->at;
+    axis_options o = {0};
+
+    for (const qdot_filled *part = values + 1; part < to && part->node->kind == QDOT_USAGE_WORD; part += 2) {
+        o.step = qdot_filled_is(part, "step") ? part : o.step;
+        o.count = qdot_filled_is(part, "count") ? part : o.count;
+        o.seed = qdot_filled_is(part, "seed") ? part : o.seed;
+    }
+    return o;
+}
+
+/* Fail at an option that does not belong to the axis; NULL: there is none. */
+static qdot_status
+refuse_option(qdot_record *r, const qdot_filled *word)
+{
+    return word == NULL ? QDOT_OK : qdot_record_expected(r, word->from, "`,` or `run T0..T1`");
+}
+
+static qdot_status
+ladder_find(qdot_record *r, const qdot_filled *range, const axis_options *o, qdot_sweep_axis *x)
+{
     qdot_expr from, to;
     double a, b;
 
-    QDOT_TRY(qdot_read_range(c, &from, &to));
-    c->error_at = start->start;
-    QDOT_TRY(constant(c->session, from, &x->from, &a));
-    QDOT_TRY(constant(c->session, to, &to, &b));
+    if (range->n < 2)
+        return qdot_record_expected(r, range->to, "a range `a..b`");
+    QDOT_TRY(qdot_record_range(r, range, &from, &to));
+    qdot_record_blame(r, range);
+    QDOT_TRY(constant(r->cursor.session, from, &x->from, &a));
+    QDOT_TRY(constant(r->cursor.session, to, &to, &b));
     x->kind = QDOT_AXIS_LADDER;
-    if (qdot_cursor_accept_word(c, "step"))
-        return read_step(c, a, b, x);
-    if (qdot_cursor_accept_word(c, "count"))
-        return read_count(c, x->from, to, x);
-    (void)qdot_cursor_expected(c, "`step` or `count`");
-    return qdot_hint("%s = %.6g..%.6g count 11", x->label, a, b);
+    if (o->step == NULL && o->count == NULL) {
+        (void)qdot_record_expected(r, range->to, "`step` or `count`");
+        return qdot_hint("%s = %.6g..%.6g count 11", x->label, a, b);
+    }
+    QDOT_TRY(refuse_option(r, o->seed));
+    if (o->step == NULL)
+        return count_find(r, o->count + 1, to, x);
+    QDOT_TRY(refuse_option(r, o->count));
+    return step_find(r, o->step + 1, a, b, x);
 }
 
 static qdot_status
-read_list(qdot_cursor *c, qdot_sweep_axis *x)
+list_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x)
 {
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
 
-    QDOT_TRY(qdot_read_side(c, &x->list));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_record_value(r, part, &x->list));
+    qdot_record_blame(r, part);
     x->kind = QDOT_AXIS_LIST;
-    x->n = qdot_expr_kind(c->session->pool, x->list) == QDOT_LIST
-               ? qdot_expr_count(c->session->pool, x->list)
-               : 0;
+    x->n = qdot_expr_kind(session->pool, x->list) == QDOT_LIST ? qdot_expr_count(session->pool, x->list) : 0;
     if (x->n == 0)
         return qdot_fail(QDOT_ETYPE, "a sweep runs over a list of numbers");
-    x->list = qdot_session_bind(c->session, qdot_measured_as_rationals(c->session, x->list));
-    QDOT_TRY(qdot_pool_check(c->session->pool));
+    x->list = qdot_session_bind(session, qdot_measured_as_rationals(session, x->list));
+    QDOT_TRY(qdot_pool_check(session->pool));
     for (size_t k = 0; k < x->n; k++) {
-        const qdot_expr e = qdot_expr_arg(c->session->pool, x->list, (uint32_t)k);
+        const qdot_expr e = qdot_expr_arg(session->pool, x->list, (uint32_t)k);
         qdot_expr value;
         double number;
 
-        QDOT_TRY(constant(c->session, e, &value, &number));
+        QDOT_TRY(constant(session, e, &value, &number));
     }
-    return QDOT_OK;
+    QDOT_TRY(refuse_option(r, o->step));
+    QDOT_TRY(refuse_option(r, o->count));
+    return refuse_option(r, o->seed);
 }
 
-/* normal(A, B) or uniform(A, B). */
+/* normal(A, B) or uniform(A, B); *is: it is one of them. */
 static qdot_status
-read_random(qdot_cursor *c, qdot_sweep_axis *x)
+random_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x, bool *is)
 {
-    const qdot_token *start = c->at;
+    double ends[2];
 
-    x->kind = strcmp(c->at->text, "normal") == 0 ? QDOT_AXIS_NORMAL : QDOT_AXIS_UNIFORM;
-    c->at++;
-    QDOT_TRY(qdot_cursor_expect_op(c, "("));
-    QDOT_TRY(qdot_read_number(c, &x->a));
-    QDOT_TRY(qdot_cursor_expect_op(c, ","));
-    QDOT_TRY(qdot_read_number(c, &x->b));
-    QDOT_TRY(qdot_cursor_expect_op(c, ")"));
-    c->error_at = start->start;
+    x->kind = QDOT_AXIS_NORMAL;
+    QDOT_TRY(qdot_record_call_of_two(r, part, "normal", ends, is));
+    if (!*is) {
+        x->kind = QDOT_AXIS_UNIFORM;
+        QDOT_TRY(qdot_record_call_of_two(r, part, "uniform", ends, is));
+    }
+    if (!*is)
+        return QDOT_OK;
+    x->a = ends[0];
+    x->b = ends[1];
+    qdot_record_blame(r, part);
     if (x->kind == QDOT_AXIS_NORMAL && !(x->b >= 0))
         return qdot_fail(QDOT_EINVAL, "a standard deviation is not negative");
     if (x->kind == QDOT_AXIS_UNIFORM && !(x->a <= x->b))
         return qdot_fail(QDOT_EINVAL, "uniform(A, B) wants A <= B");
-    return QDOT_OK;
+    return refuse_option(r, o->step);
 }
 
 /* The name in front of `=`. */
 static qdot_status
-read_symbol(qdot_cursor *c, qdot_sweep_axis *x)
+symbol_find(qdot_record *r, qdot_sweep_axis *x)
 {
-    qdot_cursor look = *c;
-    const qdot_name *known = NULL;
     qdot_text text = {0};
-    const char *name;
 
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "what the sweep runs over: `omega = 0..5 step 0.1`");
-    if (qdot_read_name(&look, &name) == QDOT_OK)
-        known = qdot_names_find(c->session->names, name);
-    if (known != NULL && known->kind == QDOT_NAME_COORD)
-        QDOT_TRY(qdot_set_read_jet(c, &x->symbol));
-    else
-        QDOT_TRY(qdot_set_read_parameter(c, &x->symbol));
-    qdot_token_text(c->session, x->place, c->at, &text);
+    QDOT_TRY(qdot_set_find_symbol(r, x->place, &x->symbol));
+    qdot_token_text(r->cursor.session, x->place->from, x->place->to, &text);
     if (qdot_text_status(&text) != QDOT_OK) {
         qdot_text_clear(&text);
         return QDOT_ENOMEM;
@@ -174,18 +193,20 @@ read_symbol(qdot_cursor *c, qdot_sweep_axis *x)
     return QDOT_OK;
 }
 
+/* The axis whose name is the part: NAME = VALUES [options]. */
 static qdot_status
-read_axis(qdot_cursor *c, qdot_sweep_axis *x)
+axis_find(qdot_record *r, const qdot_filled *name, const qdot_filled *to, qdot_sweep_axis *x)
 {
-    *x = (qdot_sweep_axis){.place = c->at};
-    QDOT_TRY(read_symbol(c, x));
-    QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    if (qdot_cursor_is_op(c, "["))
-        return read_list(c, x);
-    if ((qdot_cursor_is_word(c, "normal") || qdot_cursor_is_word(c, "uniform"))
-        && qdot_token_is(c->at + 1, "("))
-        return read_random(c, x);
-    return read_ladder(c, x);
+    const qdot_filled *values = name + 2;
+    const axis_options o = find_options(values, to);
+    bool random;
+
+    *x = (qdot_sweep_axis){.place = name};
+    QDOT_TRY(symbol_find(r, x));
+    if (qdot_token_is(values->from, "["))
+        return list_find(r, values, &o, x);
+    QDOT_TRY(random_find(r, values, &o, x, &random));
+    return random ? QDOT_OK : ladder_find(r, values, &o, x);
 }
 
 static qdot_status
@@ -213,27 +234,23 @@ axes_draw_values(qdot_sweep_axes *axes)
     return QDOT_OK;
 }
 
-/* `count N` and `seed K` of random axes. */
+/* `count N` and `seed K` of random axes, behind the last. */
 static qdot_status
-read_draws(qdot_cursor *c, qdot_sweep_axes *axes)
+draws_find(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *last = axes->at.at[axes->at.n - 1].place + 2;
+    const axis_options o = find_options(last, to);
+    const qdot_token *start = last->to;
     long count = 0, seed = 0;
-    bool seeded = false;
 
-    while (qdot_cursor_is_word(c, "count") || qdot_cursor_is_word(c, "seed"))
-        if (qdot_cursor_accept_word(c, "count")) {
-            QDOT_TRY(qdot_cursor_once(c, "count", count != 0));
-            QDOT_TRY(qdot_read_integer(c, &count));
-        } else {
-            c->at++;
-            QDOT_TRY(qdot_cursor_once(c, "seed", seeded));
-            QDOT_TRY(qdot_read_integer(c, &seed));
-            seeded = true;
-        }
-    c->error_at = start->start;
+    if (o.count != NULL)
+        QDOT_TRY(qdot_record_integer(r, o.count + 1, &count));
+    if (o.seed != NULL)
+        QDOT_TRY(qdot_record_integer(r, o.seed + 1, &seed));
+    r->cursor.error_at = start->start;
     if (count < 1)
-        return qdot_cursor_expected(c, "`count` and how many are drawn");
+        return qdot_record_expected(r, to < r->parts.at + r->parts.n ? to->from : r->cursor.at,
+                                    "`count` and how many are drawn");
     if ((double)count > most_members)
         return qdot_fail(QDOT_ELIMIT, "%ld members: more than %.0e", count, most_members);
     if (seed < 0 || seed > most_seed)
@@ -243,16 +260,30 @@ read_draws(qdot_cursor *c, qdot_sweep_axes *axes)
     return axes_draw_values(axes);
 }
 
+/* `count` and `seed` stand behind all random axes. */
+static qdot_status
+draws_check(qdot_record *r, const qdot_sweep_axes *axes)
+{
+    for (size_t i = 0; i + 1 < axes->at.n; i++) {
+        const qdot_filled *behind = axes->at.at[i].place + 3;
+
+        if (!qdot_filled_is(behind, ","))
+            return qdot_record_expected(r, (axes->at.at[i + 1].place - 1)->from,
+                                        "`run T0..T1`, `count` or `seed`");
+    }
+    return QDOT_OK;
+}
+
 /* The axes are of one kind, and differ; how many members they have. */
 static qdot_status
-axes_check(qdot_cursor *c, qdot_sweep_axes *axes)
+axes_check(qdot_record *r, qdot_sweep_axes *axes)
 {
     double members = 1;
 
     for (size_t i = 0; i < axes->at.n; i++) {
         const qdot_sweep_axis *x = &axes->at.at[i];
 
-        c->error_at = x->place->start;
+        qdot_record_blame(r, x->place);
         members *= (double)x->n;
         for (size_t k = 0; k < i; k++)
             if (axes->at.at[k].symbol == x->symbol)
@@ -270,22 +301,28 @@ axes_check(qdot_cursor *c, qdot_sweep_axes *axes)
 }
 
 qdot_status
-qdot_sweep_axes_read(qdot_cursor *c, qdot_sweep_axes *axes)
+qdot_sweep_axes_find(qdot_record *r, const qdot_filled *from, const qdot_filled *to, qdot_sweep_axes *axes)
 {
-    do {
+    for (const qdot_filled *part = from; part < to; part++) {
         qdot_sweep_axis x;
-        qdot_status status = read_axis(c, &x);
+        qdot_status status;
 
+        if (part->node->kind != QDOT_USAGE_HOLE || !qdot_filled_is(part, "NAME"))
+            continue;
+        status = axis_find(r, part, to, &x);
         if (status == QDOT_OK)
             status = qdot_vec_push(&axes->at, x);
         if (status != QDOT_OK) {
             qdot_free(x.label);
             return status;
         }
-    } while (qdot_cursor_accept_op(c, ","));
+    }
     axes->random = axes->at.at[0].n == 0;
-    QDOT_TRY(axes_check(c, axes));
-    return axes->random ? read_draws(c, axes) : QDOT_OK;
+    QDOT_TRY(axes_check(r, axes));
+    if (!axes->random)
+        return QDOT_OK;
+    QDOT_TRY(draws_check(r, axes));
+    return draws_find(r, to, axes);
 }
 
 qdot_expr

@@ -14,12 +14,12 @@
 #ifndef QDOT_LANG_SWEEP_AXIS_H
 #define QDOT_LANG_SWEEP_AXIS_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 
 typedef enum { QDOT_AXIS_LADDER, QDOT_AXIS_LIST, QDOT_AXIS_NORMAL, QDOT_AXIS_UNIFORM } qdot_axis_kind;
 
 typedef struct {
-    const qdot_token *place;
+    const qdot_filled *place; /* its name */
     char *label;
     qdot_expr symbol; /* a parameter, a coordinate, a velocity */
     qdot_axis_kind kind;
@@ -37,9 +37,12 @@ typedef struct {
     double *drawn; /* [members x axes] of random axes; NULL: none */
 } qdot_sweep_axes;
 
-/* Read the axes from {0}, with `count` and `seed`, and draw what is random; free them in any case.
- * QDOT_ELIMIT: more than 10^7 members. */
-QDOT_MUST_CHECK qdot_status qdot_sweep_axes_read(qdot_cursor *c, qdot_sweep_axes *axes);
+/* As usage texts have them. */
+#define QDOT_SWEEP_AXES "NAME = A..B [step H] [count N] [seed K], ..."
+/* The axes among the parts [from, to), from {0}, with `count` and `seed`; draw what is random; free them in
+ * any case. QDOT_ELIMIT: more than 10^7 members. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_axes_find(qdot_record *r, const qdot_filled *from,
+                                                 const qdot_filled *to, qdot_sweep_axes *axes);
 void qdot_sweep_axes_free(qdot_sweep_axes *axes);
 
 /* The value of axis i for a member, exact. Nil: the pool failed. */

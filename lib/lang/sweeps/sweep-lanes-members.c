@@ -56,9 +56,7 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
 static const qdot_event *
 as_event(const qdot_sweep *s, size_t i, long *k)
 {
-    const qdot_token *t = s->columns.at.at[i];
-    const qdot_token *end = i + 1 < s->columns.at.n ? s->columns.at.at[i + 1] - 1
-                                                    : s->columns.end;
+    const qdot_token *t = s->columns.at.at[i]->from, *end = s->columns.at.at[i]->to;
     char *rest;
 
     if (end - t != 4 || t->kind != QDOT_TOKEN_NAME || !qdot_token_is(t + 1, "[")

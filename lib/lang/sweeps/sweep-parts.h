@@ -9,7 +9,8 @@
 #include "lang/session/row-tables.h"
 
 typedef struct {
-    qdot_cursor *c;
+    qdot_record *record;
+    qdot_cursor *c; /* of it */
     qdot_members members;
     qdot_columns columns;
     const char *name;
@@ -32,8 +33,8 @@ typedef struct {
  * are run, how long it takes; s as for qdot_sweep_make_rows. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text);
 
-/* Behind the words `plan sweep`. */
-QDOT_MUST_CHECK qdot_status qdot_sweep_plan(qdot_cursor *c);
+/* Of a statement `plan sweep ...`. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_plan(qdot_record *r);
 
 /* Make row k of the table, in this process. QDOT_EFAILED and others: the row's own failure. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_fill_row(qdot_sweep *s, size_t k);

@@ -10,82 +10,89 @@
 #include "base/clock.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
-#include "lang/commands/handlers.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/scene-file.h"
-#include "lang/figures/figure-file.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/sweeps/sweep-parts.h"
+#include "lang/syntax/record.h"
+
+static qdot_status sweep_make(qdot_record *r);
+
+QDOT_STATEMENT(sweep) = {
+    .word = "sweep",
+    .group = QDOT_NUMBERS,
+    .usage = "sweep " QDOT_MEMBERS_USAGE "EXPR, ... [as NAME] [threads N] [resume \"FILE.h5\"]",
+    .summary = "a run for each value of parameters or initial values - A..B, a list [V, W], or drawn by normal(M, S), "
+               "uniform(A, B) - with numbers of it as a row, each with its error: `table NAME`, `plot NAME`, "
+               "`save NAME to` show them; `mpirun -n N qdot FILE` divides it among machines",
+    .example = "sweep omega = 0..5 step 0.1 run 0..20 : value(theta, 20)",
+    .handler = sweep_make,
+};
 
 enum { MOST_THREADS = 1024 };
 
 /* --- reading ---------------------------------------------------------------------------- */
 
 static qdot_status
-read_threads(qdot_cursor *c, qdot_sweep *s)
+threads_find(qdot_record *r, qdot_sweep *s)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *part = qdot_record_hole(r, "threads", "N");
 
-    QDOT_TRY(qdot_cursor_once(c, "threads", s->threads != 0));
-    QDOT_TRY(qdot_read_integer(c, &s->threads));
+    if (part == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_record_integer(r, part, &s->threads));
     if (s->threads >= 1 && s->threads <= MOST_THREADS)
         return QDOT_OK;
-    c->error_at = start->start;
+    qdot_record_blame(r, part);
     return qdot_fail(QDOT_EINVAL, "threads are from 1 to %d", MOST_THREADS);
 }
 
 /* The file that rows are kept in. */
 static qdot_status
-sweep_read_file(qdot_cursor *c, qdot_sweep *s)
+sweep_find_file(qdot_record *r, qdot_sweep *s)
 {
-    s->path_at = c->at;
-    QDOT_TRY(qdot_cursor_once(c, "resume", s->path != NULL));
-    QDOT_TRY(qdot_figure_file_read(c, &s->path));
+    const qdot_filled *part = qdot_record_hole(r, "resume", NULL);
+
+    if (part == NULL)
+        return QDOT_OK;
+    s->path_at = part->from;
+    s->path = qdot_record_text(part);
     if (qdot_ends_in(s->path, ".h5"))
         return QDOT_OK;
-    c->error_at = s->path_at->start;
+    qdot_record_blame(r, part);
     (void)qdot_fail(QDOT_EINVAL, "rows are kept in a file whose name ends in .h5");
     return qdot_hint("resume \"rows.h5\"");
 }
 
 static qdot_status
-read_rest(qdot_cursor *c, qdot_sweep *s)
+sweep_find_name(qdot_record *r, qdot_sweep *s)
 {
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "as")) {
-            QDOT_TRY(qdot_cursor_once(c, "as", s->name != NULL));
-            QDOT_TRY(qdot_read_name(c, &s->name));
-        } else if (qdot_cursor_accept_word(c, "threads")) {
-            QDOT_TRY(read_threads(c, s));
-        } else if (qdot_cursor_accept_word(c, "resume")) {
-            QDOT_TRY(sweep_read_file(c, s));
-        } else {
-            return qdot_cursor_expected(c, "`as NAME`, `threads N`, `resume \"FILE.h5\"` or the end "
-                                           "of the statement");
-        }
-    }
-    return QDOT_OK;
+    const qdot_filled *part = qdot_record_hole(r, "as", "NAME");
+
+    if (part == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_record_name(r, part, &s->name));
+    if (qdot_names_find(s->c->session->names, s->name) == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, part);
+    return qdot_fail(QDOT_ENAME, "`%s` means something else already", s->name);
 }
 
 static qdot_status
-read_sweep(qdot_cursor *c, qdot_sweep *s)
+sweep_find_all(qdot_sweep *s)
 {
-    const qdot_token *start;
+    qdot_record *r = s->record;
 
-    QDOT_TRY(qdot_members_read(c, &s->members));
-    QDOT_TRY(qdot_columns_find(c, &s->columns));
-    start = c->at;
-    QDOT_TRY(read_rest(c, s));
-    if (s->name == NULL || qdot_names_find(c->session->names, s->name) == NULL)
-        return QDOT_OK;
-    c->error_at = start->start;
-    return qdot_fail(QDOT_ENAME, "`%s` means something else already", s->name);
+    QDOT_TRY(qdot_members_find(r, &s->members));
+    QDOT_TRY(qdot_columns_find(r, &s->columns));
+    QDOT_TRY(threads_find(r, s));
+    QDOT_TRY(sweep_find_file(r, s));
+    return sweep_find_name(r, s);
 }
 
 /* What the sweep says, and of which scene: a hash (FNV-1a) of all that would be saved of it. */
 static qdot_status
-say_what(qdot_sweep *s, const qdot_token *from, const qdot_token *to)
+say_what(qdot_sweep *s)
 {
     qdot_text scene = {0};
     uint64_t hash = 0xcbf29ce484222325;
@@ -93,7 +100,7 @@ say_what(qdot_sweep *s, const qdot_token *from, const qdot_token *to)
 
     for (size_t i = 0; i < scene.n; i++)
         hash = (hash ^ (unsigned char)scene.at[i]) * 0x100000001b3;
-    qdot_token_text(s->c->session, from, to, &s->said);
+    qdot_token_text(s->c->session, s->record->start, s->columns.at.at[s->columns.at.n - 1]->to, &s->said);
     qdot_text_format(&s->said, "\nscene %016llx", (unsigned long long)hash);
     qdot_text_clear(&scene);
     return status == QDOT_OK ? qdot_text_status(&s->said) : status;
@@ -274,44 +281,42 @@ sweep_free(qdot_sweep *s)
     qdot_free(s->done);
 }
 
-qdot_status
-qdot_sweep_statement(qdot_cursor *c)
+static qdot_status
+sweep_make(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    qdot_sweep s = {.members.run.tol = 1e-12, .c = c};
-    qdot_status status = read_sweep(c, &s);
+    qdot_sweep s = {.members.run.tol = 1e-12, .record = r, .c = &r->cursor};
+    qdot_status status = sweep_find_all(&s);
 
     if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = make_table(c->session, &s);
+        r->cursor.error_at = r->start->start;
+        status = make_table(s.c->session, &s);
     }
     if (status == QDOT_OK && s.path != NULL)
-        status = say_what(&s, start, s.columns.end);
+        status = say_what(&s);
     if (status == QDOT_OK) {
-        s.table->members = qdot_function_body_new(c->source, start, s.columns.at.at[0]);
-        status = s.table->members ? sweep_carry_out(c, &s) : QDOT_ENOMEM;
+        s.table->members = qdot_function_body_new(r->cursor.source, r->start, r->cursor.at);
+        status = s.table->members ? sweep_carry_out(s.c, &s) : QDOT_ENOMEM;
     }
-    qdot_run_options_place(c, &s.members.run, status);
+    qdot_run_options_place(s.c, &s.members.run, status);
     sweep_free(&s);
     return status;
 }
 
 qdot_status
-qdot_sweep_plan(qdot_cursor *c)
+qdot_sweep_plan(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    qdot_sweep s = {.members.run.tol = 1e-12, .c = c};
+    qdot_sweep s = {.members.run.tol = 1e-12, .record = r, .c = &r->cursor};
     qdot_text text = {0};
-    qdot_status status = read_sweep(c, &s);
+    qdot_status status = sweep_find_all(&s);
 
     if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = make_table(c->session, &s);
+        r->cursor.error_at = r->start[1].start;
+        status = make_table(s.c->session, &s);
     }
     if (status == QDOT_OK)
         status = qdot_sweep_tell_plan(&s, &text);
-    qdot_run_options_place(c, &s.members.run, status);
-    status = qdot_answer_written(c->session, "plan", status, &text);
+    qdot_run_options_place(s.c, &s.members.run, status);
+    status = qdot_answer_written(s.c->session, "plan", status, &text);
     sweep_free(&s);
     return status;
 }

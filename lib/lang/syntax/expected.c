@@ -11,6 +11,9 @@
     "`from`, `range`, `log`, `title`, `labels`, `size`, `keep`, `to` or the end of the " \
     "statement"
 
+/* Of a run. */
+#define RUN_OPTIONS "`tol`, `digits`, `method`, `with`, `constraints`"
+
 typedef struct {
     const char *statement, *before, *what, *hint;
     bool name; /* for a name that stands there */
@@ -45,6 +48,18 @@ static bool
 is_of(const char *statement, const qdot_expected *list)
 {
     return statement == NULL || strcmp(statement, list->usage->word) == 0;
+}
+
+/* Whether the words or signs of which `first` is the first come behind `before`; sign: a sign among them, or
+ * NULL. */
+static bool
+row_is_behind(const char *before, const qdot_usage_node *first, const qdot_usage_node *sign)
+{
+    const size_t n = strlen(first->before);
+
+    return strncmp(before, first->before, n) == 0 &&
+           (before[n] == '\0' ||
+            (before[n] == ' ' && sign != NULL && strcmp(before + n + 1, sign->text) == 0));
 }
 
 /* Add the nodes that may come first at `node`. */
@@ -123,12 +138,12 @@ list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                                    i == 0 ? "" : i + 1 < n ? ", " : " or ", word[i]);
 }
 
-/* The row for the node; NULL: none. */
+/* The row for words or signs of which `first` is the first; NULL: none. */
 static const expected_row *
-expected_find_row(const qdot_expected *list, const qdot_usage_node *node)
+expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const qdot_usage_node *sign)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (is_of(rows[i].statement, list) && strcmp(rows[i].before, node->before) == 0 &&
+        if (is_of(rows[i].statement, list) && row_is_behind(rows[i].before, first, sign) &&
             (!rows[i].name || list->token->kind == QDOT_TOKEN_NAME))
             return &rows[i];
     return NULL;
@@ -141,7 +156,7 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                           *sign = expected_first(list, QDOT_USAGE_SIGN),
                           *hole = expected_first(list, QDOT_USAGE_HOLE),
                           *first = word != NULL ? word : sign;
-    const expected_row *row = first != NULL ? expected_find_row(list, first) : NULL;
+    const expected_row *row = first != NULL ? expected_find_row(list, first, sign) : NULL;
 
     if (word != NULL && sign != NULL && strcmp(sign->text, "=") == 0) {
         snprintf(what, QDOT_EXPECTED_TEXT, "`=`");

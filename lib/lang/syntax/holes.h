@@ -10,6 +10,7 @@
 typedef enum {
     QDOT_HOLE_SIDE,       /* an expression up to a relation, `and`, `or` */
     QDOT_HOLE_VALUE,      /* an expression, with these */
+    QDOT_HOLE_CONDITION,  /* SIDE = SIDE, `returns after SIDE`, or several joined by `and` */
     QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
     QDOT_HOLE_RANGE,      /* SIDE..SIDE */
     QDOT_HOLE_VALUES,     /* SIDE..SIDE, or SIDE */

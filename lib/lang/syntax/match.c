@@ -214,6 +214,25 @@ read_equation(matcher *m, const qdot_usage_node *node, qdot_filled *part)
                : qdot_cursor_expected(c, "`=` and the other side");
 }
 
+/* SIDE = SIDE, or `returns after SIDE` */
+static qdot_status
+read_one_condition(matcher *m, const qdot_hole *hole, qdot_filled *part)
+{
+    qdot_cursor *c = m->c;
+
+    if (qdot_cursor_is_end(c) || qdot_cursor_is_op(c, ",") || qdot_cursor_is_word(c, "and"))
+        return qdot_cursor_expected(c, hole->expected);
+    if (qdot_cursor_accept_word(c, "returns")) {
+        if (!qdot_cursor_accept_word(c, "after"))
+            return qdot_cursor_expected(c, "`after` and a time: `returns after T`");
+        return read_expression(m, QDOT_PARSE_SIDE, part);
+    }
+    QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+    if (!qdot_cursor_accept_op(c, "=") && !qdot_cursor_accept_op(c, "=="))
+        return qdot_cursor_expected(c, "`=`: a condition is an equation");
+    return read_expression(m, QDOT_PARSE_SIDE, part);
+}
+
 /* (SIDE, SIDE): as many as the usage names */
 static qdot_status
 read_tuple(matcher *m, const char *names, qdot_filled *part)
@@ -286,9 +305,16 @@ read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
 {
     const qdot_hole *hole = qdot_hole_at(node->hole);
 
+    if (qdot_cursor_is_end(m->c) && strcmp(hole->expected, "an expression") != 0)
+        return qdot_cursor_expected(m->c, hole->expected);
     switch (hole->class) {
     case QDOT_HOLE_SIDE: return read_expression(m, QDOT_PARSE_SIDE, part);
     case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
+    case QDOT_HOLE_CONDITION:
+        do
+            QDOT_TRY(read_one_condition(m, hole, part));
+        while (qdot_cursor_accept_word(m->c, "and"));
+        return QDOT_OK;
     case QDOT_HOLE_EQUATION: return read_equation(m, node, part);
     case QDOT_HOLE_RANGE: return read_range(m, hole, part);
     case QDOT_HOLE_VALUES:
@@ -393,7 +419,7 @@ fail_at_token(matcher *m)
         m->c->error_at = m->c->at->start;
         (void)qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.100s`", what, m->c->at->text);
     }
-    return qdot_hint("%s", hint);
+    return qdot_last_error()->hint[0] == '\0' ? qdot_hint("%s", hint) : status;
 }
 
 /* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a

@@ -27,8 +27,8 @@ typedef struct {
 
 /* The row of a statement, at the begin of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
 #define QDOT_STATEMENT(word)                                                             \
-    extern const qdot_statement qdot_statement_##word;                                   \
-    const qdot_statement qdot_statement_##word
+    extern const qdot_statement qdot_statement_row_##word;                                   \
+    const qdot_statement qdot_statement_row_##word
 
 /* Whether it can be carried out. */
 static inline bool

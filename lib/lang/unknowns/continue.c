@@ -5,48 +5,44 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"
-#include "lang/commands/handlers.h"
 #include "lang/commands/value-check.h"
-#include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/row-tables.h"
 #include "lang/slopes/slopes.h"
 #include "lang/unknowns/continue-parts.h"
+#include "lang/syntax/record.h"
 #include "sim/branches/rest-continuation.h"
 
-/* --- reading ---------------------------------------------------------------------------- */
+static qdot_status continue_follow(qdot_record *r);
 
-/* What is followed: `equilibria in`, `orbit in`. */
-static qdot_status
-read_what(qdot_cursor *c, qdot_continue_wish *w)
-{
-    w->orbit = qdot_cursor_accept_word(c, "orbit");
-    if (!w->orbit && !qdot_cursor_accept_word(c, "equilibria"))
-        return qdot_cursor_expected(c, "`equilibria` or `orbit`");
-    if (!qdot_cursor_accept_word(c, "in"))
-        return qdot_cursor_expected(c, "`in` and a parameter with its range: `in Omega = 0..10`");
-    return QDOT_OK;
-}
+QDOT_STATEMENT(continue) = {
+    .word = "continue",
+    .group = QDOT_NUMBERS,
+    .usage = "continue equilibria|orbit in NAME = A..B [as NAME]",
+    .summary = "branches of equilibria over a parameter, with their stability, and their folds, pitchforks, "
+               "transcritical and Hopf points; or of periodic orbits, from the latest run that ends where it "
+               "began, with period doublings and tori, over a parameter, or where the energy is conserved over "
+               "`energy` or a number of the start; `plot branches` draws them, `table branches`, "
+               "`save branches to`, `table bifurcations` give the numbers",
+    .example = "continue equilibria in Omega = 0..10",
+    .handler = continue_follow,
+};
+
+/* --- what was read ---------------------------------------------------------------------- */
 
 /* A parameter; of orbits also `energy`, or a number of the start: x, x'. */
 static qdot_status
-read_parameter(qdot_cursor *c, qdot_continue_wish *w)
+parameter_find(qdot_record *r, qdot_continue_wish *w)
 {
-    qdot_slope_name x = {0};
-    qdot_status status;
+    const qdot_filled *part = qdot_record_hole(r, "in", "NAME");
 
-    w->place = c->at;
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "a parameter with its range: `in Omega = 0..10`");
+    w->place = part->from;
     if (!w->orbit)
-        return qdot_set_read_parameter(c, &w->parameter);
-    if (qdot_names_find(c->session->names, "energy") == NULL &&
-        qdot_cursor_accept_word(c, "energy"))
+        return qdot_set_find_parameter(r, part, &w->parameter);
+    if (qdot_names_find(r->cursor.session->names, "energy") == NULL && qdot_token_is_word(part->from, "energy") &&
+        part->to == part->from + 1)
         return QDOT_OK;
-    status = qdot_slope_name_read(c, &x);
-    w->parameter = x.symbol;
-    qdot_free(x.label);
-    return status;
+    return qdot_set_find_symbol(r, part, &w->parameter);
 }
 
 /* The range lies within the parameter's domain; its ends may be ends of that, too. */
@@ -76,52 +72,51 @@ check_range(qdot_cursor *c, const qdot_continue_wish *w)
 }
 
 static qdot_status
-read_range(qdot_cursor *c, qdot_continue_wish *w)
+continue_find_range(qdot_record *r, qdot_continue_wish *w)
 {
+    const qdot_filled *part = qdot_record_hole(r, "in", "A..B");
     qdot_expr ends[2];
     double at[2];
 
-    w->range_at = c->at;
-    QDOT_TRY(qdot_read_range(c, &ends[0], &ends[1]));
-    c->error_at = w->range_at->start;
+    w->range_at = part->from;
+    QDOT_TRY(qdot_record_range(r, part, &ends[0], &ends[1]));
+    qdot_record_blame(r, part);
     for (int k = 0; k < 2; k++)
-        QDOT_TRY(qdot_session_number(c->session, ends[k], &at[k], NULL));
+        QDOT_TRY(qdot_session_number(r->cursor.session, ends[k], &at[k], NULL));
     w->least = fmin(at[0], at[1]);
     w->most = fmax(at[0], at[1]);
-    return check_range(c, w);
+    return check_range(&r->cursor, w);
 }
 
 static qdot_status
-read_name(qdot_cursor *c, qdot_continue_wish *w)
+continue_find_name(qdot_record *r, qdot_continue_wish *w)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *part = qdot_record_hole(r, "as", "NAME");
 
     w->name = "branches";
     w->marks = "bifurcations";
-    if (!qdot_cursor_accept_word(c, "as"))
+    if (part == NULL)
         return QDOT_OK;
-    QDOT_TRY(qdot_read_name(c, &w->name));
+    QDOT_TRY(qdot_record_name(r, part, &w->name));
     w->own = qdot_malloc(strlen(w->name) + sizeof "_bifurcations");
     if (w->own == NULL)
         return QDOT_ENOMEM;
     strcpy(w->own, w->name);
     strcat(w->own, "_bifurcations");
     w->marks = w->own;
-    if (qdot_names_find(c->session->names, w->name) == NULL)
+    if (qdot_names_find(r->cursor.session->names, w->name) == NULL)
         return QDOT_OK;
-    c->error_at = start->start;
+    qdot_record_blame(r, part - 1);
     return qdot_fail(QDOT_ENAME, "`%s` means something else already", w->name);
 }
 
 static qdot_status
-read_all(qdot_cursor *c, qdot_continue_wish *w)
+continue_find_all(qdot_record *r, qdot_continue_wish *w)
 {
-    QDOT_TRY(read_what(c, w));
-    QDOT_TRY(read_parameter(c, w));
-    QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    QDOT_TRY(read_range(c, w));
-    QDOT_TRY(read_name(c, w));
-    return qdot_cursor_expect_end(c);
+    w->orbit = qdot_record_word(r, "orbit") != NULL;
+    QDOT_TRY(parameter_find(r, w));
+    QDOT_TRY(continue_find_range(r, w));
+    return continue_find_name(r, w);
 }
 
 /* --- the statement --------------------------------------------------------------------------- */
@@ -220,16 +215,16 @@ free_parameter(qdot_session *session, qdot_expr parameter)
             session->set_values.at[i] = parameter;
 }
 
-qdot_status
-qdot_continue_statement(qdot_cursor *c)
+static qdot_status
+continue_follow(qdot_record *r)
 {
-    qdot_session *session = c->session;
+    qdot_session *session = r->cursor.session;
     qdot_kept_values kept;
     qdot_continue_wish w = {0};
-    qdot_status status = read_all(c, &w);
+    qdot_status status = continue_find_all(r, &w);
 
     if (status == QDOT_OK) {
-        c->error_at = w.place->start;
+        r->cursor.error_at = w.place->start;
         if (session->scene->coordinates.n == 0) {
             (void)qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
             status = qdot_hint("declare them: coord theta");

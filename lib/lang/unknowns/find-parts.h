@@ -12,11 +12,13 @@
 
 typedef struct {
     const qdot_token *from, *to; /* [from, to) */
+    const qdot_compiled *side[2]; /* of the record; of a return both the time */
     bool returns;
 } qdot_find_condition;
 
 typedef struct {
-    qdot_cursor *c;
+    qdot_record *record;
+    qdot_cursor *c; /* of it */
     qdot_slope_names unknowns;
     qdot_vec(double) guess, low, high; /* bounds are infinite of a guess alone */
     size_t pushed; /* names bound meanwhile: unknowns that are declared nowhere */
@@ -29,9 +31,8 @@ typedef struct {
     qdot_expr latest_from, latest_to;
 } qdot_find;
 
-/* Read all of it. From {.c = c, .run.tol = 1e-12}; free it in any case. */
-QDOT_MUST_CHECK qdot_status qdot_find_read(qdot_cursor *c, qdot_find *f);
-void qdot_find_free(qdot_find *f);
+/* Search, and tell what was found. */
+QDOT_MUST_CHECK qdot_status qdot_find_carry_out(qdot_find *f);
 
 /* How many numbers must vanish. */
 size_t qdot_find_count(const qdot_find *f);

@@ -1,21 +1,33 @@
-/* find-read.c -- reads `find`: its unknowns, its conditions, the run that they are of. */
+/* find-read.c -- the statement `find`: its unknowns, its conditions, the run that they are of. */
 #include "lang/unknowns/find-parts.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/set.h"
-#include "lang/language/read.h"
-#include "lang/language/token-text.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
 #include "sim/model/simple-zeros.h"
 
-void
-qdot_find_free(qdot_find *f)
+static qdot_status find_make(qdot_record *r);
+
+QDOT_STATEMENT(find) = {
+    .word = "find",
+    .group = QDOT_NUMBERS,
+    .usage = "find NAME = A..B, NAME = GUESS, ... such that CONDITION, ... "
+             "[run T0..T1 " QDOT_RUN_USAGE "] [as NAME]",
+    .summary = "parameters, initial values and times for which conditions on a run hold, each with its error, by "
+               "Newton's method with exact slopes, and bisection between bounds; `returns after T`: a periodic orbit. They "
+               "hold from then on, and the run is the latest",
+    .example = "find theta' = 0..5 such that value(theta, 3) = 0",
+    .handler = find_make,
+};
+
+static void
+find_free(qdot_find *f)
 {
     for (size_t i = 0; i < f->unknowns.n; i++)
         qdot_free(f->unknowns.at[i].label);
@@ -33,11 +45,11 @@ qdot_find_free(qdot_find *f)
 
 /* Whether the name stands behind `such`. */
 static bool
-such_names(const qdot_cursor *c, const char *name)
+such_names(const qdot_record *r, const char *name)
 {
-    const qdot_token *at = qdot_cursor_find_word(c, "such");
+    const qdot_token *at = qdot_record_word(r, "such")->from;
 
-    for (; at->kind != QDOT_TOKEN_END; at++)
+    for (; at < r->cursor.at; at++)
         if (at->kind == QDOT_TOKEN_NAME && strcmp(at->text, name) == 0)
             return true;
     return false;
@@ -45,66 +57,57 @@ such_names(const qdot_cursor *c, const char *name)
 
 /* A name that is declared nowhere, and used by the conditions: bound to a symbol of its own. */
 static qdot_status
-read_own(qdot_cursor *c, qdot_find *f, qdot_slope_name *x)
+own_find(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_name *x)
 {
-    const char *name;
+    qdot_session *session = f->c->session;
 
-    *x = (qdot_slope_name){.place = c->at};
-    QDOT_TRY(qdot_read_name(c, &name));
-    x->label = qdot_strdup(name);
-    x->symbol = qdot_symbol_get(c->session->pool, QDOT_FORMAL, name);
+    *x = (qdot_slope_name){.place = part->from, .label = qdot_strdup(name)};
+    x->symbol = qdot_symbol_get(session->pool, QDOT_FORMAL, name);
     if (x->label == NULL || x->symbol == QDOT_NIL)
         return QDOT_ENOMEM;
-    QDOT_TRY(qdot_names_push(c->session->names, name, x->symbol));
+    QDOT_TRY(qdot_names_push(session->names, name, x->symbol));
     f->pushed++;
     return QDOT_OK;
 }
 
 static qdot_status
-read_symbol(qdot_cursor *c, qdot_find *f, qdot_slope_name *x)
+symbol_find(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
 {
-    qdot_cursor look = *c;
     const char *name;
 
-    *x = (qdot_slope_name){.place = c->at};
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "an initial value, a parameter or a time: `find "
-                                       "theta' = 0..5 such that ...`");
-    if (qdot_read_name(&look, &name) == QDOT_OK &&
-        qdot_names_find(c->session->names, name) == NULL &&
-        qdot_cursor_is_op(&look, "=") && such_names(c, name))
-        return read_own(c, f, x);
-    return qdot_slope_name_read(c, x);
+    *x = (qdot_slope_name){.place = part->from};
+    QDOT_TRY(qdot_record_name(f->record, part, &name));
+    return qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to &&
+                   such_names(f->record, name)
+               ? own_find(f, part, name, x)
+               : qdot_slope_name_find(f->record, part, x);
 }
 
 static qdot_status
-read_bound(qdot_cursor *c, double *value)
+bound_find(qdot_find *f, const qdot_compiled *program, double *value)
 {
-    const qdot_token *start = c->at;
     qdot_expr e;
 
-    QDOT_TRY(qdot_read_side(c, &e));
-    c->error_at = start->start;
-    QDOT_TRY(qdot_session_number(c->session, e, value, NULL));
+    QDOT_TRY(qdot_compiled_value(f->c, program, &e));
+    f->c->error_at = program->from->start;
+    QDOT_TRY(qdot_session_number(f->c->session, e, value, NULL));
     return isfinite(*value) ? QDOT_OK
                             : qdot_fail(QDOT_EDOMAIN, "a guess is a finite number");
 }
 
-/* `= A..B`, or `= GUESS`. */
+/* `A..B`, or `GUESS`. */
 static qdot_status
-read_guess(qdot_cursor *c, qdot_find *f)
+guess_find(qdot_find *f, const qdot_filled *part)
 {
-    const qdot_token *start;
+    const qdot_compiled *ends = &f->record->compiled.at[part->first];
     double low, high = INFINITY, guess;
 
-    QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    start = c->at;
-    QDOT_TRY(read_bound(c, &low));
+    QDOT_TRY(bound_find(f, &ends[0], &low));
     guess = low;
-    if (qdot_cursor_accept_op(c, "..")) {
-        QDOT_TRY(read_bound(c, &high));
+    if (part->n == 2) {
+        QDOT_TRY(bound_find(f, &ends[1], &high));
         guess = low + (high - low) / 2;
-        c->error_at = start->start;
+        qdot_record_blame(f->record, part);
         if (!(low < high))
             return qdot_fail(QDOT_EINVAL, "nothing lies between %.10g and %.10g", low,
                              high);
@@ -117,73 +120,65 @@ read_guess(qdot_cursor *c, qdot_find *f)
 }
 
 static qdot_status
-read_unknowns(qdot_cursor *c, qdot_find *f)
+unknowns_find(qdot_find *f)
 {
-    do {
-        qdot_slope_name x;
-        const qdot_status status = read_symbol(c, f, &x);
+    const qdot_filled *such = qdot_record_word(f->record, "such");
 
-        QDOT_TRY(qdot_slope_names_take(c, &f->unknowns, &x, status));
-        QDOT_TRY(read_guess(c, f));
-    } while (qdot_cursor_accept_op(c, ","));
+    for (const qdot_filled *part = qdot_record_hole(f->record, "find", "NAME"); part != NULL && part < such;
+         part = qdot_record_next(f->record, part, "NAME")) {
+        qdot_slope_name x;
+        const qdot_status status = symbol_find(f, part, &x);
+
+        QDOT_TRY(qdot_slope_names_take(f->c, &f->unknowns, &x, status));
+        QDOT_TRY(guess_find(f, part + 2));
+    }
     return QDOT_OK;
 }
 
 /* --- conditions ---------------------------------------------------------------------------- */
 
-static bool
-ends(const qdot_cursor *c)
-{
-    return qdot_cursor_is_end(c) || qdot_cursor_is_word(c, "run") ||
-           qdot_cursor_is_word(c, "as");
-}
-
-/* Step over the conditions; they are read when there is a run. */
+/* Those of one hole, joined by `and`. */
 static qdot_status
-find_conditions(qdot_cursor *c, qdot_find *f)
+conditions_of(qdot_find *f, const qdot_filled *part)
 {
-    do {
-        qdot_find_condition x = {.from = c->at,
-                                 .returns = qdot_cursor_is_word(c, "returns")};
-        int depth = 0;
+    const qdot_compiled *sides = &f->record->compiled.at[part->first];
 
-        while (depth > 0 ? !qdot_cursor_is_end(c)
-                         : !ends(c) && !qdot_token_is(c->at, ",") &&
-                               !qdot_cursor_is_word(c, "and"))
-            depth += qdot_token_bracket(c->at++);
-        if (c->at == x.from)
-            return qdot_cursor_expected(
-                c, "a condition: `value(theta, 3) = 0` or `returns after T`");
-        x.to = c->at;
-        f->returns = f->returns || x.returns;
+    for (size_t k = 0; k < part->n; k++) {
+        const bool returns = qdot_token_is_word(sides[k].from - 1, "after") &&
+                             qdot_token_is_word(sides[k].from - 2, "returns");
+        qdot_find_condition x = {.from = sides[k].from, .side = {&sides[k], &sides[k]}, .returns = returns};
+
+        if (returns)
+            x.from -= 2;
+        else
+            x.side[1] = &sides[++k];
+        x.to = x.side[1]->to;
+        f->returns = f->returns || returns;
         QDOT_TRY(qdot_vec_push(&f->conditions, x));
-    } while (qdot_cursor_accept_op(c, ",") || qdot_cursor_accept_word(c, "and"));
+    }
     return QDOT_OK;
 }
 
-/* Behind the conditions: `run T0..T1 [options]`, or `as NAME`. */
 static qdot_status
-read_run(qdot_cursor *c, qdot_find *f)
+conditions_find(qdot_find *f)
 {
-    const qdot_token *start = c->at;
+    for (const qdot_filled *part = qdot_record_hole(f->record, "that", "CONDITION"); part != NULL;
+         part = qdot_record_next(f->record, part, "CONDITION"))
+        QDOT_TRY(conditions_of(f, part));
+    return QDOT_OK;
+}
+
+/* The run of the conditions is the latest, where that is of this scene. */
+static qdot_status
+latest_find(qdot_find *f)
+{
+    qdot_session *session = f->c->session;
     qdot_named_run *named;
 
-    if (qdot_cursor_accept_word(c, "run")) {
-        f->run_at = start;
-        QDOT_TRY(qdot_read_range(c, &f->run.from, &f->run.to));
-        QDOT_TRY(qdot_run_options_read(c, start, &f->run));
-        c->error_at = start->start;
-        return f->run.digits == 0
-                   ? QDOT_OK
-                   : qdot_fail(QDOT_ENOTBUILT, "not built yet: find with `digits`");
-    }
-    if (qdot_cursor_accept_word(c, "as"))
-        QDOT_TRY(qdot_read_name(c, &f->run.name));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    if (c->session->runs.n == 0)
+    if (session->runs.n == 0)
         return QDOT_OK;
-    QDOT_TRY(qdot_runs_find(c->session, NULL, &named));
-    if (named->conditions->version != c->session->scene->version)
+    QDOT_TRY(qdot_runs_find(session, NULL, &named));
+    if (named->conditions->version != session->scene->version)
         return QDOT_OK;
     f->latest = qdot_run_get_report(named->run);
     f->latest_from = named->conditions->t0;
@@ -192,31 +187,37 @@ read_run(qdot_cursor *c, qdot_find *f)
     f->run.treatment = f->latest->treatment;
     if (f->latest->digits > 0) {
         f->run.tol = 1e-12;
-        return qdot_answer_notice(c->session, "%s has %d digits; what is found has those of doubles", named->name,
+        return qdot_answer_notice(session, "%s has %d digits; what is found has those of doubles", named->name,
                                   f->latest->digits);
     }
     f->run.method = f->latest->method;
     return QDOT_OK;
 }
 
+/* Behind the conditions: `run T0..T1 [options]`, `as NAME`. */
+static qdot_status
+run_find(qdot_find *f)
+{
+    const qdot_filled *run = qdot_record_word(f->record, "run"), *name = qdot_record_hole(f->record, "as", "NAME"),
+                      *end = f->record->parts.at + f->record->parts.n;
+
+    if (name != NULL)
+        QDOT_TRY(qdot_record_name(f->record, name, &f->run.name));
+    if (run == NULL)
+        return latest_find(f);
+    f->run_at = run->from;
+    QDOT_TRY(qdot_run_options_find(f->record, run + 1, end, &f->run));
+    qdot_record_blame(f->record, run);
+    return f->run.digits == 0 ? QDOT_OK : qdot_fail(QDOT_ENOTBUILT, "not built yet: find with `digits`");
+}
+
 /* --- limits ---------------------------------------------------------------------------------- */
 
 /* T of `returns after T`. */
 static qdot_status
-read_period(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
+period_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
 {
-    qdot_cursor own = *f->c;
-    qdot_status status = QDOT_OK;
-
-    own.at = x->from + 1;
-    if (!qdot_cursor_accept_word(&own, "after"))
-        status = qdot_cursor_expected(&own, "`after` and a time: `returns after T`");
-    if (status == QDOT_OK)
-        status = qdot_read_scalar(&own, T);
-    if (status == QDOT_OK && own.at != x->to)
-        status = qdot_cursor_expected(&own, "`,`, `and` or the end of the condition");
-    f->c->error_at = own.error_at;
-    return status;
+    return qdot_compiled_scalar(f->c, x->side[0], T);
 }
 
 /* A period that is an unknown by itself stays above a quarter of its guess: after no time all returns. */
@@ -228,7 +229,7 @@ bound_period(qdot_find *f)
 
         if (!f->conditions.at[i].returns)
             continue;
-        QDOT_TRY(read_period(f, &f->conditions.at[i], &T));
+        QDOT_TRY(period_find(f, &f->conditions.at[i], &T));
         for (size_t k = 0; k < f->unknowns.n; k++)
             if (f->unknowns.at[k].symbol == T && isinf(f->low.at[k])) {
                 const double least = f->guess.at[k] / 4;
@@ -289,7 +290,7 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
 
         if (!f->conditions.at[i].returns)
             continue;
-        QDOT_TRY(read_period(f, &f->conditions.at[i], &T));
+        QDOT_TRY(period_find(f, &f->conditions.at[i], &T));
         QDOT_TRY(later(session, *from, to, qdot_add(session->pool, *from, T)));
     }
     if (f->returns)
@@ -310,15 +311,12 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
 
 /* --- all of it ----------------------------------------------------------------------------- */
 
-qdot_status
-qdot_find_read(qdot_cursor *c, qdot_find *f)
+static qdot_status
+find_all(qdot_find *f)
 {
-    QDOT_TRY(read_unknowns(c, f));
-    if (!qdot_cursor_accept_word(c, "such") || !qdot_cursor_accept_word(c, "that"))
-        return qdot_cursor_expected(c, "`,`, or `such that` and a condition: `such that "
-                                       "value(theta, 3) = 0`");
-    QDOT_TRY(find_conditions(c, f));
-    QDOT_TRY(read_run(c, f));
+    QDOT_TRY(unknowns_find(f));
+    QDOT_TRY(conditions_find(f));
+    QDOT_TRY(run_find(f));
     return bound_period(f);
 }
 
@@ -343,7 +341,7 @@ return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr fro
     const size_t n = session->scene->coordinates.n;
     qdot_expr T;
 
-    QDOT_TRY(read_period(f, x, &T));
+    QDOT_TRY(period_find(f, x, &T));
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
@@ -358,19 +356,14 @@ return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr fro
 }
 
 static qdot_status
-read_equation(qdot_cursor *own, const qdot_find_condition *x, qdot_expr *e)
+equation_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *e)
 {
-    qdot_session *session = own->session;
+    qdot_session *session = f->c->session;
     qdot_expr side[2], touching;
 
-    QDOT_TRY(qdot_read_side(own, &side[0]));
-    if (!qdot_cursor_accept_op(own, "=") && !qdot_cursor_accept_op(own, "=="))
-        return qdot_cursor_expected(own, "`=`: a condition is an equation");
-    QDOT_TRY(qdot_read_side(own, &side[1]));
-    if (own->at != x->to)
-        return qdot_cursor_expected(own,
-                                    "`,`, `and`, `run T0..T1`, `as NAME` or the end");
-    own->error_at = x->from->start;
+    for (int i = 0; i < 2; i++)
+        QDOT_TRY(qdot_compiled_value(f->c, x->side[i], &side[i]));
+    f->c->error_at = x->from->start;
     for (int i = 0; i < 2; i++) {
         if (!qdot_expr_is_scalar(session->pool, side[i]))
             return qdot_fail(QDOT_ETYPE, "a condition is between numbers");
@@ -388,19 +381,29 @@ qdot_find_residuals(const qdot_find *f, qdot_expr from, qdot_expr *e)
 {
     for (size_t i = 0; i < f->conditions.n; i++) {
         const qdot_find_condition *x = &f->conditions.at[i];
-        qdot_cursor own = *f->c;
-        qdot_status status;
 
-        own.at = x->from;
-        own.error_at = x->from->start;
+        f->c->error_at = x->from->start;
         if (x->returns) {
             QDOT_TRY(return_residuals(f, x, from, e));
-            e += 2 * own.session->scene->coordinates.n;
+            e += 2 * f->c->session->scene->coordinates.n;
             continue;
         }
-        status = read_equation(&own, x, e++);
-        f->c->error_at = own.error_at;
-        QDOT_TRY(status);
+        QDOT_TRY(equation_find(f, x, e++));
     }
     return QDOT_OK;
+}
+
+/* --- the statement --------------------------------------------------------------------------- */
+
+static qdot_status
+find_make(qdot_record *r)
+{
+    qdot_find f = {.record = r, .c = &r->cursor, .run.tol = 1e-12};
+    qdot_status status = find_all(&f);
+
+    if (status == QDOT_OK)
+        status = qdot_find_carry_out(&f);
+    qdot_run_options_place(f.c, &f.run, status);
+    find_free(&f);
+    return status;
 }

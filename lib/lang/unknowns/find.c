@@ -1,10 +1,9 @@
-/* find.c -- the statement `find`: unknowns for which conditions on a run hold. */
+/* find.c -- the search of `find`: unknowns for which conditions on a run hold. */
 #include <math.h>
 #include <string.h>
 
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/handlers.h"
 #include "lang/unknowns/find-parts.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
@@ -645,8 +644,8 @@ find_search(hunt *h, qdot_zero_result *r)
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : find_refuse(h, r);
 }
 
-static qdot_status
-find_carry_out(qdot_find *f)
+qdot_status
+qdot_find_carry_out(qdot_find *f)
 {
     const size_t n = f->unknowns.n, m = qdot_find_count(f);
     hunt h = {.f = f,
@@ -680,18 +679,5 @@ find_carry_out(qdot_find *f)
     f->c->session->start_open.n = 0;
     qdot_free(h.values);
     qdot_free(room);
-    return status;
-}
-
-qdot_status
-qdot_find_statement(qdot_cursor *c)
-{
-    qdot_find f = {.c = c, .run.tol = 1e-12};
-    qdot_status status = qdot_find_read(c, &f);
-
-    if (status == QDOT_OK)
-        status = find_carry_out(&f);
-    qdot_run_options_place(c, &f.run, status);
-    qdot_find_free(&f);
     return status;
 }

@@ -4,15 +4,29 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/unknowns/fit-parts.h"
+#include "lang/runs/error-time.h"
 #include "lang/slopes/trial.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
+#include "lang/syntax/record.h"
+
+static qdot_status fit_find(qdot_record *r);
+
+QDOT_STATEMENT(fit) = {
+    .word = "fit",
+    .group = QDOT_NUMBERS,
+    .usage = "fit NAME, ... to \"FILE\" : T, EXPR, ... [sigma EXPR, ...] [from EXPR] [tol E] "
+             "[method auto|radau] [as NAME]",
+    .summary = "parameters and initial values (theta, theta') by least squares, each with its standard error; the "
+               "values of `set` and `start` are the guesses; columns of the file may be `sigma`, of the one before, or "
+               "`skip`",
+    .example = "fit m, k, theta' to \"data.csv\" : t, theta sigma 0.01",
+    .handler = fit_find,
+};
 
 static void
 fit_free(qdot_fit *f)
@@ -30,52 +44,49 @@ fit_free(qdot_fit *f)
 
 /* --- columns ------------------------------------------------------------------------------- */
 
-/* Whether the word stands by itself, as a column. */
+/* Whether the column is that word alone. */
 static bool
-is_alone(const qdot_cursor *c, const char *word)
+is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
 {
-    const qdot_name *known = qdot_names_find(c->session->names, word);
+    const qdot_name *known = qdot_names_find(r->cursor.session->names, word);
 
-    return qdot_cursor_is_word(c, word)
-           && (c->at[1].kind == QDOT_TOKEN_END || qdot_token_is(c->at + 1, ",")
-               || c->at[1].kind == QDOT_TOKEN_NAME)
+    return qdot_token_is_word(part->from, word) && part->to == part->from + 1
            && !(known != NULL && known->kind == QDOT_NAME_COORD);
 }
 
 /* Standard errors of the column before. */
 static qdot_status
-read_sigma_column(qdot_cursor *c, qdot_fit *f, qdot_fit_column *x)
+sigma_column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
     qdot_fit_column *before = f->columns.n > 0 ? &f->columns.at[f->columns.n - 1] : NULL;
+    qdot_session *session = r->cursor.session;
 
     if (before == NULL || before->kind != QDOT_FIT_VALUE) {
-        c->error_at = c->at->start;
+        qdot_record_blame(r, part);
         (void)qdot_fail(QDOT_EINVAL, "a column `sigma` holds the standard errors of the column before "
                                      "it, which has to be a value");
         return qdot_hint("fit m to \"data.csv\" : t, x, sigma");
     }
     before->weighted = true;
     x->kind = QDOT_FIT_SIGMA;
-    c->at++;
-    if (qdot_names_find(c->session->names, "sigma") == NULL)
+    if (qdot_names_find(session->names, "sigma") == NULL)
         return QDOT_OK;
-    return qdot_answer_notice(c->session, "the column `sigma` holds standard errors here; `(sigma)` is "
-                                          "what you call so");
+    return qdot_answer_notice(session, "the column `sigma` holds standard errors here; `(sigma)` is "
+                                       "what you call so");
 }
 
 static qdot_status
-read_expression(qdot_cursor *c, qdot_fit *f, qdot_fit_column *x)
+expression_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
     const size_t measured = session->measured.n;
     qdot_text text = {0};
 
-    QDOT_TRY(qdot_read_motion(c, &x->e));
-    qdot_token_text(session, start, c->at, &text);
+    QDOT_TRY(qdot_compiled_motion(&r->cursor, &r->compiled.at[part->first], &x->e));
+    qdot_token_text(session, part->from, part->to, &text);
     x->label = text.at;
     QDOT_TRY(qdot_text_status(&text));
-    c->error_at = start->start;
+    qdot_record_blame(r, part);
     if (f->columns.n == 0) {
         x->kind = QDOT_FIT_TIME;
         if (x->e == QDOT_T)
@@ -100,33 +111,39 @@ read_expression(qdot_cursor *c, qdot_fit *f, qdot_fit_column *x)
 }
 
 static qdot_status
-read_columns(qdot_cursor *c, qdot_fit *f)
+column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
-    do {
-        qdot_fit_column x = {.place = c->at};
+    if (is_alone(r, part, "sigma"))
+        return sigma_column_find(r, part, f, x);
+    if (!is_alone(r, part, "skip") || f->columns.n == 0)
+        return expression_find(r, part, f, x);
+    x->kind = QDOT_FIT_SKIP;
+    return QDOT_OK;
+}
+
+/* The holes behind the colon. */
+static qdot_status
+columns_find(qdot_record *r, qdot_fit *f)
+{
+    const qdot_filled *last = NULL;
+
+    for (size_t i = 0; i < r->parts.n; i++) {
+        const qdot_filled *part = &r->parts.at[i];
+        qdot_fit_column x = {.place = part->from};
         qdot_status status;
 
-        if (qdot_cursor_is_end(c))
-            return qdot_cursor_expected(c, "what a column of the file holds: `t, theta, x`");
-        if (is_alone(c, "sigma")) {
-            status = read_sigma_column(c, f, &x);
-        } else if (is_alone(c, "skip") && f->columns.n > 0) {
-            x.kind = QDOT_FIT_SKIP;
-            c->at++;
-            status = QDOT_OK;
-        } else {
-            status = read_expression(c, f, &x);
-        }
+        if (part->n == 0 || strcmp(part->node->before, "to") != 0)
+            continue;
+        last = part;
+        status = column_find(r, part, f, &x);
         if (status == QDOT_OK)
             status = qdot_vec_push(&f->columns, x);
         if (status != QDOT_OK) {
             qdot_free(x.label);
             return status;
         }
-    } while (qdot_cursor_accept_op(c, ","));
-    if (f->m > 0)
-        return QDOT_OK;
-    return qdot_cursor_expected(c, "`,` and what was measured: `t, theta`");
+    }
+    return f->m > 0 ? QDOT_OK : qdot_record_expected(r, last->to, "`,` and what was measured: `t, theta`");
 }
 
 /* --- options ------------------------------------------------------------------------------------ */
@@ -143,20 +160,18 @@ value_column(const qdot_fit *f, size_t k)
 
 /* `sigma S`, or one for each value. */
 static qdot_status
-read_sigma(qdot_cursor *c, qdot_fit *f)
+sigma_find(qdot_record *r, qdot_fit *f)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *first = qdot_record_hole(r, "sigma", "EXPR"), *part = first;
     size_t n = 0;
     double x = 0;
 
-    QDOT_TRY(qdot_cursor_once(c, "sigma", f->weighted));
-    f->weighted = true;
-    do {
-        const qdot_token *own = c->at;
+    f->weighted = first != NULL;
+    for (; part != NULL && strcmp(part->node->before, "sigma") == 0; part = qdot_record_next(r, part, "EXPR")) {
         qdot_fit_column *column = value_column(f, n++);
 
-        QDOT_TRY(qdot_read_number(c, &x));
-        c->error_at = own->start;
+        QDOT_TRY(qdot_record_number(r, part, &x));
+        qdot_record_blame(r, part);
         if (!(x > 0) || !isfinite(x))
             return qdot_fail(QDOT_EINVAL, "a standard error is positive, not %.6g", x);
         if (column == NULL)
@@ -166,8 +181,10 @@ read_sigma(qdot_cursor *c, qdot_fit *f)
             return qdot_fail(QDOT_EINVAL, "%.100s has a column of standard errors already",
                              column->label);
         column->sigma = x;
-    } while (qdot_cursor_accept_op(c, ","));
-    c->error_at = start->start;
+    }
+    if (first == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, first);
     if (n > 1 && n < f->m)
         return qdot_fail(QDOT_EINVAL, "%zu standard errors for %zu values: one, or one for each", n,
                          f->m);
@@ -181,44 +198,20 @@ read_sigma(qdot_cursor *c, qdot_fit *f)
 }
 
 static qdot_status
-read_tolerance(qdot_cursor *c, qdot_fit *f)
+options_find(qdot_record *r, qdot_fit *f)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *from = qdot_record_hole(r, "from", "EXPR"), *method = qdot_record_word(r, "method"),
+                      *name = qdot_record_hole(r, "as", "NAME");
 
-    QDOT_TRY(qdot_cursor_once(c, "tol", f->tol > 0));
-    QDOT_TRY(qdot_read_number(c, &f->tol));
-    c->error_at = start->start;
-    return f->tol >= 1e-16 && f->tol < 1
-               ? QDOT_OK
-               : qdot_fail(QDOT_EINVAL, "a tolerance lies between 1e-16 and 1");
-}
-
-static qdot_status
-read_options(qdot_cursor *c, qdot_fit *f)
-{
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "sigma")) {
-            QDOT_TRY(read_sigma(c, f));
-        } else if (qdot_cursor_accept_word(c, "from")) {
-            QDOT_TRY(qdot_cursor_once(c, "from", f->from != QDOT_NIL));
-            QDOT_TRY(qdot_read_scalar(c, &f->from));
-        } else if (qdot_cursor_accept_word(c, "tol")) {
-            QDOT_TRY(read_tolerance(c, f));
-        } else if (qdot_cursor_accept_word(c, "method")) {
-            QDOT_TRY(qdot_cursor_once(c, "method", f->method != NULL));
-            if (!qdot_cursor_is_word(c, "auto") && !qdot_cursor_is_word(c, "radau"))
-                return qdot_cursor_expected(c, "`auto` or `radau`, which slopes can be had by");
-            f->method_at = c->at;
-            f->method = c->at++->text;
-        } else if (qdot_cursor_accept_word(c, "as")) {
-            QDOT_TRY(qdot_cursor_once(c, "as", f->name != NULL));
-            QDOT_TRY(qdot_read_name(c, &f->name));
-        } else {
-            return qdot_cursor_expected(c, "`,`, `sigma`, `from`, `tol`, `method`, `as` or the end of the "
-                                           "statement");
-        }
+    QDOT_TRY(sigma_find(r, f));
+    if (from != NULL)
+        QDOT_TRY(qdot_record_scalar(r, from, &f->from));
+    QDOT_TRY(qdot_error_time_tolerance(r, &f->tol));
+    if (method != NULL) {
+        f->method_at = method[1].from;
+        f->method = method[1].from->text;
     }
-    return QDOT_OK;
+    return name != NULL ? qdot_record_name(r, name, &f->name) : QDOT_OK;
 }
 
 /* Of several values some are weighted, or none. */
@@ -245,23 +238,19 @@ check_weights(qdot_cursor *c, qdot_fit *f)
 }
 
 static qdot_status
-read_fit(qdot_cursor *c, qdot_fit *f)
+fit_find_all(qdot_record *r, qdot_fit *f)
 {
-    QDOT_TRY(qdot_slopes_read(c, &f->unknowns));
-    if (!qdot_cursor_accept_word(c, "to"))
-        return qdot_cursor_expected(c, "`,` or `to \"FILE\"`, the data");
-    f->path_at = c->at;
-    if (c->at->kind != QDOT_TOKEN_STRING)
-        return qdot_cursor_expected(c, "the name of a file in quotes");
-    QDOT_TRY(qdot_read_string(c, &f->path));
-    if (!qdot_cursor_accept_op(c, ":"))
-        return qdot_cursor_expected(c, "`:` and what the columns of the file are: `: t, theta`");
-    QDOT_TRY(read_columns(c, f));
-    QDOT_TRY(read_options(c, f));
-    QDOT_TRY(check_weights(c, f));
-    if (f->name == NULL || qdot_names_find(c->session->names, f->name) == NULL)
+    const qdot_filled *file = qdot_record_hole(r, "to", "\"FILE\"");
+
+    QDOT_TRY(qdot_slopes_find(r, "fit", &f->unknowns));
+    f->path_at = file->from;
+    f->path = qdot_record_text(file);
+    QDOT_TRY(columns_find(r, f));
+    QDOT_TRY(options_find(r, f));
+    QDOT_TRY(check_weights(&r->cursor, f));
+    if (f->name == NULL || qdot_names_find(f->session->names, f->name) == NULL)
         return QDOT_OK;
-    c->error_at = c->at[-1].start;
+    qdot_record_blame(r, qdot_record_hole(r, "as", "NAME"));
     return qdot_fail(QDOT_ENAME, "`%s` means something else already", f->name);
 }
 
@@ -338,15 +327,15 @@ fit_carry_out(qdot_cursor *c, qdot_fit *f)
     return qdot_fit_tell(f);
 }
 
-qdot_status
-qdot_fit_statement(qdot_cursor *c)
+static qdot_status
+fit_find(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_cursor *c = &r->cursor;
     qdot_fit f = {.session = c->session};
-    qdot_status status = read_fit(c, &f);
+    qdot_status status = fit_find_all(r, &f);
 
     if (status == QDOT_OK) {
-        c->error_at = start->start;
+        c->error_at = r->start->start;
         status = fit_carry_out(c, &f);
     }
     if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && f.method_at != NULL)
