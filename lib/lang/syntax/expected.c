@@ -155,10 +155,11 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
     const qdot_usage_node *word = expected_first(list, QDOT_USAGE_WORD),
                           *sign = expected_first(list, QDOT_USAGE_SIGN),
                           *hole = expected_first(list, QDOT_USAGE_HOLE),
+                          *end = expected_first(list, QDOT_USAGE_END),
                           *first = word != NULL ? word : sign;
     const expected_row *row = first != NULL ? expected_find_row(list, first, sign) : NULL;
 
-    if (word != NULL && sign != NULL && strcmp(sign->text, "=") == 0) {
+    if (sign != NULL && strcmp(sign->text, "=") == 0 && (word != NULL || end == NULL)) {
         snprintf(what, QDOT_EXPECTED_TEXT, "`=`");
         return NULL;
     }
@@ -168,7 +169,7 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
     }
     if (word != NULL)
         list_words(list, what);
-    else if (expected_first(list, QDOT_USAGE_END) != NULL)
+    else if (end != NULL)
         snprintf(what, QDOT_EXPECTED_TEXT, "the end of the statement");
     else if (sign != NULL)
         snprintf(what, QDOT_EXPECTED_TEXT, "`%s`", sign->text);

@@ -1,6 +1,6 @@
 /* expected.h -- what to say of a token that does not fit.
  *
- *   `=`, if it or words may come
+ *   `=`, if it may come, unless it is optional
  *   else words of options and clauses, as the usage names them    "`tol`, `method` or `as`"
  *   else the end, if it may come                                  "the end of the statement"
  *   else a sign, else what the hole takes                         "`:`", "a name"

@@ -105,6 +105,12 @@ a_statement_is_its_words_and_holes(void **state)
          "print \"text\"=\"a\" , EXPR=x = 0 , \"text\"=\"b\""},
         {"remove NAME | remove KIND [K]", "remove spring 2", "remove KIND=spring K=2"},
         {"remove NAME | remove KIND [K]", "remove spring", "remove NAME=spring"},
+        {"param NAME [> 0] [= VALUE], ...", "param a, 2 < b[1] <= c = 3, d > 0",
+         "param NAME=a , NAME=2 < b[1] <= c = VALUE=3 , NAME=d > 0"},
+        {"set NAME = VALUE, F(ARGUMENTS) = EXPR, ...", "set f(u, v) = u*(v), p[x] = 2",
+         "set F(ARGUMENTS)=f(u, v) = EXPR=u*(v) , NAME=p[x] = VALUE=2"},
+        {"function NAME(ARGUMENTS), ...", "function f[1](s), g(s, t)",
+         "function NAME(ARGUMENTS)=f[1](s) , NAME(ARGUMENTS)=g(s, t)"},
         {"scale Q = VALUE, t = VALUE, ...", "scale t = 2, x' = 1, t = 3",
          "scale t = VALUE=2 , Q=x' = VALUE=1 , t = VALUE=3"},
         {"start Q = VALUE, ... [exactly] | start RUN [exactly]", "start a exactly", "start RUN=a exactly"},
@@ -143,6 +149,9 @@ what_belongs_there_is_said_by_the_usage(void **state)
         {"event NAME: A = B [stop]", "event e: x go", "expected `=` and the other side, found `go`", 11},
         {"include \"FILE.lag\"", "include x", "expected the name of a script in quotes, found `x`", 8},
         {"start Q = VALUE, ... [exactly] | start RUN [exactly]", "start x \"a\"", "expected `=`, found a text in quotes", 8},
+        {"start Q = VALUE, ... [exactly] | start RUN [exactly]", "start x = 1, y", "expected `=`, found the end of the statement", 14},
+        {"coord NAME, LO < NAME < HI, ...", "coord u[1] = 2", "a coordinate is declared without a value", 11},
+        {"coord NAME, LO < NAME < HI, ...", "coord u w", "expected `,` or the end of the statement, found `w`", 8},
         {"start Q = VALUE, ... [exactly]", "start = 1", "expected a coordinate, found `=`", 6},
     };
     reading *r = *state;
