@@ -74,7 +74,7 @@ typedef struct {
 typedef struct {
     const char *name; /* "portable", "avx2", "avx512" */
 
-    /* [n] for n = 0 ... QDOT_SERIES_MOST + 1 */
+    /* dot[n], pair[n]: sums of n products, n = 0 ... QDOT_SERIES_MOST + 1 */
     qdot_series_dot *dot[QDOT_SERIES_MOST + 2];
     qdot_series_pair *pair[QDOT_SERIES_MOST + 2];
 

@@ -7,7 +7,8 @@
 
 /* Singular values below so much of the largest count as 0. */
 static const double least_singular = 1e-8;
-/* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by this error then. */
+/* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by
+ * this error then. */
 static const double finest = 1e-10;
 /* Unknowns whose change by themselves changes F by less than this part of it do not move F. */
 static const double least_slope = 1e-12;
@@ -68,7 +69,7 @@ qdot_zero_choose_units(qdot_zero_search *s)
         if (s->r->f_error[i] > finest * s->unit_f[i])
             s->unit_f[i] = fmax(s->unit_f[i], fmin(s->r->f_error[i] / finest, most));
         s->unit_f[i] = s->unit_f[i] > 0 ? s->unit_f[i] : 1;
-        if (s->small[i] == 0) /* at the guess */
+        if (s->small[i] == 0) /* the first time, at the guess */
             s->small[i] = fmax(fmax(1e-3 * fabs(s->r->f[i]), 1e-9 * s->unit_f[i]),
                                s->p->size != NULL ? least_part * s->p->size[i] : 0);
     }
@@ -242,7 +243,8 @@ qdot_zero_is_zero(const qdot_zero_search *s)
     return true;
 }
 
-/* The order of the zero that the steps lead to, by this place and the last one: at u the step w is -(u - zero)/order. */
+/* The order of the zero that the steps lead to, by this place and the last one: at u the step w is -(u -
+ * zero)/order. */
 void
 qdot_zero_estimate_order(qdot_zero_search *s)
 {

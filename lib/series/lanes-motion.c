@@ -96,7 +96,7 @@ write_rates(qdot_lanes_writer *w, int k)
     }
 }
 
-/* Unknown i of those solved for, at order k. */
+/* Where the coefficient of order k of unknown i is: in its row, or a number if it has none. */
 static qdot_lanes_at
 unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
 {
@@ -164,7 +164,7 @@ write_integral(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lan
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
-    /* orders of the loop are beyond these */
+    /* low orders divide (program.h); those of the loop are higher */
     if (c->to >= QDOT_TAYLOR_EXACT_FROM && k <= QDOT_TAYLOR_EXACT) {
         qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
                                qdot_lanes_scalar_of(w, more, k));

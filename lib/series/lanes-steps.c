@@ -2,11 +2,11 @@
 #include "series/lanes-writer.h"
 #include "series/recurrence-operations.h"
 
-/* What a step is made of, by rows. */
+/* One step of the program at the order at hand, while its code is written. */
 typedef struct {
     qdot_lanes_writer *w;
     const qdot_program_step *s;
-    size_t i; /* its number */
+    size_t i; /* the number of the step */
     int k;
 } step;
 
@@ -190,7 +190,7 @@ step_add_number(const step *s, number *v, bool minus, unsigned name, number *u)
     *other = nothing;
 }
 
-/* What begins with it. */
+/* The number that starts a sum with the operand `name`: of U1, U2 the sum itself, which is moved out of u. */
 static number
 step_number_of(const step *s, unsigned name, number *u)
 {
@@ -211,7 +211,7 @@ is_folded(const step *s, unsigned name)
     return qdot_writer_expand(s->w, step_row_of(s, name)).row != step_row_of(s, name);
 }
 
-/* q, which nothing reads behind a step whose y is left out. */
+/* The sum q of an operation, moved out of u; `nothing` if it is left out because its y is not computed. */
 static number
 take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
@@ -349,7 +349,7 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
 
 /* --- of a motion, twice --------------------------------------------------------------- */
 
-/* Nothing but x, which was left out, is newest in it: that is all there is to add. */
+/* Whether a sine or hyperbolic sine lacks only the newest coefficient of its argument, which was not known before. */
 static bool
 lacks_argument(const step *s)
 {

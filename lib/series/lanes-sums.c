@@ -145,7 +145,7 @@ number_ahead(const qdot_lanes_writer *w, size_t sum, int i)
                                     sum * (size_t)(w->block - 1) + (size_t)i - 1);
 }
 
-/* The number of the sum that comes. */
+/* The number of the next sum of this order; room for it in `ahead`. */
 static size_t
 next_sum(qdot_lanes_writer *w)
 {

@@ -41,8 +41,8 @@ typedef struct {
 typedef struct {
     bool moving; /* it has more than order 0 */
     bool kept;   /* it is wanted to all orders */
-    bool absent; /* its newest coefficient is left out, or 0 for it */
-    bool wanted; /* an equation is made of it */
+    bool absent; /* its newest coefficient is not computed: it is unknown, or 0 */
+    bool wanted; /* an equation of the unknowns depends on it */
     bool equation;
     size_t step; /* that makes it; SIZE_MAX: none */
     int readers; /* steps that read it, */

@@ -8,7 +8,8 @@
 #include "tape/code.h"
 #include "tape/shake.h"
 
-/* As qdot_program_step; c: the inverse of what every order divides by, of RATE that of the unit. */
+/* A qdot_program_step with pointers to its rows; c: the inverse of the coefficient by which every order divides,
+ * for RATE of the unit of time. */
 typedef struct {
     uint16_t op, zero;
     int sign, lead;

@@ -44,7 +44,7 @@ program_add_step(builder *b, qdot_program_step step)
         b->status = qdot_vec_push(&b->program->steps, step);
 }
 
-/* The step just emitted. */
+/* The step that was added last. */
 static qdot_program_step *
 last(builder *b)
 {
@@ -108,7 +108,7 @@ with_third(builder *b)
     last(b)->third = third;
 }
 
-/* A constant times x, and z. */
+/* Add the step constant * x, or constant * x plus or minus z. */
 static row
 emit_scaled(builder *b, qdot_op op, row constant, row x, row z)
 {
@@ -294,7 +294,7 @@ qdot_program_hindrance(const qdot_tape *tape)
     return NULL;
 }
 
-/* Steps that are still go to the front, in the order in which they stand. */
+/* Put the steps whose rows do not change with t first, otherwise in their order. */
 static qdot_status
 still_ones_first(qdot_program *p)
 {

@@ -62,7 +62,7 @@ typedef struct {
 
 /* A number, as a tape has it (expr/constant.h). */
 typedef struct {
-    double value, low; /* the double, what it is beyond */
+    double value, low; /* the nearest double; the rest of the constant, rounded */
     signed char side;
     qdot_expr exact;
 } qdot_program_constant;
@@ -75,8 +75,9 @@ typedef struct {
     uint16_t op, zero; /* recurrence; how order 0 is computed: an operation of a tape, or above */
     int sign;          /* of RATIO */
     bool still;        /* it has order 0 only */
-    unsigned char newest; /* which of x, y, z hold newest coefficients of unknowns (motion.h); */
-    bool kept;            /* and later orders read what the step makes of them */
+    /* the bits of those of x, y, z whose coefficient of the order at hand depends on unknowns (motion.h); */
+    unsigned char newest;
+    bool kept;            /* later orders read the result of the step */
     signed char lead;  /* of its rows */
     qdot_program_row to, second, third, d, x, y, z;
 } qdot_program_step;

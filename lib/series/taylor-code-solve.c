@@ -14,7 +14,7 @@ inverse_at(const qdot_generator *g, size_t block, size_t i, size_t j)
     return code_factor_at(g, block, g->t->blocks[block].n + i, j);
 }
 
-/* What the sum has so far becomes its first term. */
+/* Make room for `more` terms: if there is none, add up those so far into one. */
 static void
 sum_make_room(qdot_generator *g, sum *s, int more)
 {

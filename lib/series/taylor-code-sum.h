@@ -43,7 +43,7 @@ code_hold(qdot_generator *g, int reg, uint32_t row, int k)
     g->where[4 * row + (uint32_t)(k & 3)] = (unsigned char)reg;
 }
 
-/* The register with coefficient k of a row that moves. */
+/* The register that holds coefficient k of a row that is not constant; it is loaded if none does. */
 static inline int
 code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 {
@@ -136,7 +136,7 @@ value_add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, 
     v->own = true;
 }
 
-/* When the sum with the newest coefficients that it has is there. */
+/* The instruction at which the coefficients that sum n and the sums linked to it read become known. */
 static inline int
 past_ready(qdot_generator *g, uint32_t n)
 {

@@ -41,7 +41,7 @@ enum {
     QDOT_CODE_ANY = 1000,
     /* What is folded has factors of its own (taylor-code-fold.c). */
     QDOT_CODE_FOLDED_SLOTS = 4,
-    /* Factors of a step that no order changes, at most (qdot_code_composed). */
+    /* The most factors of a step that are the same at all orders (qdot_code_composed). */
     QDOT_CODE_FACTORS = 8,
     /* No first loop goes further (it begins at twice the lag): links are exact that far. */
     QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES

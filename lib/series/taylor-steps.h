@@ -37,7 +37,7 @@ typedef struct {
     int solved;       /* orders up to this one by the factor */
     const double **f; /* [n] NULL: not explicit */
     double **a;       /* [n] */
-    double **r;       /* [n] what is left of f; work */
+    double **r;       /* [n] work: f less the known products M a */
     qdot_taylor_coupling *couplings; /* by i */
     size_t n_couplings;
     double *matrices; /* [n x n] L; [n x n] M_0^-1 */

@@ -176,7 +176,7 @@ qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, s
     return QDOT_OK;
 }
 
-/* Inputs, then what has order 0 only. */
+/* Lanes of level 0: the inputs first, then rows that are constant in t. */
 static void
 first_lanes(builder *b)
 {

@@ -17,7 +17,7 @@ enum { LINE = 8 }; /* doubles of a line of the cache */
 static qdot_status
 taylor_allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t more)
 {
-    /* an odd number of cache lines apart, so that rows do not share a few sets */
+    /* rows are an odd number of cache lines apart, so that they use all sets of the cache */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
     t->per_row = ((uint64_t)1 << 32) / t->stride + 1;
     t->spare = p->rows.n;
@@ -42,7 +42,8 @@ taylor_allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, s
     return QDOT_OK;
 }
 
-/* Numbers get to their rows; which of them are drawn. Shaken, they are their other neighbours. */
+/* Write constants to their rows: rounded to nearest, or for a shaken copy to the other side. Note those that are
+ * rounded at random. */
 static void
 taylor_set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
 {

@@ -244,7 +244,7 @@ typedef struct {
     long a, b;
 } cosines;
 
-/* Whether x is base^k, k > 0, of cosh or sinh; then it is added to t. */
+/* Whether base^exponent is a power k > 0 of cosh(u) or sinh(u), u as before; then k is added to t. */
 static bool
 take_cosine(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
 {

@@ -9,7 +9,7 @@
 #include "tape/logistic.h"
 #include "tape/tape.h"
 
-/* Terms of a sum that share a coefficient but for its sign. */
+/* One term of a group: terms of a sum whose coefficients are equal up to the sign. */
 typedef struct {
     qdot_value value;
     bool minus;

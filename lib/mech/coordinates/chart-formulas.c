@@ -255,7 +255,7 @@ typedef struct {
     size_t sign;
 } pair;
 
-/* What X and Y are in the coordinates given. */
+/* x[0], x[1]: the Cartesian X, Y in the coordinates given. */
 static void
 pair_given(const qdot_chart *c, const qdot_chart_group *g, qdot_expr *x)
 {
@@ -533,7 +533,7 @@ qdot_chart_add(qdot_chart *c, const qdot_chart_group *g, int sign)
     return QDOT_OK;
 }
 
-/* Of the plane groups: the distance from their foci, u or v being turned. */
+/* sinh(u)^2 + sin(v)^2, 0 at the foci of elliptic coordinates; with the cosine if v counts from a quarter turn. */
 static qdot_expr
 from_foci(qdot_pool *pool, const qdot_chart_group *g, qdot_expr u, qdot_expr v)
 {

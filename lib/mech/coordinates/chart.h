@@ -107,7 +107,7 @@ typedef struct {
     qdot_expr symbol, square;   /* symbol^2, in new coordinates and roots */
     qdot_expr partner, product; /* symbol partner = product; or nil */
     qdot_expr rate;             /* symbol', or nil: that of its square */
-    qdot_expr value;            /* or nil: the positive root of its square */
+    qdot_expr value;            /* the root in other symbols; nil: the positive root of `square` */
 } qdot_chart_root;
 
 /* What is 1 or -1 along the run: it changes where a singular place is passed exactly, if no domain

@@ -35,7 +35,8 @@ typedef struct {
     size_t d;
     qdot_expr x[QDOT_COLLISION_MOST];
     size_t pivot[QDOT_COLLISION_MOST];
-    qdot_expr square, scale; /* of d > 1: R^2 = square/scale, as it stands under roots */
+    /* for d > 1: R^2 = square/scale, where `square` is what stands under roots of the scene */
+    qdot_expr square, scale;
     qdot_expr distance;      /* R */
 } qdot_collision_pair;
 

@@ -132,7 +132,8 @@ divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
     return B;
 }
 
-/* e with B sign(u) for C/|u|, where |u| is `length`; e itself if e does not divide by |u| or C is no multiple of u. */
+/* e with B sign(u) for C/|u|, where |u| is `length`; e itself if e does not divide by |u| or C is no multiple of
+ * u. */
 static qdot_expr
 read_direction(qdot_pool *pool, qdot_expr e, qdot_expr length)
 {
@@ -172,7 +173,7 @@ void
 qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e)
 {
     if (qdot_pool_failed(pool) || find_speed_power(pool, n, e, 0, NULL) == QDOT_NIL)
-        return; /* as in most scenes: one walk tells */
+        return; /* most scenes have no such power */
     for (size_t i = 0; i < n; i++)
         e[i] = with_signs(pool, e[i]);
 }

@@ -12,7 +12,8 @@
 
 #include "expr/expr.h"
 
-/* Rewrite e [n] in that way. On failure an entry is nil or unchanged, and the pool keeps the failure. */
+/* Replace such directions in e [n] by signs. On failure an entry is nil or unchanged, and the pool keeps the
+ * failure. */
 void qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e);
 
 /* Whether the k-th argument of a product, a base, is |u| for some u, with an odd negative exponent, *power. */

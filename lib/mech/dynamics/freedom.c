@@ -374,7 +374,7 @@ count_hidden(const selection *of)
     return count;
 }
 
-/* Which of the rows that are not independent leave one more. */
+/* Find which of the dependent constraints leave a further (hidden) condition. */
 static qdot_status
 find_hidden(const problem *p, const bool *independent, bool *hidden)
 {

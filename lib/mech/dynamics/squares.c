@@ -153,7 +153,8 @@ clear_denominators(qdot_pool *pool, size_t n, qdot_expr *D, qdot_expr *l)
         }
 }
 
-/* Eliminate in the order given; the squares D [n], u [n]. False where a D will not do. */
+/* v^T A v as a sum of D u^2, completing squares in the order given; D [n], u [n]. False if some D is 0 or contains
+ * a sum. */
 static bool
 squares_eliminate(qdot_scene *s, size_t n, const qdot_expr *A, const qdot_expr *v,
                   const int *order, qdot_expr *D, qdot_expr *u)

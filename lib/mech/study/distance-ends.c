@@ -21,7 +21,7 @@ typedef struct {
     qdot_facts facts;
     uint32_t n;        /* components */
     qdot_expr square[3]; /* u, its components in no known order and of no known sign */
-    qdot_expr u;       /* one order and sign of them */
+    qdot_expr u;       /* the components in the order and with the signs that are tried */
 } search;
 
 static bool
@@ -183,7 +183,8 @@ try_body(search *w, size_t i, qdot_expr ends[2])
     return status;
 }
 
-/* Whether the terms of the centre alone, such as x of (x, y), may stand in these components. */
+/* Whether the components u can be those of a point of the body: each coordinate of its centre, as x of (x, y),
+ * must occur in its component. */
 static bool
 may_hold(const qdot_scene *s, const qdot_body *b, qdot_expr u)
 {

@@ -141,7 +141,7 @@ judge_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr p, con
         if (n != i)
             others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, exists, n));
     e.others = qdot_conditions_at(pool, others, 1, &p, &value, &exact);
-    if (is_undefined(pool) || e.others == QDOT_FALSE) /* it does not exist there by these */
+    if (is_undefined(pool) || e.others == QDOT_FALSE) /* the other conditions exclude the end */
         return IS_LISTED;
     e.facts = qdot_facts_and(pool, &exact, e.others, e.room);
     values = at_end(&e, place->equations);

@@ -17,7 +17,7 @@
 
 enum { STARTS = 240, STEPS = 60, MOST = QDOT_PLACES_MOST, NEWTON = 6 };
 
-/* How far starts go, by turns. */
+/* The half widths of the boxes from which starts are drawn, one after another. */
 static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
 enum { RANGES = sizeof ranges / sizeof *ranges };
 

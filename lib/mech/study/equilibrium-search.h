@@ -79,7 +79,7 @@ qdot_expr qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force);
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump);
 
-/* The equations without t that hold at a place at which those hold at all times. */
+/* Equations without t that are equivalent to `equations` for all t. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,
                                                    qdot_expr *list);
 
@@ -125,7 +125,8 @@ typedef struct {
  * all. */
 QDOT_MUST_CHECK qdot_status qdot_rest_search(qdot_rest *rest, const qdot_expr *r,
                                              qdot_places *out);
-/* An end of the domain of the k-th unknown (0: the lower) with the values of parameters put in; nil: there is none. */
+/* An end of the domain of the k-th unknown (0: the lower) with the values of parameters put in; nil: there is
+ * none. */
 qdot_expr qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which);
 /* Those that exclusion finds, added to *out; out->complete. (equilibrium-proved.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r,

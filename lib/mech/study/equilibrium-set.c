@@ -1,4 +1,5 @@
-/* equilibrium-set.c -- members of the set of equilibria as functions of one parameter, and the walls between cells. */
+/* equilibrium-set.c -- members of the set of equilibria as functions of one parameter, and the walls between
+ * cells. */
 #include "mech/study/equilibrium-set.h"
 
 #include <math.h>
@@ -29,7 +30,8 @@ holds_only(const qdot_equilibrium_curve *c, qdot_expr e)
 
 /* --- members --------------------------------------------------------------------------------- */
 
-/* What relations a < b say is positive, with values put in, added to *list; *known: all of them are inequalities of p. */
+/* What relations a < b say is positive, with values put in, added to *list; *known: all of them are inequalities
+ * of p. */
 static qdot_status
 append_gaps(const qdot_equilibrium_curve *c, qdot_expr relations, qdot_expr *list, bool *known)
 {
@@ -69,7 +71,7 @@ value_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
     return QDOT_NIL;
 }
 
-/* Of a family, counted by integers, one place. */
+/* Add an equilibrium; of a family with integers n, one member. */
 static qdot_status
 member_add(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e)
 {

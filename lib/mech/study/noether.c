@@ -348,7 +348,7 @@ turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
             v[k] = qdot_neg(pool, v[k]);
 }
 
-/* tau h - sum, the energy with its own sign: as it is said by itself, or all in one. */
+/* tau h - sum, in the shorter of two forms: with h as the energy is printed, or expanded as a whole. */
 static qdot_expr
 with_energy(const search *f, qdot_expr tau, qdot_expr sum)
 {

@@ -32,7 +32,7 @@ typedef struct {
     qdot_judgement j;
     qdot_equilibrium *e;
     qdot_expr inside;     /* a LIST: the conditions of e and its range, strictly */
-    qdot_expr *limit;     /* [coordinates] f_i; nil: not held */
+    qdot_expr *limit;     /* [coordinates] the largest friction f_i; nil: there is none */
     qdot_expr *force;     /* [coordinates] F_i, without friction */
 } held;
 

@@ -174,7 +174,8 @@ constant_block(qdot_judgement *j, const block *x, motion *what)
     return QDOT_OK;
 }
 
-/* *what becomes what `how` means; where that is nothing, what was noted since `before` is forgotten. */
+/* Set *what by the sign of a form: `otherwise` if it is positive definite, GROWS if it is negative
+ * somewhere. If the sign is not known, drop the conditions noted since `before`. */
 static void
 motion_settle(qdot_judgement *j, qdot_judgement_point before, qdot_definite how, motion otherwise,
               motion *what)

@@ -21,12 +21,13 @@ struct qdot_bind {
     const qdot_plan *plan;
     qdot_tape *tape; /* a shaken copy; else NULL */
     qdot_blocks blocks;
-    qdot_constrained *held;     /* of a plan with constraints: in place of the blocks */
-    qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
+    qdot_constrained *held;     /* solves for accelerations and multipliers under constraints; NULL: the blocks do */
+    qdot_motion_series *direct; /* if the equations are smooth: their Taylor series, */
     qdot_tree_series *tree;
-    qdot_motion_series *tied;      /* or, of a plan with constraints: */
-    qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
-    const qdot_ode_series *series; /* its callbacks; else NULL */
+    qdot_motion_series *tied;      /* or those under constraints */
+    /* other series, in turns with `tied`, for nearly dependent constraints; NULL: none */
+    qdot_guarded *guarded;
+    const qdot_ode_series *series; /* the callbacks of the series in use; NULL: there is none */
     qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
     qdot_ode_bonds bonds;  /* and the constraints beside them */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */

@@ -81,7 +81,7 @@ blocks_solve(qdot_blocks *blocks, const double *out, double *a, const double **e
     return QDOT_OK;
 }
 
-/* The same for a plan with only the tree: from the first orders of a series. */
+/* q'' at the inputs, for a plan that has no M: from the coefficients of a series along the tree. */
 static qdot_status
 begin_elsewhere(qdot_bind *b, double *a)
 {

@@ -37,8 +37,8 @@ typedef struct {
     double *largest; /* [m] met so far */
     double *values;  /* [m x QDOT_CHEBYSHEV_MOST] of a part */
     double *whole;   /* [as values] coefficients of the step */
-    double *beyond;  /* [m] the sum of what parts show beyond them, */
-    double *all;     /* [m] and of what they show */
+    double *beyond;  /* [m] the integral of |value - polynomial of the step|, by samples, */
+    double *all;     /* [m] and that of |value| */
     double *allowed; /* [m] what may be missed in the step, */
     double *left;    /* [m] and on parts that are not known yet */
     double *ends;    /* [4n] the states at both ends of a part */
@@ -57,7 +57,7 @@ typedef struct {
     void *user;
     bool missed;
     double t;            /* about where the most of it is missed, */
-    double begins, part; /* where it begins, and how long a step may be there */
+    double begins, part; /* the begin of that part; the longest step that resolves it */
     uint64_t evaluations;
 } qdot_pulses_step;
 

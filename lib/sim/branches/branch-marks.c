@@ -149,7 +149,7 @@ qdot_branch_fold_beside(qdot_branch_search *s, const qdot_bifurcation_bracket *i
     return status;
 }
 
-/* The crossing to which the search leads from the point at `way` along the curve from a; false: none near. */
+/* Search a crossing of branches from the point at arclength `way` from a. *found: false if there is none near. */
 static qdot_status
 find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, qdot_path_point *room,
                    qdot_bifurcation *b, double *other, bool *found)
@@ -185,7 +185,8 @@ way_from(const qdot_path *x, const qdot_path_point *place, double *y)
     return way;
 }
 
-/* Insert a->y, which lies `way` behind the kept point `place`, into the points of the branch in the order of the curve. */
+/* Insert a->y, which lies `way` behind the kept point `place`, into the points of the branch in the order of the
+ * curve. */
 static qdot_status
 insert(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_point *a, size_t mark,
        qdot_branch *branch)

@@ -5,15 +5,15 @@
 #include "sim/branches/bifurcation.h"
 
 typedef enum {
-    QDOT_END_RANGE,   /* of the parameter */
-    QDOT_END_DOMAIN,  /* of a coordinate */
+    QDOT_END_RANGE,   /* the end of the range of the parameter */
+    QDOT_END_DOMAIN,  /* the end of the domain of a coordinate */
     QDOT_END_CLOSED,  /* it came back to where it began */
     QDOT_END_FAR,     /* it goes on to infinity */
     QDOT_END_REST,    /* an orbit shrinks to a place at rest */
     QDOT_END_HALF,    /* an orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, jump, or have a kink */
-    QDOT_END_BLURRED, /* what is judged drowns in errors */
+    QDOT_END_BLURRED, /* the errors are larger than what decides on stability and bifurcations */
     QDOT_END_NO_REST, /* known exactly: these equilibria do not exist further on */
     QDOT_END_STOPPED  /* interrupted, or too many points */
 } qdot_branch_end;

@@ -37,7 +37,7 @@ is_upright(const qdot_path *x, const qdot_path_point *a)
     return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < x->upright;
 }
 
-/* Whether b lies on a's side of a bifurcation of that kind. */
+/* Whether no bifurcation of that kind lies between the points a and b of the branch. */
 static bool
 is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a,
           const qdot_path_point *b)
@@ -76,7 +76,8 @@ add_way_to_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path
         out->error[i] += (before != 0 && way < 1 ? way : 1) / sqrt(x->weight[i]);
 }
 
-/* Below, the value that changes its sign is rounding at that point: of a tangent that grows as the determinant falls. */
+/* Below, the value that changes its sign is rounding at that point: of a tangent that grows as the determinant
+ * falls. */
 static double
 rounding(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *here)
 {
@@ -363,7 +364,8 @@ end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_
            qdot_path_product(x, a->t, b->t) > straight;
 }
 
-/* Put b at the last place within all ends, which move with p, on the way of this length from a; *length. False: not found. */
+/* Put b at the last place within all ends, which move with p, on the way of this length from a; *length. False:
+ * not found. */
 static bool
 end_by_halving(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, double *length)
 {

@@ -21,7 +21,7 @@ enum { QDOT_DIPS_KEPT = 3 };
 typedef struct {
     size_t n;                              /* points kept, the oldest first */
     qdot_path_point at[QDOT_DIPS_KEPT];
-    double gone[QDOT_DIPS_KEPT];           /* the way along the curve up to each */
+    double gone[QDOT_DIPS_KEPT];           /* the length of the curve up to each */
     size_t count[QDOT_DIPS_KEPT];          /* points of the branch up to each */
     double most[2];                        /* the largest |f| so far */
     double careful, until, calm;           /* the longest step up to there; no dip is looked for up to there */

@@ -118,7 +118,7 @@ close_in(search *f, double *lo, double *hi, double fine)
 {
     double *const end[2] = {lo, hi};
     double value[2] = {test_at(f, *lo), test_at(f, *hi)};
-    size_t last = 2; /* the end that moved; 2: none has */
+    size_t last = 2; /* the end that the last step moved; 2: none yet */
 
     if (!(value[0] * value[1] <= 0))
         return false;

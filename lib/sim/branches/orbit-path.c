@@ -63,7 +63,8 @@ orbit_of(const qdot_orbit_path *x, const double *y)
                              .parameters = y + x->path.n};
 }
 
-/* Expressions: q, q', q'', then h: at the start of segment k (end 0) and its end (1); their slopes by unknown j of the flow. */
+/* Expressions: q, q', q'', then h: at the start of segment k (end 0) and its end (1); their slopes by unknown j of
+ * the flow. */
 static double
 segment_value(const qdot_orbit_path *x, size_t k, size_t end, size_t i)
 {
@@ -447,7 +448,7 @@ orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
     return QDOT_OK;
 }
 
-/* The first place, the numbers that belong to it. */
+/* The first point of the branch: y, with the states between segments, and the sizes of its components. */
 static qdot_status
 make_first(qdot_orbit_path *x, double *size, double *y)
 {

@@ -52,7 +52,7 @@ typedef struct {
     size_t n, K, c; /* coordinates; segments; multipliers: 2n, less what constraints fix */
     bool driven, conserved, asymptotic;
     size_t phase;   /* the number of z that is held; 2n: none */
-    double held, rate; /* its value; its rate at the first orbit */
+    double held, rate; /* the value at which z_phase is held; its rate of change along the first orbit */
     double energy;     /* of the first orbit */
     double size;       /* of the first orbit's largest change of a coordinate */
     double t0;

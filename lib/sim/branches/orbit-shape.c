@@ -11,7 +11,7 @@ enum { PLACES = 257, HALVINGS = 60 };
 typedef struct {
     qdot_orbit_read *r;
     size_t n, m; /* coordinates, expressions */
-    double *values; /* [PLACES x m] */
+    double *values; /* [PLACES x m] the expressions at equal times over a period */
     double *one;    /* [m] at one time */
 } shape;
 

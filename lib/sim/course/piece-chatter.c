@@ -91,7 +91,7 @@ find_pulls(held_motion *h, double a[2])
     return QDOT_OK;
 }
 
-/* d(log v)/dt. */
+/* The rate d(log v)/dt at which the speed v of the oscillation grows. */
 static qdot_status
 find_growth(held_motion *h, const double a[2], double *growth)
 {

@@ -214,7 +214,7 @@ is_between_contacts(const qdot_piece *x, const qdot_watched *w, double t)
     return false;
 }
 
-/* What ended a piece, in words. */
+/* Append the event or the switch that ended a piece, in words, to a message. */
 static void
 name_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
 {

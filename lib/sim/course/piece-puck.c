@@ -193,7 +193,7 @@ moves_along(const qdot_piece *x, const qdot_puck *puck, const double *rest, cons
     return along > straight * sqrt(d2 * e2);
 }
 
-/* Puck i starts from rest, or goes on where it has. */
+/* Start puck i from rest, along the force that exceeds the largest friction. */
 static qdot_status
 start_one(qdot_piece *x, size_t i, double speed)
 {

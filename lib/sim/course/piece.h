@@ -95,7 +95,8 @@ typedef struct {
     qdot_vec(qdot_root) fired; /* those that ended the piece before */
     qdot_vec(size_t) pushed;   /* surfaces of contacts that lasted, into which what ended it has pushed the motion */
     qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
-    size_t noted, noted_faded; /* occurrences, and stretches where one is not known, before this step */
+    /* occurrences, and time spans in which they are lost in rounding, noted before this step */
+    size_t noted, noted_faded;
     struct {
         double since; /* start of the piece, or of a step */
         size_t parts; /* looked at since then */
@@ -159,7 +160,8 @@ QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
  * near as rounding leaves it; NULL: not asked for. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
 
-/* Note that another side must be tried for the surface of w, whose function has the sign `first` just behind the start. */
+/* Note that another side must be tried for the surface of w, whose function has the sign `first` just behind the
+ * start. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_side(qdot_piece *x, const qdot_watched *w, int first);
 
 /* (piece-massless.c) Whether the mode has coordinates without mass; in a mode other than that of the piece before, bring
@@ -170,7 +172,8 @@ bool qdot_piece_has_massless(const qdot_piece *x);
 bool qdot_piece_holds_massless(const qdot_piece *x, size_t surface);
 QDOT_MUST_CHECK qdot_status qdot_piece_follow_massless(qdot_piece *x, bool *can);
 
-/* Where a run ends and time alone switches their equations it ends behind that, as behind an event: x->start.jumped. */
+/* Where a run ends and time alone switches their equations it ends behind that, as behind an event:
+ * x->start.jumped. */
 QDOT_MUST_CHECK qdot_status qdot_piece_end_behind(qdot_piece *x);
 
 /* Carry the signs and residuals at the end of the piece before over to the functions of the new
@@ -271,7 +274,8 @@ QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);
 /* In x->side: the pucks that are at rest where a piece starts; not `anew`: only those that have crept. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
 
-/* (piece-contact.c) The way of its function, in the direction of the run, that event i asks for at the start; 0: either. */
+/* (piece-contact.c) The way of its function, in the direction of the run, that event i asks for at the start; 0:
+ * either. */
 int qdot_piece_way_asked(const qdot_piece *x, size_t i);
 /* Where a run starts: whether it has met event i, on whose zero it starts and which the motion goes on
  * to cross, the way that its statement says: an impact that turns it back. */
@@ -304,7 +308,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_way(qdot_piece *x, size_t i, int *way);
 
 /* End the run here, as failed or as stopped. */
 void qdot_piece_stop(qdot_piece *x, bool failed);
-/* End it here as failed, at a surface: c->reason has it, on that side, between the words. */
+/* End the run here as failed: c->reason is `before`, the surface with that side in words, `behind`. */
 void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
                         const char *behind);
 

@@ -15,10 +15,10 @@ typedef struct {
     size_t m;
     const qdot_expr *exprs; /* [m] as given */
     qdot_tape *tape;        /* of these, along one course with its parameter values */
-    bool accelerations;     /* it reads q'' or multipliers, of any course */
+    bool accelerations;     /* it reads accelerations or multipliers of some course */
     size_t n_more;          /* of several courses: how many come after the first, */
-    const qdot_plan *const *more; /* [n_more] their plans, */
-    const qdot_expr *inputs;      /* and the inputs of all */
+    const qdot_plan *const *more; /* [n_more] the plans of these, */
+    const qdot_expr *inputs;      /* and the inputs of the tape over all courses */
 } qdot_reading;
 
 /* Whether e holds q'' or a multiplier. */

@@ -35,7 +35,7 @@ struct qdot_run {
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     qdot_vec(qdot_run_faded) faded;
-    bool occurrence_errors; /* both are complete, with errors */
+    bool occurrence_errors; /* `occurrences` and `faded` have their errors */
     bool by_clock, no_drifts; /* of the request */
     bool hidden;            /* the run has passed over something: no error is known */
     bool singular;          /* no step was small enough at its end, for a singularity there */

@@ -26,7 +26,7 @@ typedef struct {
     const double *y;
     double *u, *noise; /* [m] what rounding of the state and of u makes of u */
     bool *flat;        /* [m] u is the same, but for rounding, wherever the state is moved */
-    double *before;    /* [m] u by the old sides */
+    double *before;    /* [m] u with the sides of the pass before */
     uint8_t *open;     /* of the gates, then of surfaces [m] (sim/model/gates.h) */
     double *out, *in, *work;
 } decision;

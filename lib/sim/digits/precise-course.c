@@ -128,7 +128,7 @@ piece_of(const qdot_course *g, double t)
     return qdot_trajectory_piece_of(&g->tr, qdot_trajectory_locate(&g->tr, t, 0));
 }
 
-/* Of the ends [n] of piece k that whose event has a contact from there on; NULL: none has. *many: several contacts begin. */
+/* The one of the ends [n] of piece k at whose event a contact begins; NULL: none. *many: several contacts begin. */
 static const qdot_course_end *
 begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size_t n, bool *many)
 {

@@ -315,7 +315,7 @@ cut_at_domain(qdot_precise_side *s)
 
 /* --- both ---------------------------------------------------------------------------- */
 
-/* The pair with `digits`: run, and compared. QDOT_OK whenever there is a run. */
+/* Carry out both runs of the pair with `digits` and compare them. QDOT_OK whenever there is a run. */
 static qdot_status
 precise_carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
 {

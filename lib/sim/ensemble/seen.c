@@ -60,7 +60,8 @@ qdot_ensemble_left(const qdot_ensemble *e, size_t m)
            (outcome != QDOT_BATCH_DONE && outcome != QDOT_BATCH_LEFT);
 }
 
-/* The batch's state y, with momenta where the way was not over, as q, parameters, q', 0. */
+/* The batch's state y as q, parameters, q', 0 for the rates of parameters; `raw`: y has momenta for the
+ * velocities. */
 static void
 write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole)
 {
@@ -125,7 +126,7 @@ qdot_ensemble_point(const qdot_ensemble *e, size_t k, size_t m, size_t i, double
         write_whole(e, *t, at + 1, true, whole);
         return;
     }
-    *t = e->t1; /* that of a companion is within a rounding of it */
+    *t = e->t1; /* also for a companion, whose end differs by rounding at most */
     write_whole(e, *t, p->run.y + m * qdot_ensemble_width(e), false, whole);
 }
 

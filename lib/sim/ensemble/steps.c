@@ -416,7 +416,7 @@ taken(size_t l, void *user)
     a->passed = s->passed[a->member] = a->next;
     s->doubtful[a->member] = s->doubtful[a->member] || a->doubtful;
     if (s->doubtful[a->member])
-        return true; /* it is run alone */
+        return true; /* the member will be run alone */
     if (!a->watch)
         return false;
     qdot_watch_take(a->watch);

@@ -96,7 +96,7 @@ count(const qdot_course *c, size_t event)
 
 /* --- the companion ------------------------------------------------------------------- */
 
-/* Of the run's work, which is known: what a companion may take before it leads anywhere. */
+/* The part of the work of the run that a companion may do before its progress is judged. */
 static const double of_whole = 0.1;
 
 /* Move y + low [2n], where a companion starts, by `by` times the error of the start: what run->apart has for this
@@ -110,7 +110,8 @@ move_by_error(const qdot_run *run, size_t number, double by, double *y, double *
         y[i] = qdot_two_rounded_sum(y[i], low[i] + by * run->apart[number * n + i], &low[i]);
 }
 
-/* A start onto its constraints. Where what coordinates without mass do decides a switch the first piece finds these. */
+/* A start onto its constraints. Where what coordinates without mass do decides a switch the first piece finds
+ * these. */
 static qdot_status
 project_start(const qdot_run *run, const qdot_ode_system *system, double t0, double *y)
 {

@@ -162,7 +162,7 @@ faded_find(look *l, double *from)
     start = l->t[k];
     left = fabs(l->end - start);
     QDOT_TRY(faded_narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
-    /* a crossing at the very end is within the error as long before it as behind */
+    /* a crossing at the end of the run: before it, g is as long within its error as it would be after it */
     if (left > 2 * fabs(l->t[k] - seen))
         *from = start;
     return QDOT_OK;

@@ -91,7 +91,7 @@ qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
     return status;
 }
 
-/* Whether an occurrence of the event is at the end. */
+/* Whether the last occurrence of the event is at the end t of the run. */
 static bool
 ends_on(const qdot_run *run, size_t event, double t)
 {

@@ -115,7 +115,7 @@ qdot_blocks_invert(qdot_blocks *b, size_t k)
         kernels->multiply(m, i, s->lower, s->x, row);
         row[i] = scale;
     }
-    /* of L^-T L^-1 row j: by column j of L^-1, which begins at its diagonal */
+    /* row j of L^-T L^-1 from column j of L^-1, whose first non-zero entry is on the diagonal */
     for (size_t j = 0; j < n; j++) {
         for (size_t i = j; i < n; i++)
             s->x[i - j] = s->lower[i * m + j];

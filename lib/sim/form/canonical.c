@@ -36,7 +36,7 @@ canonical_fits(const qdot_plan *p)
     return moves;
 }
 
-/* What H and the forces are made of; whether they can be had. */
+/* Derive H and the forces; *there: whether velocities can be replaced by momenta. */
 static qdot_status
 canonical_derive(builder *b, bool *there)
 {

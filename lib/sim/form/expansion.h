@@ -18,7 +18,7 @@ typedef struct {
     double *q, *v, *t;   /* rows of the inputs */
 } qdot_expansion;
 
-/* Of n coordinates, by a program that is there. */
+/* The expansion of n coordinates whose program is `taylor`. */
 static inline qdot_expansion
 qdot_expansion_of(qdot_taylor *taylor, size_t n)
 {

@@ -41,7 +41,7 @@ block_of(const qdot_leading *l, size_t *b)
     return l->plan->blocks + *b;
 }
 
-/* From its entries, which the program has. */
+/* Fill block b of M from the rows of the program that are its entries. */
 static void
 take_entries(const qdot_leading *l, size_t k, size_t b)
 {

@@ -27,7 +27,7 @@ void qdot_leading_free(qdot_leading *l);
 /* Of a reduced plan: the momenta hi + lo [n_kept], borrowed. */
 void qdot_leading_keep(qdot_leading *l, const double *hi, const double *lo);
 
-/* For qdot_ode_system; borrowed. */
+/* The callbacks for qdot_ode_system; borrowed. */
 const qdot_ode_leading *qdot_leading_get(const qdot_leading *l);
 
 #endif

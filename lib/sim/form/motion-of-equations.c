@@ -30,7 +30,7 @@ couple(builder *b, size_t i, size_t j, qdot_program_row at)
     return qdot_vec_push(&b->motion->entries, ((qdot_motion_entry){b->place[i], b->place[j], at}));
 }
 
-/* Number k of the equations at hand, those before it being there, is for unknown i. */
+/* The k-th of the equations to come determines the acceleration of coordinate i. */
 static void
 expect(builder *b, size_t i, size_t k, qdot_program_row right)
 {

@@ -30,7 +30,7 @@ const qdot_precise_system *qdot_precise_bind_system(const qdot_precise_bind *bin
 /* q'' [n] at what `begin` was given last. */
 mpfr_srcptr qdot_precise_bind_acceleration(const qdot_precise_bind *bind, size_t i);
 
-/* lambda of constraint k there. */
+/* The multiplier of constraint k at what `begin` was given last. */
 void qdot_precise_bind_multiplier(const qdot_precise_bind *bind, size_t k, mpfr_ptr lambda);
 
 /* How often M was factored. */

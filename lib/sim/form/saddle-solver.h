@@ -37,7 +37,8 @@ QDOT_MUST_CHECK qdot_status qdot_saddle_solver_init(qdot_saddle_solver *s, const
                                                     const qdot_taylor *series);
 void qdot_saddle_solver_clear(qdot_saddle_solver *s);
 
-/* Before the first factorisation: at a state in [2n], t. Errors: QDOT_ENOMEM. */
+/* Before the first factorisation: measure the rows near the state y [2n], t (qdot_constrained_look_beside).
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_solver_look(qdot_saddle_solver *s, double t, const double *y);
 
 /* Factor it where order 0 of the entries is there. Errors: those of qdot_constrained_factor. */

@@ -236,7 +236,7 @@ move_velocities(place *p, size_t *worst, double *by)
     return most < 1e-9 * size;
 }
 
-/* At a state beside the start, or a little later. */
+/* Whether the constraints leave a hidden condition at a state beside the start, or (`later`) a little after it. */
 static qdot_status
 check_hidden(place *p, const double *y, bool later)
 {

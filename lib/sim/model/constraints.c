@@ -337,7 +337,7 @@ constraints_build(builder *b, qdot_scene *scene)
     if (b->plan->rescaled)
         QDOT_TRY(expressions_lower(b->plan, &b->scale, &b->c->scale));
     QDOT_TRY(lower_index_1(b));
-    QDOT_TRY(find_signs(b)); /* the other tapes have theirs by now */
+    QDOT_TRY(find_signs(b)); /* not before: it negates slopes, for lower_series alone */
     return lower_series(b);
 }
 

@@ -319,7 +319,7 @@ open_arguments(opening *o, size_t i)
             open_gate(o, i, arguments[2]);
         return;
     }
-    case QDOT_GATE_LOGIC: /* up to the one that decides */
+    case QDOT_GATE_LOGIC: /* arguments are evaluated up to the first that decides */
         for (uint32_t k = 0; k < gate->n && goes_on; k++) {
             open_gate(o, i, arguments[k]);
             if (gate->op != QDOT_NOT && arguments[k] != SIZE_MAX)

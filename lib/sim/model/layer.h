@@ -52,7 +52,7 @@ bool qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface);
  * side where the power is not 0, else 0. */
 bool qdot_layers_has(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr product,
                      uint32_t k, size_t *surface, int *only);
-/* Whether a node is a product with such a factor. */
+/* Whether a node is a product with a power of a u that has a layer as a factor. */
 bool qdot_layers_hold(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr node);
 
 #endif

@@ -51,7 +51,7 @@ QDOT_MUST_CHECK qdot_status qdot_parameter_states_occur(const qdot_plan *plan, q
 typedef struct {
     char *text;   /* "al > 0" */
     int op;       /* a qdot_rel_op of left and right */
-    bool turned;  /* messages name the right side first */
+    bool turned;  /* messages print the relation with its sides exchanged */
     const char *why; /* "declared", "assumed" ... */
 } qdot_parameter_condition;
 

@@ -16,7 +16,7 @@ is_power_and_number(qdot_pool *pool, qdot_expr sum, qdot_expr parts[3])
     return true;
 }
 
-/* Whether a product has the one factor that a power b^-p is. */
+/* Whether the power b^p is one of the factors of a product. */
 static bool
 has(const qdot_pool *pool, qdot_expr product, qdot_expr power)
 {

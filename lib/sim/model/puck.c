@@ -71,7 +71,7 @@ tie(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
     return qdot_pool_check(pool);
 }
 
-/* The velocities of w that constraints tie. */
+/* Find the velocities in w that constraints relate. */
 static qdot_status
 find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *puck)
 {

@@ -104,7 +104,7 @@ qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t, const
     return QDOT_OK;
 }
 
-/* One row: y moves along its slopes; whether it did. */
+/* Move y along the gradient of row r to its zero, by one Newton step. Returns whether y changed. */
 static bool
 keep_row(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, double *y)
 {

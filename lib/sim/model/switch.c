@@ -95,7 +95,7 @@ switches_collect(qdot_switches *s, qdot_expr e)
     return status;
 }
 
-/* Collect those of an expression of the equations. */
+/* Collect the switches of an expression of the equations. */
 static qdot_status
 collect_root(qdot_switches *s, qdot_expr e)
 {

@@ -38,11 +38,11 @@ typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
     qdot_vec(qdot_surface) surfaces; /* inner ones first, then contacts, then pucks */
     size_t contacts;
-    qdot_vec(qdot_puck) pucks; /* whose surfaces come behind those of contacts */
+    qdot_vec(qdot_puck) pucks; /* their surfaces come after those of contacts */
     size_t n_puck_symbols;     /* their symbols, k + 1 of each */
     qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
-    qdot_vec(qdot_expr) roots; /* the expressions that hold them */
-    qdot_gates gates; /* of these, and of the u */
+    qdot_vec(qdot_expr) roots; /* the expressions that contain the atoms */
+    qdot_gates gates; /* of the roots, and of the u of the surfaces */
     qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
                         NIL: none */

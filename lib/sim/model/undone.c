@@ -125,7 +125,8 @@ recall(undoing *x)
         QDOT_TRY(qdot_pool_check(x->pool));
         x->forgot = true;
         if (qdot_normal(x->pool, qdot_sub(x->pool, value, x->after[k]), NULL) == QDOT_ZERO) {
-            x->before[k] = x->targets[k]; /* y = 0 where y is 0: the value stays */
+            /* the event sets y to 0 where y is 0 already: the value before is the value after */
+            x->before[k] = x->targets[k];
         } else {
             x->before[k] = value;
             x->image = qdot_sub(x->pool, x->targets[k], x->after[k]);

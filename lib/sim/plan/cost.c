@@ -26,7 +26,7 @@ typedef struct {
     double pair[FEATURES];  /* c[2] */
 } model;
 
-/* M q'' = f by kernels, the first to be fitted: relative to the other forms only. */
+/* M q'' = f by kernels, fitted first; only its ratio to the costs of other forms means anything. */
 static const model explicit_kernels = {
     .start = {[ONE] = 60, [CALLS] = 15, [LENGTH] = 2, [COORDINATES] = 10, [FACTORED] = 5,
               [FACTORED_CUBES] = 0.2},

@@ -12,7 +12,7 @@ enum { NODES = 16, TRIES = 4 };
 /* Of the step at the place: half of the first interval. */
 static const double part = 0.1;
 
-/* Last coefficients below this, of the largest, show a smooth function. */
+/* A function is smooth if its last Chebyshev coefficients are below this fraction of the largest. */
 static const double smooth = 1e-13;
 
 size_t
@@ -47,7 +47,7 @@ expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, boo
     return now;
 }
 
-/* Values at the nodes on one side: those x of the nodes with that sign. */
+/* The values of e at the Chebyshev nodes on one side of t, the one of that sign. */
 static qdot_status
 read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *values, double *error)
 {

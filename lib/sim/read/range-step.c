@@ -37,12 +37,12 @@ typedef qdot_range_part part;
 
 /* The result of the values at the nodes of a part. */
 typedef enum {
-    ROUGH,     /* they fit no polynomial */
-    UNSURE,    /* one, but something may hide between them */
-    SINGULAR,  /* one, and something in its formula may be singular */
-    HOLLOW,    /* likewise, on a part so small that it is maybe none */
+    ROUGH,     /* no polynomial fits the values */
+    UNSURE,    /* one fits, but a peak may hide between the nodes */
+    SINGULAR,  /* one fits, but a part of the expression may be singular */
+    HOLLOW,    /* likewise, on a part so short that this may be rounding */
     SURE,
-    SURPASSED, /* it holds nothing beyond what was met elsewhere */
+    SURPASSED, /* no value on the part exceeds those found elsewhere */
 } verdict;
 
 qdot_status
@@ -145,7 +145,7 @@ part_judge(scan *s, const part *p, bool *good)
     return v;
 }
 
-/* The value x at an end of a part, or where that is a point by itself the limit. */
+/* The value at an end of a part: x as it was read, or the limit from inside if the function jumps there. */
 static double
 from_within(scan *s, const part *p, int end, double x)
 {

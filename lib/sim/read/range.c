@@ -219,7 +219,8 @@ range_compare(const question *q, size_t k, double x, double *error)
     return QDOT_OK;
 }
 
-/* The error of x, which is `rough` by itself; NaN where a run has no companion to compare. */
+/* The error of x: its distance from the companions of all runs, and its own error `rough`. It stays NaN if a run
+ * has no companion. */
 static qdot_status
 find_error(const question *q, double x, double rough, double *error)
 {

@@ -17,8 +17,8 @@ typedef struct {
     qdot_vec(double) times; /* where stretches begin and end, ascending */
     size_t next;
     double a, b;    /* the stretch, in the direction of the range */
-    bool odd[2];    /* the equations of a course switch at a, b, its state does not jump */
-    size_t *pieces; /* [n] of each course in it */
+    bool odd[2];    /* at a, b: the equations of a course switch, but its state does not jump */
+    size_t *pieces; /* [n] the piece of each course that holds the stretch */
 } qdot_stretches;
 
 /* Before the first stretch of from ... to. QDOT_ENOMEM; clear it in any case. */

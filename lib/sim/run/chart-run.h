@@ -28,7 +28,7 @@ typedef struct qdot_run_chart {
     qdot_chart chart;         /* its scene is that of the run, without a collision; else it may be one in
                                  which nothing is moved */
     qdot_collision collision; /* its scene, if there is one, is that of the run */
-    qdot_expr energy;       /* of the scene given, read as collision.energy; or nil */
+    qdot_expr energy;       /* of the given scene: its values are those of collision.energy; or nil */
     size_t n;               /* coordinates of the scene given */
     qdot_expr *coordinates; /* [n] */
     double *angles;         /* [moved] at the start, as given */

@@ -443,7 +443,7 @@ say_stop(qdot_run *run, double t)
     return status;
 }
 
-/* Make the run in s one in t. */
+/* Give a run that was integrated over the regular variable s its times and its horizon in t. */
 static qdot_status
 put_in_time(const ground *g, qdot_run *run)
 {

@@ -43,7 +43,8 @@ most_between(const qdot_run *run, double t)
     return most;
 }
 
-/* The power of t with which neighbouring motions part before the horizon; large if it is none. */
+/* The power of t with which the distance of neighbouring motions grows before the horizon; INFINITY: it grows
+ * faster. */
 static double
 power_of_growth(const qdot_run *run)
 {

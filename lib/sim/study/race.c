@@ -200,7 +200,7 @@ run_minimal(race *r, const qdot_minimal *m)
     return status;
 }
 
-/* For minimal.h: of what holds more than coordinates and numbers nothing is known. */
+/* `size` of a qdot_minimal_start (minimal.h); 0 if e holds more than coordinates and numbers. */
 static double
 size_at_start(qdot_expr e, void *user)
 {

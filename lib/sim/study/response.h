@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u,
                                               double t1);
 QDOT_MUST_CHECK qdot_status qdot_response_read(qdot_response *r, size_t n_times, const double *times,
                                                double *values, double *slopes);
-/* The variational scene, where it is made once; from the first run on. */
+/* The variational scene, valid from the first run on, if it is made only once. */
 const qdot_variation *qdot_response_variation(const qdot_response *r);
 /* Of a whole state: orthonormal tangents [count x 2n] of the constraints where a run at u, t would begin. */
 QDOT_MUST_CHECK qdot_status qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count,

@@ -314,7 +314,8 @@ qdot_variation_request(const qdot_variation *v)
     r.apart = NULL; /* slopes are those of a motion from exactly there */
     r.n_values = 0;
     r.symbols = r.values = NULL;
-    r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto"; /* others may not fit */
+    /* another method may not fit the variational scene */
+    r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto";
     return r;
 }
 

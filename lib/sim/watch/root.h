@@ -30,7 +30,7 @@ qdot_root_way(const qdot_root *root)
 
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
-    /* The same in sums of two doubles, of steps with a series; NULL: they are not known so. */
+    /* The same state in sums of two doubles, for steps with a series; NULL: there is none. */
     qdot_status (*read_two)(double t, qdot_two *y, void *user);
     void *user;
     const qdot_ode_system *system; /* for accelerations and multipliers */

@@ -57,7 +57,8 @@ struct qdot_watch {
     bool expanded;        /* the step has a series */
     bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
     bool fine;            /* values of those within the step are in two doubles at present */
-    bool steady;          /* what switches in the functions has the same sides on the part at hand, as far as is seen */
+    /* what switches in the functions has the same sides on the part at hand, as far as is seen */
+    bool steady;
     bool coarse;          /* and are not to be: beside a jump or kink */
     size_t m, n;             /* functions; coordinates */
     bool accelerations;
@@ -106,8 +107,8 @@ struct qdot_watch {
     double *most;    /* [m] the largest |g| at the ends of steps so far */
     int nodes;       /* number that sufficed the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */
-    double *fitted;  /* [m x QDOT_WATCH_NODES] polynomials through these at .. */
-    int *n_fitted;   /* [m] .. so many nodes of the part; 0: not yet */
+    double *fitted;  /* [m x QDOT_WATCH_NODES] Chebyshev coefficients of polynomials through the samples at */
+    int *n_fitted;   /* [m] this number of nodes of the part; 0: not yet fitted */
     double *extrema; /* [m x QDOT_WATCH_NODES] x of the polynomial's extrema on the part */
     int *n_extrema;  /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as qdot_chebyshev_crossings */
     double *fine_end; /* [m] g at the end of the part, in two doubles */
@@ -174,7 +175,8 @@ void qdot_watch_clear_turns(qdot_watch *w);
 QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
                                              bool shaken);
 
-/* g [m] at the state in w->in, at most 2^900 in size and, but for an exact 0, at least DBL_MIN. QDOT_EDOMAIN if one is not a number. */
+/* g [m] at the state in w->in, at most 2^900 in size and, but for an exact 0, at least DBL_MIN. QDOT_EDOMAIN if
+ * one is not a number. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
 
 /* g [m] at t within the step; w->in is the state there. */

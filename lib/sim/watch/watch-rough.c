@@ -19,8 +19,8 @@ typedef struct {
     size_t i;
     double least; /* |g| up to which it counts as 0 */
     double at;
-    double zero; /* since when it is 0; NaN: it is not */
-    double from; /* the point before */
+    double zero; /* the time since which g is 0; NaN: it is not 0 */
+    double from; /* the point that was evaluated before `at` */
     int *sign;   /* the last that was not 0 */
 } walk;
 

@@ -64,7 +64,7 @@ most_apart(qdot_watch *w, size_t i, double t, double v, double bend, double *apa
     return QDOT_OK;
 }
 
-/* Whether the derivative d [n - 1] is more than its rounding at x, which may lie beyond the part. */
+/* Whether the derivative d [n - 1] at x exceeds its rounding, or x lies outside the part. */
 static bool
 is_steep(const qdot_watch_part *p, const double *d, double x)
 {

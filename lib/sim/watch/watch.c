@@ -45,7 +45,7 @@ judge(qdot_watch *w, qdot_watch_part *p, int nodes)
     return worst;
 }
 
-/* The fraction of a step, or of the part at its start, that is not divided. */
+/* A part shorter than this fraction of its step, or of the part at the start of the step, is not halved further. */
 static const double least_of_length = 0x1p-44;
 
 /* A part this short is taken as it is. */
