@@ -16,7 +16,7 @@ enum {
 
 #define NONE QDOT_ARTICULATED_NONE
 
-/* Of paths whose nodes have m components, c unknowns. */
+/* The elimination compiled for nodes with m components and c unknowns. */
 typedef struct {
     size_t m, c;
     void (*chain)(qdot_articulated *a);

@@ -23,7 +23,7 @@ legendre(int s, family of, qdot_two x)
     return of == GAUSS ? p[0] : qdot_two_sub(p[0], p[of]);
 }
 
-/* The same in doubles. */
+/* The polynomial whose zeros are the nodes, at x, in doubles. */
 static double
 legendre_near(int s, family of, double x)
 {

@@ -6,7 +6,7 @@
 /* Fraction of a squared norm. */
 static const double faded = 1e-14;
 
-/* Of a row in a dependency. */
+/* A row belongs to a dependency if its coefficient, relative to the largest, is above this. */
 static const double participates = 1e-6;
 
 static double

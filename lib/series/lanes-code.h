@@ -80,10 +80,10 @@ double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);
 qdot_lanes_at qdot_lanes_number(const qdot_lanes_writer *w, size_t i);
 /* A row of the program is read to all orders after the run. */
 void qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row);
-/* The same number in every lane. */
+/* A constant that is the same number in every lane. */
 qdot_lanes_at qdot_lanes_scalar(qdot_lanes_writer *w, double value);
 
-/* The same, f(k). */
+/* A constant f(k), the same number in every lane. */
 qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k);
 
 /* Orders from ... to, low ones each written for itself, the others four at a time, as a loop,
@@ -110,9 +110,9 @@ bool qdot_lanes_wants_rate(const qdot_lanes_writer *w, bool twice, int lead);
  * behind the steps of every order, k being theirs or always as many orders below. */
 qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
-/* What begins as a copy of it. */
+/* A sum that begins as a copy of `a`. */
 qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
-/* The same if nothing reads that any more (_unread). */
+/* A sum that begins as `a`, whose register it takes over if nothing else reads it (_unread). */
 qdot_lanes_sum qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a);
 /* sum +- a, sum +- a b, sum a; it is stored and its register given back. */
 void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,

@@ -2,7 +2,7 @@
  * rate, a product that another one is added to. */
 #include "series/lanes-writer.h"
 
-/* What makes a row; NULL: no step that moves. */
+/* The step that computes a row; NULL: the row is an input or constant. */
 static const qdot_program_step *
 maker(const qdot_lanes_writer *w, qdot_program_row row)
 {

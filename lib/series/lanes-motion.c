@@ -174,7 +174,7 @@ write_integral(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lan
     qdot_lanes_store(w, sum, to);
 }
 
-/* What order k of an unknown integrates to. */
+/* Write the code for coefficients k + 1 of the velocity and k + 2 of the position of an unknown. */
 static void
 write_integrals(qdot_lanes_writer *w, const qdot_lanes_motion *c,
                 const qdot_motion_unknown *u, qdot_lanes_at a, int k)

@@ -252,7 +252,7 @@ with_product(const step *s, const qdot_recurrence_operation *o, number *u)
     return v;
 }
 
-/* What an operation makes. */
+/* The number that one operation of a recurrence computes. */
 static number
 step_result(const step *s, const qdot_recurrence_operation *o, number *u)
 {

@@ -31,10 +31,10 @@ enum {
     QDOT_WRITER_ANY = 1000
 };
 
-/* What a register holds. */
+/* The content of a register while code is written. */
 typedef struct {
     bool holds;
-    bool ahead; /* of memory, which has it only when it is left */
+    bool ahead; /* newer than memory, to which it is stored when the register is needed */
     qdot_lanes_at at;
 } qdot_writer_register;
 

@@ -408,7 +408,7 @@ precise_set_constants(qdot_precise *p, qdot_pool *pool)
     return QDOT_OK;
 }
 
-/* Its rows, once it has its program. */
+/* Allocate the rows of a program, which is there already. */
 static qdot_status
 precise_make_rows(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
 {

@@ -181,7 +181,7 @@ emit_sum(builder *b, qdot_op op, row x, row y)
     return program_emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
 }
 
-/* What the derivative of a function is divided by. */
+/* The row u in f(x)' = x'/u, for an inverse function or logarithm f. */
 static row
 denominator(builder *b, qdot_op f, row x)
 {

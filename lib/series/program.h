@@ -44,7 +44,7 @@ typedef uint32_t qdot_program_row; /* a row by its number */
 
 #define QDOT_NO_ROW UINT32_MAX
 
-/* Where order 0 of a row comes from. */
+/* The source of the coefficient of order 0 of a row. */
 typedef enum {
     QDOT_ROW_INPUT,    /* the caller; number `at` of the inputs */
     QDOT_ROW_CONSTANT, /* constant `at` of the program */
@@ -67,7 +67,7 @@ typedef struct {
     qdot_expr exact;
 } qdot_program_constant;
 
-/* Of `newest`. */
+/* The bits of qdot_program_step.newest. */
 enum { QDOT_X_NEWEST = 1, QDOT_Y_NEWEST = 2, QDOT_Z_NEWEST = 4 };
 
 /* Rows that a step does not have are QDOT_NO_ROW, operands that it does not have are x. */

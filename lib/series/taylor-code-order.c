@@ -213,7 +213,7 @@ operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurr
     return v;
 }
 
-/* As its row of recurrence.def says. */
+/* Write the recurrence of a step from its row of recurrence.def. */
 static void
 tabled(qdot_generator *g, const qdot_taylor_step *s)
 {

@@ -160,7 +160,7 @@ term_ready(qdot_generator *g, const term *t)
                                     : past_ready(g, t->past);
 }
 
-/* What is known last is added last. */
+/* Sort terms by the time at which they become known, so that the last one is added last. */
 static inline void
 sum_sort_terms(qdot_generator *g, sum *s, int *when)
 {
@@ -199,7 +199,7 @@ past_register(qdot_generator *g, uint32_t n)
     return reg;
 }
 
-/* Of one term that is taken away. */
+/* The value of a sum that is one negative term. */
 static inline value
 less(qdot_generator *g, const term *t, int when)
 {
@@ -424,7 +424,8 @@ composed(qdot_generator *g, const qdot_operand *scale, qdot_operand factor)
     return scale ? qdot_code_composed(g, *scale, factor) : factor;
 }
 
-/* Those of a product. */
+/* Add to a sum the terms of the product of a step that its vectors lack: those with the newest and the lowest
+ * orders. */
 static inline void
 add_product_terms(qdot_generator *g, sum *sum, bool minus, const qdot_operand *scale,
                   const qdot_taylor_step *s)

@@ -2,7 +2,7 @@
 #include "series/taylor-generator.h"
 
 enum {
-    /* So many do not fit into registers by far. */
+    /* With so many vectors most are in memory. */
     many_vectors = 40,
     temporary = 0,
     spare = 1,

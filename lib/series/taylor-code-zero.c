@@ -46,7 +46,7 @@ with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name
     is(g, reg, s->to, 0);
 }
 
-/* What orders divide by: c <- a/b */
+/* Keep a/b, the factor by which later orders multiply in place of a division. */
 static void
 keep_inverse(qdot_generator *g, const qdot_taylor_step *s, qdot_operand a, int b)
 {
@@ -123,7 +123,7 @@ write_step_value(qdot_generator *g, const qdot_taylor_step *s)
     }
 }
 
-/* What is linked to order 0. */
+/* Write the coefficients that follow from order 0 by integration (links). */
 static void
 link_zero(qdot_generator *g, const qdot_taylor_step *s)
 {

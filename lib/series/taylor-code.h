@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_code_new(const qdot_taylor *t, int to, i
                                                  const char **why);
 void qdot_taylor_code_free(qdot_taylor_code *code);
 
-/* What links multiply with; before the orders are run. */
+/* Set the unit of time, with which integrals (links) multiply; before the orders are run. */
 void qdot_taylor_code_unit(qdot_taylor_code *code, double unit);
 
 /* Order 0 of the program it was made of and, if nothing is solved for, what is linked to it, by

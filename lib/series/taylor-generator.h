@@ -39,7 +39,7 @@ enum {
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
     QDOT_CODE_ANY = 1000,
-    /* What is folded has factors of its own (taylor-code-fold.c). */
+    /* Slots for the factors of folded sums and products (taylor-code-fold.c). */
     QDOT_CODE_FOLDED_SLOTS = 4,
     /* The most factors of a step that are the same at all orders (qdot_code_composed). */
     QDOT_CODE_FACTORS = 8,
@@ -164,7 +164,7 @@ qdot_operand qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand 
 /* Order g->k of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
 
-/* When coefficient k of a row is there. */
+/* The time, in instructions, at which coefficient k of a row is known. */
 static inline int *
 qdot_code_ready(qdot_generator *g, uint32_t row, int k)
 {
@@ -201,7 +201,7 @@ qdot_code_work(size_t i)
     return qdot_asm_at(QDOT_ASM_WORK, (int32_t)(8 * i));
 }
 
-/* Of a table what it has for order k. */
+/* The entry for order k of a table of numbers. */
 static inline qdot_operand
 qdot_code_entry(size_t table, int k)
 {

@@ -36,7 +36,7 @@ products_add(qdot_taylor_products *p, const double *positive, size_t to, const q
     p->parts[p->n_parts++] = (part){to, j, positive ? -1 : 1};
 }
 
-/* Those of all blocks. */
+/* Add the products M a of all blocks. */
 static void
 products_add_all(qdot_taylor_products *p, const qdot_taylor *t)
 {

@@ -51,7 +51,7 @@ struct qdot_taylor_unknown {
     bool is_explicit;
 };
 
-/* Of that, a row whose newest coefficient steps read. */
+/* A row of an unknown, or of its integral, whose newest coefficient steps read. */
 struct qdot_taylor_newest {
     double *row, *change; /* where these look for its change */
     int lead;

@@ -50,11 +50,11 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t,
 /* Fill an empty one. Memory is written or run, never both. False: the system does not let it
  * be run. */
 bool qdot_taylor_text_fill(qdot_taylor_text *text, const unsigned char *code, size_t n);
-/* It is complete: it is kept. */
+/* Keep a text that is complete, for others to find. */
 void qdot_taylor_text_keep(qdot_taylor_text *text);
-/* Its first instruction. */
+/* The address of the first instruction of a text. */
 const unsigned char *qdot_taylor_text_first(const qdot_taylor_text *text);
-/* It is used no more by who took it. NULL is ignored. */
+/* Give back a text that was taken. NULL is ignored. */
 void qdot_taylor_text_give(qdot_taylor_text *text);
 
 #endif

@@ -241,7 +241,7 @@ two_set_constants(qdot_tape_two *t)
     }
 }
 
-/* Its rows, once it has its program. */
+/* Allocate the rows of a program, which is there already. */
 static qdot_status
 two_make_rows(qdot_tape_two *t, int most)
 {

@@ -274,7 +274,7 @@ lower_product(lowering *l, qdot_expr e, known *k)
     return QDOT_OK;
 }
 
-/* How the bases of all products are used. */
+/* Count in how many products each base occurs with a negative power. */
 static void
 count_negatives(lowering *l)
 {

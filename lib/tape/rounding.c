@@ -307,7 +307,7 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
     }
 }
 
-/* What is shown of a result. */
+/* How the result of an instruction changes with what is marked, by the slopes of its operands. */
 static void
 marking_show_result(const marking *m, const qdot_instruction *i, const double *slope, double *by)
 {

@@ -283,7 +283,7 @@ find_pair(work *k)
         hinder(k, "the points do not attract each other");
 }
 
-/* What a coordinate lags behind its Q: c.x/k. */
+/* c.x/k, the difference of a regular coordinate and its Q. */
 static qdot_expr
 lag(const work *k, size_t i, const qdot_expr *x)
 {

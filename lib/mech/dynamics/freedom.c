@@ -362,7 +362,7 @@ rank_of_kinds(const selection *of, int least, int most, int lowest)
     return found;
 }
 
-/* How many conditions they leave. */
+/* The number of hidden conditions that the selected constraints leave. */
 static size_t
 count_hidden(const selection *of)
 {

@@ -260,7 +260,8 @@ differentiate(qdot_scene *s, summands *m, qdot_expr term)
     return QDOT_OK;
 }
 
-/* What is wanted of a summand that is new. */
+/* Enter a new summand with what m->want asks for: its slopes by the coordinates, or its second time derivative at
+ * rest. */
 static qdot_status
 learn(qdot_scene *s, summands *m, qdot_expr term)
 {

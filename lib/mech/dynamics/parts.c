@@ -6,7 +6,7 @@
 #include "mech/scene/access.h"
 #include "normal/form/common.h"
 
-/* What has a mass: particles, then bodies. */
+/* A particle or body; particles come first. */
 typedef struct {
     const char *name;
     qdot_expr mass, position;

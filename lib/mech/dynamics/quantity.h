@@ -34,7 +34,7 @@ qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* dL/dq' */
 qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST, in order of q */
 qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q], all that is applied */
-/* The same by Kane's form, sum F . dv/dq'. */
+/* The generalized force in Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
 qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
@@ -57,7 +57,7 @@ typedef struct {
 } qdot_force_source;
 /* Source k of generalized forces; false past the end. */
 bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
-/* Its part of Q[q], simplified. */
+/* The part of Q[q] that a source contributes, simplified. */
 qdot_expr qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q);
 
 /* --- equations --- */

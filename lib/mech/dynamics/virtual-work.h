@@ -6,7 +6,7 @@
 
 /* Generalized force on coordinate i. people: simplified for printing. applied: without -dV/dq. */
 qdot_expr qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied);
-/* The same without gravity, not simplified. */
+/* Generalized force on coordinate i without gravity, not simplified. */
 qdot_expr qdot_force_but_gravity(qdot_scene *s, size_t i);
 /* The part declared by `force` and `torque`. */
 qdot_expr qdot_force_declared(qdot_scene *s, size_t i);

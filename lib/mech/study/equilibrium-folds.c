@@ -8,7 +8,7 @@
 
 enum { MOST = 3, MOST_WALLS = 12 }; /* unknowns beside p */
 
-/* What may be spent on n unknowns and p. */
+/* budgets[n]: the work that a search for n unknowns and p may take. */
 static const uint64_t budgets[MOST + 1] = {0, 30000, 40000, 40000};
 
 static qdot_expr

@@ -30,7 +30,7 @@ typedef enum {
     QDOT_DEFINITE_UNKNOWN
 } qdot_definite;
 
-/* How many conditions and claims were noted so far. */
+/* The numbers of conditions and claims noted up to a point. */
 typedef struct {
     size_t when, known, claims;
 } qdot_judgement_point;
@@ -50,7 +50,7 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_all_positive(qdot_judgement *j, size_
  * positive ones, or a negative diagonal entry: NEGATIVE_SOMEWHERE. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_definiteness(qdot_judgement *j, size_t n,
                                                         const qdot_expr *A, qdot_definite *how);
-/* Whether it is without further conditions. */
+/* *yes: A is positive definite without further conditions. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_is_definite(qdot_judgement *j, size_t n,
                                                        const qdot_expr *A, bool *yes);
 /* A^T = A, or with sign -1 A^T = -A. */

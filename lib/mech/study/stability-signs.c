@@ -249,7 +249,7 @@ qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above, bool *yes)
     return status;
 }
 
-/* How long all conditions are together. */
+/* The number of operations in all conditions noted. */
 static uint64_t
 length_of_conditions(const qdot_judgement *j)
 {

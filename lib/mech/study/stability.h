@@ -16,7 +16,7 @@ typedef struct {
     bool timed;         /* the equations depend on t */
     bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
-    /* Of dry friction, as qdot_rest has them; nil: none. */
+    /* dry friction, as in qdot_rest; nil: there is none */
     qdot_expr forces, friction, slips;
     qdot_expr by_signs; /* the forces with their jumps as signs; nil: they are not known */
     qdot_expr nonzero; /* a LIST of what the places divide by; nil: nothing */

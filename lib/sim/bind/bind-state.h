@@ -46,7 +46,7 @@ struct qdot_bind {
     qdot_blocks reduced_blocks;
     qdot_momenta *momenta;
 
-    /* Of a plan with parts: theirs. */
+    /* of a plan with parts: what belongs to each part */
     qdot_bind **parts;        /* [plan->n_parts] */
     qdot_ode_system *systems; /* [n_parts] */
     qdot_ode_part *listed;    /* [n_parts] */

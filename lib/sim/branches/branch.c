@@ -422,7 +422,7 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
     *last = true;
 }
 
-/* How far a place lies from another, turns counted. */
+/* The distance of two places in scaled unknowns; angles are not reduced to a turn. */
 static double
 way(const qdot_path *x, const double *a, const double *b)
 {

@@ -12,7 +12,7 @@
 static const double wide = 0.1, narrower = 0.3, difference = 1e-4, upright = 1e-4;
 /* A crossing that polynomials put no better than that, of a length of 1, is none: two curves come near each other. */
 static const double apart = 1e-10;
-/* What both runs round alike, relative to a value. */
+/* The rounding that both runs share and their difference does not show, relative to a value. */
 static const double rounding = 4e-15;
 /* Pairs that meet the unit circle are not further from it, and not nearer to the real axis, by sin of the angle. */
 static const double on_circle = 1e-6, off_axis = 1e-3;
@@ -100,7 +100,7 @@ test(search *f)
     return of_pairs(f, z);
 }
 
-/* The same at s. */
+/* The test function at arclength s from f->a; NaN: no point there. */
 static double
 test_at(search *f, double s)
 {
@@ -166,7 +166,7 @@ through(size_t n, const double *x, const double *f, double s)
     return p[0];
 }
 
-/* Its zero next to s, by secants. */
+/* The zero of the polynomial through (x, f) next to s, by secants. */
 static double
 zero_through(size_t n, const double *x, const double *f, double s, double step)
 {

@@ -228,7 +228,7 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     return status;
 }
 
-/* Of all period doublings from number `first` on. */
+/* Follow the branches of doubled period at all period doublings from number `first` on. */
 static qdot_status
 double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first, qdot_continuation *out)
 {

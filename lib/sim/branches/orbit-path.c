@@ -18,7 +18,7 @@
 /* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
 
-/* Of the places: changes below are rounding. */
+/* A coordinate whose change over an orbit is below this, in its size, counts as constant. */
 static const double still = 1e-12;
 
 /* Multipliers grow that are beyond the unit circle by more than this, and by more than three times their error. */
@@ -243,7 +243,7 @@ fill_both(qdot_orbit_path *x, const double *y)
     return status == QDOT_OK;
 }
 
-/* How many multipliers are 1 whatever the orbit. */
+/* The number of multipliers that are 1 for every orbit: of a shift in time, of the energy. */
 static size_t
 trivial_of(const qdot_orbit_path *x)
 {

@@ -31,7 +31,7 @@
 #include "sim/study/flow.h"
 #include "tape/tape.h"
 
-/* What p is. */
+/* What the parameter p of a family of orbits is: a parameter of the scene, the energy, a number of the start. */
 typedef enum { QDOT_ORBIT_PARAMETER, QDOT_ORBIT_ENERGY, QDOT_ORBIT_START } qdot_orbit_family;
 
 typedef struct {

@@ -49,7 +49,8 @@ struct qdot_path {
     bool dips;               /* test functions are accurate: their dips tell of pairs (dips.h) */
     int least_jump;          /* of `growing`, which says that an oscillation begins */
     int halvings;            /* of the way to a bifurcation, before it is located */
-    size_t half;             /* of orbits of twice a period: where the state after half of it stands in y; 0: it is none */
+    /* of orbits of twice a period: where the state after half of it stands in y; 0: it is none */
+    size_t half;
     /* F [n], F' [n * (n + 1)] at y; not finite: there is no value. A grave failure: x->failure. */
     void (*at)(qdot_path *x, const double *y);
     /* a->stability, growing, flip, and y behind n + 1. */
@@ -79,12 +80,13 @@ bool qdot_path_is_inside(const qdot_path *x, const double *y);
 double qdot_path_product(const qdot_path *x, const double *a, const double *b);
 double qdot_path_distance(const qdot_path *x, const double *a, const double *b);
 
-/* Of orbits of twice a period, d the state after half of it less the first: d(a).d(b), 0 where one has half the period. */
+/* Of orbits of twice a period, d the state after half of it less the first: d(a).d(b), 0 where one has half the
+ * period. */
 double qdot_path_halves(const qdot_path *x, const double *a, const double *b);
 
 /* Solve F(y) = 0, g.(y - y as it was) = 0 from the guess y; *steps; false: no zero near. */
 bool qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps);
-/* The same with y_i held. */
+/* Solve F(y) = 0 from the guess y with y_i held. */
 bool qdot_path_hold(qdot_path *x, size_t i, double *y);
 /* a->t, a->sign at a->y, in the direction of `along`; false where there is no tangent. */
 bool qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a);

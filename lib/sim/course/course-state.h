@@ -23,7 +23,7 @@ typedef struct {
     bool touched;
 } qdot_course_faded;
 
-/* What ended a piece. */
+/* The root that ended a piece. */
 typedef struct {
     size_t piece, function; /* index of the piece; of the function watched in its mode */
     double t;

@@ -15,7 +15,7 @@ static const double most_crossings = 2e4, slow = 1e-4, near = 1e-8;
 /* Read in doubles, each crossing changes the swings by the rounding of u over their width: where that comes to more until
  * the end they are not followed, if they are as slow in parts of the state. */
 static const double most_lost = 0.01, slow_in_doubles = 1e-3;
-/* Its speed may grow by that until the end. */
+/* The factor by which the speed of an oscillation that is not followed may grow until the end. */
 static const double most_growth = 10;
 
 /* The motion held at u = 0 of surface i at the start of a piece. */

@@ -9,7 +9,7 @@
 #include "ode/scale.h"
 #include "sim/model/layer.h"
 
-/* What may be left out at tolerances below this. */
+/* What a layer leaves out is accepted up to the tolerance, or to this if the tolerance is smaller. */
 static const double least_left_out = 16 * DBL_EPSILON;
 
 static const qdot_surface *
@@ -81,7 +81,8 @@ find_jump(qdot_piece *x, size_t beyond, size_t inside, double back, double *jump
     return qdot_grave(status);
 }
 
-/* The time from the rim of the layer of surface i, where the motion enters it, to its middle, with its sign; 0: not known. */
+/* The time from the rim of the layer of surface i, where the motion enters it, to its middle, with its sign; 0:
+ * not known. */
 static qdot_status
 find_half(qdot_piece *x, size_t i, double *half)
 {
@@ -254,14 +255,15 @@ typedef struct {
     double time, doubt, mean;
 } remainder_of_motion;
 
-/* u falls as c u^p from u0, p < 1: u0/(a(w) (1 - p)) (u0/w)^-p, and the mean of u until then is u0 (1 - p)/(2 - p). */
+/* u falls as c u^p from u0, p < 1: u0/(a(w) (1 - p)) (u0/w)^-p, and the mean of u until then is u0 (1 - p)/(2 -
+ * p). */
 static double
 time_by(double u0, double w, double rim, double p)
 {
     return w / (rim * (1 - p)) * pow(u0 / w, 1 - p);
 }
 
-/* What rounding of the velocities leaves of u. */
+/* The uncertainty of u that rounding of the velocities causes. */
 static double
 noise_of(const qdot_piece *x, const double *slopes)
 {

@@ -51,7 +51,7 @@ is_by_series(const qdot_piece *x)
     return (x->now ? x->now : x->method)->series;
 }
 
-/* Where the method changes. */
+/* The state at t within the step, for a method that changes between series and others. */
 static qdot_status
 read_either(double t, double *y, void *user)
 {

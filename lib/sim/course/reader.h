@@ -56,7 +56,7 @@ QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, 
 /* The tape and the courses [1 + of->n_more] are borrowed; clear it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_reader_init_along(qdot_reader *r, const qdot_reading *of,
                                                    const qdot_course *const *courses);
-/* The same for one course. */
+/* Initialise a reader of expressions along one course. */
 QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_reading *of,
                                              const qdot_course *course);
 void qdot_reader_clear(qdot_reader *r);
@@ -64,7 +64,7 @@ void qdot_reader_clear(qdot_reader *r);
 /* out [outputs of the tape] at t, each course in the piece that is given for it; NULL: in any. */
 QDOT_MUST_CHECK qdot_status qdot_reader_read(qdot_reader *r, const size_t *pieces, double t,
                                              double *out);
-/* The same along one course; SIZE_MAX: any piece. */
+/* Read along one course, in that piece; SIZE_MAX: in any. */
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 

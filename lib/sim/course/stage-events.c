@@ -45,7 +45,7 @@ find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_e
     return QDOT_OK;
 }
 
-/* What `then` does: targets [n] become values [n]. */
+/* Stage the changes of an event: `then` sets targets [n] to values [n]. */
 static qdot_status
 stage_changes(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr *targets, const qdot_expr *values,
               qdot_staged_event *e)

@@ -14,7 +14,7 @@ static const double stop = 0x1p-46;
 static const double errors = 4, errors_without_series = 1000;
 static const double stop_without_series = 0x1p-24;
 
-/* Of the way to rest, in such errors. */
+/* The way to rest that may be left out, in local errors. */
 static const double way_left_out = 1;
 
 static size_t

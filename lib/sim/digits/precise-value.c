@@ -88,7 +88,7 @@ read_end(reader *r, size_t piece, bool last)
 
 /* --- both ---------------------------------------------------------------------------- */
 
-/* The same expressions along both runs. */
+/* Readers of the same expressions along the run and its companion. */
 typedef struct {
     qdot_precise_pair *pair;
     qdot_reading of;

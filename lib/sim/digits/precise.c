@@ -275,7 +275,7 @@ run_is_kept(qdot_status status)
            || status == QDOT_ESINGULAR;
 }
 
-/* Whether it has points at all. */
+/* Whether a run of the pair has points. */
 static bool
 is_there(const qdot_precise_side *s)
 {

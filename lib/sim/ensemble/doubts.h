@@ -11,7 +11,7 @@
 
 #include "sim/bind/pulses.h"
 
-/* Of one lane. */
+/* What is inspected on the steps of one lane. */
 typedef struct qdot_ensemble_doubts qdot_ensemble_doubts;
 
 /* For a plan, borrowed; *doubts NULL: there is nothing to look at. QDOT_ENOMEM. */

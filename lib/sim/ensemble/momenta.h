@@ -12,7 +12,7 @@
 
 typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* one a thread */
 
-/* For a reduced plan, borrowed. QDOT_ENOMEM. */
+/* Make the conversion between velocities and kept momenta for a reduced plan, borrowed. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_momenta_new(const qdot_plan *reduced,
                                                       qdot_ensemble_momenta **out);
 void qdot_ensemble_momenta_free(qdot_ensemble_momenta *x);

@@ -13,7 +13,7 @@
 
 #include "sim/ensemble/ensemble.h"
 
-/* What qdot_ensemble_new has made of what; all borrowed. */
+/* An ensemble with the arguments of qdot_ensemble_new; all borrowed. */
 typedef struct {
     const qdot_ensemble *ensemble;
     qdot_scene *scene;

@@ -442,7 +442,7 @@ report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *res
     }
 }
 
-/* What looks at the steps of a pass. */
+/* Begin to inspect the steps of a pass: events, states at given times, doubts. */
 static qdot_status
 follow_pass(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {

@@ -83,7 +83,7 @@ qdot_run_covered(const qdot_run *run, double t)
            && (!run->has_twin || covers(&run->twin, t));
 }
 
-/* How often an event occurred. */
+/* The number of occurrences of an event in a course. */
 static size_t
 count(const qdot_course *c, size_t event)
 {

@@ -17,10 +17,10 @@ static const double tolerances = 100;
 /* The least fraction of the run beyond a horizon. */
 static const double least_part = 0.01;
 
-/* Where beyond the horizon expressions are compared. */
+/* The number of times beyond the horizon at which expressions are compared. */
 enum { LOOKS = 32 };
 
-/* Of how many points a run is looked at first. */
+/* The number of points of a run that are compared first, and its bounds. */
 enum { SAMPLES = 64, MOST_POINTS = 4096, LEAST_POINTS = 32 };
 
 typedef struct {

@@ -9,7 +9,7 @@
 
 /* plan->motion, of a plan that is complete but for it. Errors: those of qdot_motion_of_equations. */
 QDOT_MUST_CHECK qdot_status qdot_plan_make_motion(qdot_plan *plan);
-/* The same for members of an ensemble (qdot_motion_of_members). */
+/* plan->motion for members of an ensemble (qdot_motion_of_members). */
 QDOT_MUST_CHECK qdot_status qdot_plan_make_motion_of_members(qdot_plan *plan);
 /* Free plan->bordered and its program, which is then not taken. */
 void qdot_plan_drop_bordered(qdot_plan *plan);

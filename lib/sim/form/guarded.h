@@ -22,7 +22,7 @@ QDOT_MUST_CHECK qdot_status qdot_guarded_new(const qdot_plan *plan, const qdot_p
                                              qdot_guarded **guarded);
 void qdot_guarded_free(qdot_guarded *guarded);
 
-/* Its callbacks; borrowed. */
+/* The callbacks of the series for `ode`; borrowed. */
 const qdot_ode_series *qdot_guarded_series(const qdot_guarded *guarded);
 
 /* How long the code is, in bytes; 0: there is none, *why says for what reason. */

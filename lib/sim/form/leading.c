@@ -92,7 +92,7 @@ factor_residual(qdot_leading *l, const qdot_ode_place *at)
 
 /* --- one order ----------------------------------------------------------------------- */
 
-/* What is missing in accelerations; its size beside them. */
+/* Solve for the part of the accelerations of order k that doubles lack. Returns its size relative to them. */
 static double
 missing(qdot_leading *l, int k)
 {
@@ -119,7 +119,7 @@ missing(qdot_leading *l, int k)
     return most / size;
 }
 
-/* What doubles have of accelerations, from their velocities. */
+/* The accelerations of order k as far as doubles have them, from the velocities. */
 static void
 guess(qdot_leading *l, int k)
 {

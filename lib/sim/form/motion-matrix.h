@@ -63,7 +63,7 @@ void qdot_motion_matrix_solve(qdot_motion_matrix *K, int k);
 void qdot_motion_matrix_hand_over(const qdot_motion_matrix *K, qdot_taylor *taylor);
 void qdot_motion_matrix_hand_to_lanes(const qdot_motion_matrix *K, qdot_lanes_motion *code);
 
-/* How often it was factored. */
+/* How often K was factored. */
 size_t qdot_motion_matrix_factored(const qdot_motion_matrix *K);
 
 #endif

@@ -66,7 +66,7 @@ number(builder *b, qdot_expr e, qdot_program_row *row)
     return QDOT_OK;
 }
 
-/* Its outputs are those from *at on. */
+/* Add the equations of a block of M, whose entries and f are the outputs from *at on. */
 static qdot_status
 add_block(builder *b, const qdot_plan_block *block, size_t *at)
 {

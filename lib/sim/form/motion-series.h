@@ -37,17 +37,17 @@ void qdot_motion_series_free(qdot_motion_series *series);
  * an expansion begins. */
 void qdot_motion_series_keep(qdot_motion_series *series, const double *hi, const double *lo);
 
-/* Its callbacks; borrowed. */
+/* The callbacks of the series for `ode`; borrowed. */
 const qdot_ode_series *qdot_motion_series_get(const qdot_motion_series *series);
 
 /* Coefficients of output i of the program. */
 const double *qdot_motion_series_output(const qdot_motion_series *series, size_t i);
 
-/* What their expansions consist of. */
+/* The counts of operations in an expansion of the motion. */
 qdot_work qdot_motion_series_work(const qdot_plan *plan);
 qdot_work qdot_motion_series_work_of_residual(const qdot_plan *plan, const qdot_motion *motion,
                                               const qdot_tape *masses);
-/* The same of a series of constraints. */
+/* The counts of operations in an expansion with constraints. */
 qdot_work qdot_motion_series_work_of_constraints(const qdot_motion_series *series);
 
 /* How often K was factored; bytes of machine code, 0: there is none, *why says so. */

@@ -117,7 +117,7 @@ factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i)
     return qdot_expr_arg(pool, e, 2 * i + 2);
 }
 
-/* Where the terms of a sum are in it. */
+/* Note the positions of the terms of a sum. */
 static qdot_status
 note_places(builder *b, qdot_expr e)
 {

@@ -9,7 +9,7 @@
 #include "series/lanes.h"
 #include "tape/shake.h"
 
-/* As in constrained-project.c. */
+/* The least size to which residuals are compared (constrained-project.c). */
 static const double least_size = 0x1p-10;
 
 enum { L = QDOT_LANES, most_iterations = 6, LEVELS = 2 };

@@ -288,7 +288,7 @@ find_signs(builder *b)
     return qdot_pool_check(b->plan->pool);
 }
 
-/* For series: find_signs has been here. */
+/* Lower the tape that series are made of; after find_signs. */
 static qdot_status
 lower_series(builder *b)
 {

@@ -36,7 +36,7 @@ typedef struct qdot_phase_space qdot_phase_space; /* sim/form/phase-space.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/model/constraints.h */
 struct qdot_switches;                       /* sim/model/switch.h */
 
-/* What Taylor series are made from. */
+/* The form of the equations from which Taylor series are computed. */
 typedef enum {
     QDOT_FORM_NONE,        /* no series: the equations switch */
     QDOT_FORM_EXPLICIT,    /* M q'' = f, by the program plan->motion */

@@ -56,7 +56,7 @@ typedef struct {
 
 /* Whether a node switches by itself, where what it is of moves. */
 bool qdot_gates_is_switch(const qdot_pool *pool, qdot_expr e);
-/* Whether it holds what changes along a run. */
+/* Whether an expression contains anything that changes along a run. */
 bool qdot_gates_moves(const qdot_pool *pool, qdot_expr e);
 /* u or -u, whichever prints without a sign in front; *turned: it is -u. */
 qdot_expr qdot_gates_upright(qdot_pool *pool, qdot_expr u, bool *turned);

@@ -90,7 +90,7 @@ find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *p
     return qdot_pool_check(pool);
 }
 
-/* How the tied velocities follow the others. */
+/* Find the slopes of the related velocities by the free ones. */
 static qdot_status
 find_follow(qdot_pool *pool, qdot_puck *puck)
 {

@@ -14,7 +14,7 @@
 /* A puck that has begun to move, so slowly that its direction is that of its shares
  * (sim/model/puck.h). Other surfaces have no such mode. */
 #define QDOT_SIDE_CREEPS (-1)
-/* For freezing: what switches there stays as it is. */
+/* The side of a surface whose switches are not frozen. */
 #define QDOT_SIDE_OPEN LONG_MIN
 
 /* Of a surface that nothing in the mode switches on (sim/model/gates.h). */

@@ -53,7 +53,7 @@ typedef struct qdot_switches {
  * milliseconds. */
 enum { QDOT_MANY_COORDINATES = 32 };
 
-/* How many surfaces are such of the equations. */
+/* The number of surfaces at which the equations switch, without those of contacts and pucks. */
 static inline size_t
 qdot_switches_own(const qdot_switches *s)
 {

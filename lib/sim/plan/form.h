@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 /* The form of a smooth plan without constraints, complete but for it. */
 QDOT_MUST_CHECK qdot_status qdot_plan_choose_form(qdot_plan *plan, qdot_scene *scene,
                                                   const qdot_run_request *request);
-/* The same with constraints. */
+/* Choose the form of the equations of a plan with constraints. */
 QDOT_MUST_CHECK qdot_status qdot_plan_choose_constrained(qdot_plan *plan,
                                                          const qdot_run_request *request);
 /* The program and the costs of a plan for lanes: of its residual if it has one, else of

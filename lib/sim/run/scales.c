@@ -13,7 +13,7 @@ static const double sure = 0.1, least_part = 1e-12;
 /* The work of a run, in about nanoseconds, that is not done twice. */
 static const double most_work = 3e8;
 
-/* So many coordinates are named in a notice. */
+/* The most coordinates that a notice names. */
 enum { MOST_NAMES = 4 };
 
 /* The largest |y_i| at the stored points. */

@@ -5,7 +5,7 @@
 
 #include "expr/print.h"
 
-/* So many stretches are listed, the others counted. */
+/* The most time spans that are listed; the others are counted. */
 enum { MOST_LISTED = 3 };
 
 /* A stretch of a course in which a surface was held. */
@@ -84,7 +84,8 @@ name(const qdot_run *run, size_t surface, qdot_text *to)
     return qdot_stage_describe(&run->stage, surface, 0, to);
 }
 
-/* A time, and its error where it is not right to the ten digits that are shown; a 0 stands for those of the run's length. */
+/* A time, and its error where it is not right to the ten digits that are shown; a 0 stands for those of the run's
+ * length. */
 static void
 add_time(const qdot_run *run, double t, double error, qdot_text *to)
 {

@@ -9,12 +9,13 @@
 #include "expr/calculus.h"
 #include "num/balance.h"
 
-/* Below, a motion has not grown: one segment does. How much it may grow in one, of a guess that is far off, of an orbit. */
+/* Below, a motion has not grown: one segment does. How much it may grow in one, of a guess that is far off, of an
+ * orbit. */
 static const double tame = 30, growth_of_guess = 2, growth_of_orbit = 1e3;
 
 const double qdot_flow_tolerance[2] = {1e-13, 1e-11};
 
-/* What both flows round alike, relative to a slope. */
+/* The rounding that both flows share and their difference does not show, relative to a slope. */
 static const double alike = 1e-14;
 
 /* What sums that cancel keep, relative to the largest slope. */

@@ -4,7 +4,7 @@
 
 #include "sim/run/run.h"
 
-/* What s is. */
+/* The s by which slopes are taken. */
 typedef struct {
     const char *name;
     qdot_expr parameter; /* nil: s moves the start alone */

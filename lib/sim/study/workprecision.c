@@ -22,7 +22,7 @@ enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
 
 static const double budget_default = 3e8;
 
-/* Of a reference in doubles. */
+/* The tolerance of a reference in doubles. */
 static const double reference_tol = 1e-15;
 
 /* A smaller error counts as rounding, even for a motion of small variation. */
@@ -66,7 +66,8 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
     if (status == QDOT_ENOTBUILT || (scene->constraints.n > 0 && status == QDOT_ESINGULAR) ||
-        (run == NULL && status == QDOT_EFAILED)) { /* digits do not follow it: abs(x)^1.5, a coordinate without mass */
+        /* digits do not follow it: abs(x)^1.5, a coordinate without mass */
+        (run == NULL && status == QDOT_EFAILED)) {
         precise.digits = 0;
         status = qdot_run_new(scene, &precise, &run);
     }
@@ -194,7 +195,7 @@ keeps_energy(const worker *w)
     return w->run.energy != NULL;
 }
 
-/* What is followed, at all points of the course. */
+/* The drift of the energy and of the constraints at all points of the course. */
 static void
 follow_course(worker *w)
 {
@@ -214,7 +215,7 @@ follow_course(worker *w)
     }
 }
 
-/* The same where events, domains or switches divide it. */
+/* Integrate a course that events, domains or switches divide into pieces. */
 static qdot_status
 go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 {

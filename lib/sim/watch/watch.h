@@ -60,7 +60,7 @@ bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
 double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 
-/* What is known at the start of a piece. */
+/* What is known of the functions g at the start of a piece. */
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
                                the start was moved by a rounding of 1 */
