@@ -31,7 +31,7 @@ lock_whole(const char *path, int fd, bool *gone)
     if (fcntl(fd, F_SETLK, &all) != 0 || fstat(fd, &held) != 0)
         return errno;
     *gone = stat(path, &now) != 0 || now.st_ino != held.st_ino || now.st_dev != held.st_dev;
-    if (held.st_size > 0) /* it is not ours */
+    if (held.st_size > 0) /* a lock file is empty: this is another file of that name */
         return EEXIST;
     return 0;
 }
@@ -72,7 +72,7 @@ qdot_file_lock_release(qdot_file_lock *lock)
 {
     if (lock->path == NULL)
         return;
-    (void)unlink(lock->path); /* while it is held */
+    (void)unlink(lock->path); /* remove the file while the lock is still held */
     (void)close(lock->fd);
     qdot_free(lock->path);
     *lock = (qdot_file_lock){0};

@@ -110,7 +110,7 @@ qdot_realloc(void *block, size_t size)
         qdot_scope_release(block);
     bigger = realloc(block, size ? size : 1);
     if (bigger == NULL && inside && block != NULL)
-        (void)qdot_scope_note(block, 0); /* there was room for it */
+        (void)qdot_scope_note(block, 0); /* succeeds: the scope had room for this block */
     return inside ? noted(bigger, size) : checked(bigger, size);
 }
 

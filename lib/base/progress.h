@@ -15,7 +15,7 @@
 
 typedef struct qdot_progress {
     const char *what; /* "run", "dop853, tol 1e-09" */
-    double t0, t1, t; /* of it: from, to, reached */
+    double t0, t1, t; /* the variable that advances: its start, its end, where it is */
     double speed;     /* steps a second; 0: not known yet */
     double left;      /* seconds; NaN: not known yet */
     /* called after half a second and then some times a second; it may show a line */

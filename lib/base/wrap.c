@@ -178,7 +178,7 @@ typedef struct {
     qdot_vec(piece) cells; /* row by row; the first is the head */
     size_t rows, n;        /* n cells a row */
     size_t keys;           /* the first of them, which tell one row from the next */
-    size_t key_columns;    /* their widths together */
+    size_t key_columns;    /* the width of all key columns together */
     size_t *width;         /* [n] */
 } table;
 
@@ -306,7 +306,7 @@ table_add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t w
         size_t last = to, column = t->key_columns;
 
         while (last > from && trimmed(cell_at(t, i, last - 1)).n == 0)
-            last--; /* nothing but blanks from there on */
+            last--; /* only blanks follow */
         for (size_t k = 0; k < t->keys; k++)
             table_add_cell(out, t, i, k, last == from && k + 1 == t->keys);
         for (size_t k = from; k < last; column += t->width[k++]) {

@@ -33,14 +33,14 @@ typedef struct {
 struct qdot_articulated {
     size_t nodes, m, c, slots;
     const plane_kernels *plane; /* NULL: it is no short path of links in a plane */
-    const kernels *kernels; /* NULL: there are none */
+    const kernels *kernels; /* NULL: nodes of this size have no compiled elimination */
     bool path;
     size_t *slot;     /* [nodes] */
     uint32_t *parent; /* [nodes x m] */
     uint8_t *unknowns;
     double *weight, *below; /* [nodes x m x m] W, and summed over what hangs there */
     double *passed;         /* [nodes x m x m] I summed over children; scratch */
-    double *numbers;        /* all of these: */
+    double *numbers;        /* one block for the arrays that follow: */
     double *there;          /* 1 in slots of nodes, else 0 */
     double *I_0, *I, *A, *Up, *Down; /* [m x m]; products along a piece to its ends */
     double *B, *H;                   /* [m x c], [c x c] */

@@ -10,7 +10,7 @@
 
 typedef struct {
     gsl_matrix *A;
-    gsl_matrix_complex *V; /* columns; then its LU */
+    gsl_matrix_complex *V; /* eigenvectors as columns; then the LU factors of this matrix */
     gsl_vector_complex *lambda, *f, *c;
     gsl_permutation *order;
     gsl_eigen_nonsymmv_workspace *work;

@@ -18,7 +18,7 @@ typedef struct {
     size_t n;
     gsl_matrix *A;
     gsl_matrix_complex *V, *LU, *W; /* right vectors, columns; left ones, rows of V^-1 */
-    gsl_vector_complex *lambda, *mu; /* of A, of its transpose */
+    gsl_vector_complex *lambda, *mu; /* eigenvalues of A, of its transpose */
     gsl_permutation *order;
     gsl_eigen_nonsymmv_workspace *work;
     double complex *planes; /* [4n] */
@@ -73,7 +73,8 @@ error_between(const solver *s, const double *A, const double *E, size_t k, size_
     return sum;
 }
 
-/* Left vectors that are found by themselves: V^-1 is lost to all where two other eigenvalues are one with one vector. */
+/* Left vectors that are found by themselves: V^-1 is lost to all where two other eigenvalues are one with one
+ * vector. */
 static void
 find_left_vectors(solver *s, const double *A)
 {

@@ -19,7 +19,7 @@
 
 typedef struct {
     size_t n, m;
-    double L[QDOT_LEAST_MOVE_ROWS][QDOT_LEAST_MOVE_ROWS]; /* its diagonal inverted */
+    double L[QDOT_LEAST_MOVE_ROWS][QDOT_LEAST_MOVE_ROWS]; /* Cholesky factor; its diagonal holds the inverses */
     double *W; /* [m x n] A D^-1; the caller's */
 } qdot_least_move;
 

@@ -23,7 +23,7 @@ static const double nowhere = 1e150;
 typedef struct {
     qdot_least_squares *x;
     double *at;         /* [p] where x->f, x->J are of */
-    bool known;         /* there is such a place */
+    bool known;         /* `at` is set */
     qdot_status status; /* a failure that ends the search */
     gsl_matrix *U, *V;  /* [n x p], [p x p] */
     gsl_vector *S, *work, *size, *along; /* [p] */

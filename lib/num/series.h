@@ -65,7 +65,7 @@ typedef struct {
     const double *y, *carry; /* [n] */
     double *next, *next_carry;
     const double *least;  /* [n] what sizes are at least, positive (ode/scale.h) */
-    double *size, *scale; /* [n] max(least, |next|), and its inverse */
+    double *size, *scale; /* [n] max(least, |next|), and the inverse of that */
     /* [n] Only for components from `linked` on: the derivative at the end times the step, sum k
      * x_k s^k, and the sum of the sizes of its terms, of x_1 s and of `size`. */
     double *slope, *terms;

@@ -31,7 +31,7 @@ typedef struct {
     bool first_order;
     double *u, *error;  /* [n] the zero */
     double *ways, *way; /* [n x n] directions as columns, the last n - rank of them open; [n] one of them */
-    double *f;          /* [2m] F there, and its errors */
+    double *f;          /* [2m] F at the place tried, and the errors of F */
 } family;
 
 /* From h units beside the zero along `way`, with so many corrections. J at the zero is lost. */

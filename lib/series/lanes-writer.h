@@ -39,20 +39,20 @@ typedef struct {
 } qdot_writer_register;
 
 typedef struct {
-    bool moving; /* it has more than order 0 */
-    bool kept;   /* it is wanted to all orders */
+    bool moving; /* the row is not constant in t */
+    bool kept;   /* all orders of the row are kept */
     bool absent; /* its newest coefficient is not computed: it is unknown, or 0 */
     bool wanted; /* an equation of the unknowns depends on it */
     bool equation;
-    size_t step; /* that makes it; SIZE_MAX: none */
-    int readers; /* steps that read it, */
-    int linear;  /* and of these those that only add it, or take its rate; */
-    bool rated;  /* some take its rate */
+    size_t step; /* the step that computes the row; SIZE_MAX: none */
+    int readers; /* the number of steps that read the row, */
+    int linear;  /* and of those that only add it, or take its rate; */
+    bool rated;  /* some steps take the rate of the row */
 } qdot_writer_row;
 
 typedef struct {
-    bool folded; /* its readers carry it out */
-    bool idle;   /* no equation is made of it */
+    bool folded; /* the step is not carried out by itself, but within its readers */
+    bool idle;   /* no equation depends on the row */
     bool lacks;  /* it lacked its argument, and nothing else */
     int pairs;   /* products whose sum it is, with those that it carries out for others */
     bool rests[QDOT_WRITER_RESTS]; /* there is one at the order at hand */

@@ -53,11 +53,13 @@ struct qdot_lanes {
     const qdot_motion *motion; /* it is of; NULL: of a program alone */
     const qdot_program *program;
     double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* of a motion */
-    bool has_rates, has_kept; /* steps of these kinds */
+    bool has_rates, has_kept; /* the program has steps that take rates; rows that are kept */
     size_t stride;
     void *memory;          /* what the coefficients stand in */
     double *coefficients;  /* [rows x stride groups], from a cache line on */
-    double *inverses;      /* [length groups] behind them */
+    /* [length groups] of each step, behind the coefficients: by which all its orders are multiplied in place of a
+     * division */
+    double *inverses;
     lanes_step *steps;     /* [length], QDOT_T_END behind them */
     drawn *drawn;          /* [n_drawn] */
     size_t n_drawn;

@@ -36,8 +36,8 @@
 #include "series/program.h"
 
 typedef struct {
-    qdot_program_row value;       /* what it is; QDOT_NO_ROW: solved for */
-    qdot_program_row row;         /* u; QDOT_NO_ROW: nothing reads it */
+    qdot_program_row value;       /* the row that gives the unknown; QDOT_NO_ROW: it is solved for */
+    qdot_program_row row;         /* the row of the unknown u; QDOT_NO_ROW: nothing reads it */
     qdot_program_row once, twice; /* rows of inputs; QDOT_NO_ROW: none */
 } qdot_motion_unknown;
 

@@ -78,7 +78,7 @@ typedef struct {
     /* the bits of those of x, y, z whose coefficient of the order at hand depends on unknowns (motion.h); */
     unsigned char newest;
     bool kept;            /* later orders read the result of the step */
-    signed char lead;  /* of its rows */
+    signed char lead;  /* the lead of the rows that it writes */
     qdot_program_row to, second, third, d, x, y, z;
 } qdot_program_step;
 
@@ -90,7 +90,7 @@ typedef struct {
     size_t length, still;                /* of steps */
     qdot_vec(qdot_program_row) outputs;
     double convolutions; /* an order; a square counts half */
-    int lead;            /* of the step that leads most */
+    int lead;            /* the largest lead of a step */
 } qdot_program;
 
 /* The program of a tape, which is not kept, whose inputs from `moving` on are numbers. With

@@ -4,11 +4,11 @@
 enum {
     /* Of one sum. More would wait for each other longer than for what they are made of. */
     most_terms = 12,
-    most_depth = 8 /* of what stands within each other */
+    most_depth = 8 /* the deepest nesting of folded steps */
 };
 
 typedef struct {
-    uint32_t reader; /* the last step that reads it */
+    uint32_t reader; /* the last step that reads the row */
     unsigned readers;
     bool wanted;     /* by others, or as more than a term */
 } use;

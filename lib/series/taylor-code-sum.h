@@ -77,7 +77,7 @@ typedef struct {
 } term;
 
 typedef struct {
-    value v; /* what there is of it */
+    value v; /* the terms that have been added up so far */
     int n;
     term terms[QDOT_CODE_TERMS];
 } sum;

@@ -90,7 +90,7 @@ typedef struct {
     qdot_vec(uint32_t) row_of; /* the same */
     qdot_vec(qdot_code_sum) sums;
     size_t n_slots;
-    qdot_vec(qdot_code_composition) compositions; /* in slots of their own, */
+    qdot_vec(qdot_code_composition) compositions; /* products of factors, in slots of their own, */
     size_t fold_slots;                            /* from this one on */
 
     /* Registers that hold a coefficient. */

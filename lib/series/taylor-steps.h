@@ -10,7 +10,7 @@ typedef struct qdot_taylor qdot_taylor; /* taylor.h */
 
 /* Rows of coefficients, by order. */
 typedef struct {
-    uint16_t op, zero; /* as qdot_program_step */
+    uint16_t op, zero; /* recurrence, and how order 0 is computed, as in qdot_program_step */
     signed char sign, lead;
     unsigned char newest;
     bool kept;
@@ -47,13 +47,13 @@ typedef struct {
 struct qdot_taylor_unknown {
     double *row, *once, *twice;
     const double *right; /* of its equation what is known: f; E, or that which E is a rate of; */
-    int rates;           /* so many times */
+    int rates;           /* how many derivatives of it the equation is */
     bool is_explicit;
 };
 
 /* A row of an unknown, or of its integral, whose newest coefficient steps read. */
 struct qdot_taylor_newest {
-    double *row, *change; /* where these look for its change */
+    double *row, *change; /* the change of the newest coefficient, where steps read it */
     int lead;
 };
 
@@ -62,7 +62,7 @@ typedef void qdot_taylor_function(qdot_taylor_step *step, const qdot_series_kern
 
 struct qdot_taylor {
     const qdot_motion *motion; /* it is of, borrowed; NULL: of a tape */
-    double unit;               /* of that */
+    double unit;               /* the unit of time of the present step */
     const qdot_series_kernels *kernels;
     qdot_taylor_function *const (*functions)[QDOT_T_COUNT]; /* by order, recurrence */
     size_t stride, inputs, outputs, rows;

@@ -37,7 +37,7 @@ typedef struct {
     qdot_taylor_loops loops;
     int from, to; /* it carries out expansions to these orders and those between */
     bool exact;   /* links have factors of two doubles at low orders */
-    size_t doubles;    /* of work space that it wants */
+    size_t doubles;    /* the doubles of work space that the text needs */
     uint32_t *blocks;  /* [blocks] where there it has their matrices */
     atomic_uint users;
 } qdot_taylor_text;

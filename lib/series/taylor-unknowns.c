@@ -59,7 +59,8 @@ taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *
     const qdot_motion *m = t->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
     const size_t n = end - first, from = *entry;
-    const size_t is_explicit = m->right.n > first ? m->right.n - first : 0; /* so many rows */
+    /* the number of rows with explicit equations */
+    const size_t is_explicit = m->right.n > first ? m->right.n - first : 0;
     size_t count = 0;
     qdot_taylor_block *b;
 

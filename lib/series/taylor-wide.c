@@ -36,8 +36,8 @@ typedef struct {
 
 struct qdot_taylor_wide {
     const kernels *kernels;
-    size_t n;         /* inputs that are corrected; */
-    size_t corrected; /* their lanes; */
+    size_t n;         /* the number of inputs that are corrected; */
+    size_t corrected; /* the lanes of these inputs; */
     size_t inputs;    /* filled up to full vectors */
     size_t width, rows, stride;
     int orders;
@@ -114,7 +114,7 @@ typedef struct {
 typedef struct {
     qdot_taylor_wide *w;
     const qdot_taylor *t;
-    const size_t *inputs; /* their lanes; NULL: in their order */
+    const size_t *inputs; /* the lanes of the inputs; NULL: in their order */
     size_t *level;        /* [rows] */
     member *members;
     size_t n_members, deepest;
@@ -443,7 +443,7 @@ qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
 void
 qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest, double divisor)
 {
-    if (w->corrected < w->inputs) { /* lanes beyond them stay 0 */
+    if (w->corrected < w->inputs) { /* the lanes behind the inputs stay 0 */
         memcpy(w->N, newest, w->corrected * sizeof *newest);
         memset(w->N + w->corrected, 0, (w->inputs - w->corrected) * sizeof *newest);
         newest = w->N;

@@ -16,7 +16,7 @@ typedef struct {
     qdot_expr term, unit;
     qdot_expr constant;
     bool split;    /* too many different multiples: each is a base of its own */
-    uint32_t uses; /* composed arguments that hold it */
+    uint32_t uses; /* the number of composed arguments that contain this base angle */
     bool made;
     qdot_value sine, cosine;
 } base;
@@ -48,8 +48,8 @@ typedef struct {
 } part;
 
 typedef struct {
-    size_t first, n; /* its parts */
-    bool minus;      /* the argument is minus its sum */
+    size_t first, n; /* the first and the number of its summands */
+    bool minus;      /* the argument is minus the sum of these */
     bool composed;
     uint32_t sum;
 } argument;

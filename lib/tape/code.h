@@ -31,7 +31,7 @@ typedef struct {
     qdot_vec(double) constants;
     qdot_vec(signed char) sides; /* sign of the exact constant less the double, see constant.h */
     qdot_vec(double) lows;       /* the exact constants less the doubles */
-    qdot_vec(qdot_expr) exact;   /* the constants as expressions */
+    qdot_vec(qdot_expr) exact;   /* the exact constants, as expressions */
     qdot_keymap seen;          /* operation -> value */
     qdot_keymap by_expr;       /* constant expression -> value */
     unsigned char chain[QDOT_CODE_MOST_POWER + 1]; /* see power_chain() */

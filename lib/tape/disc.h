@@ -34,7 +34,7 @@ QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
 /* Operations by which a function that is large somewhere may be negligible at a distance. */
 typedef enum {
-    QDOT_HIDES_EXPONENTIALS, /* with all its derivatives */
+    QDOT_HIDES_EXPONENTIALS, /* exponentials whose derivatives are all negligible at the start, too */
     QDOT_HIDES_QUOTIENTS     /* or because it is that much smaller there, as 1/x^2 is */
 } qdot_disc_hiding;
 

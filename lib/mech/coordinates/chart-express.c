@@ -97,7 +97,7 @@ find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *
     }
     for (size_t i = 0; i < r->c->moved.n; i++)
         if (qdot_expr_contains(pool, angle, r->c->moved.at[i].q))
-            return false; /* a length is left in it */
+            return false; /* the expression still contains a length */
     *d = turned(pool, sum,
                 (direction){qdot_fun1(pool, hyperbolic ? QDOT_COSH : QDOT_COS, angle),
                             qdot_fun1(pool, hyperbolic ? QDOT_SINH : QDOT_SIN, angle)},

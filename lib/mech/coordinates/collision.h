@@ -64,7 +64,7 @@ typedef struct {
     qdot_scene *scene; /* owned, in s; NULL: it is not regular, `hindrance` says why */
     size_t parts;      /* of u, its first coordinates; then come t, the integral of h, and Q and w of
                           each coordinate that stays */
-    qdot_expr time;    /* its coordinate t */
+    qdot_expr time;    /* the coordinate of `scene` that is the time t */
     qdot_expr strength; /* k; 0 where no force is as 1/R^2 */
     char hindrance[200];
     qdot_collision_pair pair;

@@ -38,7 +38,7 @@ enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
  * that are not 0 row by row: as expressions and numbers. */
 typedef struct {
     size_t n, c, m;                        /* coordinates, equations, 3n */
-    size_t constraints;                    /* the others are derivatives of these */
+    size_t constraints;                    /* the first of the equations; the others are their derivatives */
     qdot_constraint_kind *kind;            /* [c] */
     size_t *of;                            /* [c] the constraint */
     size_t slopes;                         /* not 0 */

@@ -33,7 +33,7 @@ qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
 /* --- momenta, forces --- */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* dL/dq' */
 qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST, in order of q */
-qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q], all that is applied */
+qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q]: all applied forces, -dV/dq among them */
 /* The generalized force in Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */

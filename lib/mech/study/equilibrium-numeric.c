@@ -364,7 +364,7 @@ places_search(problem *p, qdot_isolate *isolate, qdot_places *out)
             continue;
         }
         for (size_t i = 0; i < n; i++)
-            if (fabs(place[i]) <= radius[i]) /* 0 as far as is known */
+            if (fabs(place[i]) <= radius[i]) /* the value is 0 within its error */
                 place[i] = 0;
         if (place_normalise(p, place) && is_new(out->at, out->n, n, place))
             out->n++;

@@ -33,7 +33,7 @@ is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *yes)
 
         *yes = there == QDOT_FALSE;
         status = qdot_pool_check(pool);
-        if (status == QDOT_EDOMAIN) { /* they are not defined there */
+        if (status == QDOT_EDOMAIN) { /* the equations are not defined at this value */
             *yes = true;
             status = QDOT_OK;
         }

@@ -576,7 +576,7 @@ modes_linearise(job *j, qdot_expr equations)
 
     for (size_t i = 0; i < j->s->coordinates.n && status == QDOT_EDOMAIN; i++) {
         (void)qdot_rest_value(j->s, equations, qdot_motion_residual(j->s, i));
-        QDOT_TRY(qdot_pool_check(j->pool)); /* it has no value */
+        QDOT_TRY(qdot_pool_check(j->pool)); /* the expression has no value at the equilibrium */
     }
     if (status != QDOT_EDOMAIN)
         return status;

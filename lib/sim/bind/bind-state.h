@@ -29,7 +29,7 @@ struct qdot_bind {
     qdot_guarded *guarded;
     const qdot_ode_series *series; /* the callbacks of the series in use; NULL: there is none */
     qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
-    qdot_ode_bonds bonds;  /* and the constraints beside them */
+    qdot_ode_bonds bonds;  /* the constraints, for a geometric method */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
@@ -39,7 +39,7 @@ struct qdot_bind {
     double *out, *work; /* of the tape */
     double *slopes;     /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
     double *slopes_work;
-    qdot_ode_mass_form mass_form; /* where there are slopes */
+    qdot_ode_mass_form mass_form; /* how M enters the Jacobian of implicit methods */
 
     /* Of a plan with a reduced one, which is what is integrated: */
     qdot_tape *reduced; /* a shaken copy; else NULL */
@@ -51,7 +51,7 @@ struct qdot_bind {
     qdot_ode_system *systems; /* [n_parts] */
     qdot_ode_part *listed;    /* [n_parts] */
     size_t *index;            /* [2n] what `listed` has */
-    double *part_scales;      /* [2n] theirs, one after another; NULL */
+    double *part_scales;      /* [2n] the scales of the parts, one after another; NULL: all 1 */
     const double *scales;
 
     qdot_pulses pulses; /* what looks at steps of methods without series; made when first asked for */

@@ -31,7 +31,7 @@ typedef struct {
     const qdot_tape *tape; /* borrowed */
     size_t n_used, *used;  /* [n_used] inputs that the tape reads, except t */
     size_t time;           /* index of the input t */
-    bool reads_time;       /* whether the tape reads it */
+    bool reads_time;       /* whether the tape reads t */
     bool resting;          /* no input that is read changes by more than rounding on the stretch
                                */
     double *values;        /* [n_used x QDOT_CHEBYSHEV_MOST] by node */

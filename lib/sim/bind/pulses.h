@@ -27,14 +27,14 @@
 /* Start from {0}. */
 typedef struct {
     const qdot_tape *tape; /* of M and f; NULL: none yet */
-    size_t n, m;           /* coordinates; outputs that are looked at */
+    size_t n, m;           /* coordinates; outputs that are inspected */
     qdot_disc_hiding hiding;
     int nodes; /* 16; 64 of methods that look at a step within */
     qdot_polynomial_bounds bounds;
     double *in;      /* [2n + 1] q, q', t */
     double *out;     /* [outputs] */
     double *work;    /* of the tape */
-    double *largest; /* [m] met so far */
+    double *largest; /* [m] the largest |output| so far */
     double *values;  /* [m x QDOT_CHEBYSHEV_MOST] of a part */
     double *whole;   /* [as values] coefficients of the step */
     double *beyond;  /* [m] the integral of |value - polynomial of the step|, by samples, */
@@ -51,7 +51,7 @@ typedef struct {
 /* A step, and what is found on it. */
 typedef struct {
     double a, b, tol;
-    const double *from, *to; /* [2n] the states there */
+    const double *from, *to; /* [2n] the states at a, b */
     /* The state at t into y [2n]; NULL: by a cubic through positions and velocities of both ends. */
     qdot_status (*read)(double t, double *y, void *user);
     void *user;

@@ -50,7 +50,7 @@ typedef struct {
 } qdot_bifurcation_bracket;
 
 typedef enum {
-    QDOT_BIFURCATION_NONE,  /* there is no regular one */
+    QDOT_BIFURCATION_NONE,  /* no regular bifurcation was found */
     QDOT_BIFURCATION_FOUND,
     QDOT_BIFURCATION_APART, /* two curves come near each other there, and do not cross */
     QDOT_BIFURCATION_REST   /* an orbit shrinks to a place at rest at out->y, and comes back as its mirror image */

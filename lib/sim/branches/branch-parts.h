@@ -8,7 +8,7 @@ typedef enum {
     QDOT_END_RANGE,   /* the end of the range of the parameter */
     QDOT_END_DOMAIN,  /* the end of the domain of a coordinate */
     QDOT_END_CLOSED,  /* it came back to where it began */
-    QDOT_END_FAR,     /* it goes on to infinity */
+    QDOT_END_FAR,     /* the branch goes to infinity */
     QDOT_END_REST,    /* an orbit shrinks to a place at rest */
     QDOT_END_HALF,    /* an orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
@@ -34,7 +34,7 @@ typedef struct {
     qdot_vec(qdot_branch) branches;
     qdot_vec(qdot_bifurcation) bifurcations;
     qdot_vec(double) left; /* places [n + 1] from which no curve is followed: they have no single direction */
-    bool conserved; /* of orbits: their energy is */
+    bool conserved; /* of orbits: the energy is conserved */
     bool complete;  /* of equilibria, proved: there are no other branches, but for such at single values of p */
     bool families;  /* of equilibria: of those that recur without end one is followed */
     bool corners;   /* of equilibria: where forces jump there may be others */
@@ -44,7 +44,7 @@ typedef struct {
 /* A crossing whose other curve is to be followed. */
 typedef struct {
     size_t at;     /* the bifurcation */
-    double *other; /* [n + 1] its direction, owned */
+    double *other; /* [n + 1] the direction of the other branch, owned */
 } qdot_branch_crossing;
 
 typedef struct {

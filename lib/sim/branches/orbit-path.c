@@ -461,7 +461,7 @@ make_first(qdot_orbit_path *x, double *size, double *y)
     y[n] = x->of.p;
     QDOT_TRY(follow_states(x, y));
     QDOT_TRY(ask(x, y));
-    QDOT_TRY(fill_factors(x, y)); /* how many there are */
+    QDOT_TRY(fill_factors(x, y)); /* finds how many multipliers there are */
     QDOT_TRY(orbit_find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));

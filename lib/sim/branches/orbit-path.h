@@ -41,7 +41,7 @@ typedef struct {
     qdot_orbit_family family;
     qdot_expr parameter; /* of the scene, or a q, q' of the start; energy: nil */
     double p, T;         /* of the first orbit; the energy is found */
-    const double *z;     /* [2n] its start */
+    const double *z;     /* [2n] the start of the first orbit */
     double least, most;
     size_t segments;     /* of an orbit of twice a period; 0: it is none, as many as it needs */
 } qdot_orbit_of;
@@ -59,10 +59,10 @@ typedef struct {
     qdot_tape *period; /* T from p, of a drive; */
     double *period_work;
     qdot_flow flow[2];          /* fine, coarse; the further expression is h */
-    size_t by;                  /* which of them is asked */
+    size_t by;                  /* the index of the flow in use */
     double *values, *slopes;    /* of the latest evaluation: [K x 2 x m], [K x 2 x m x (2n + p)] */
-    double *y;                  /* [n + 1] where that was; */
-    bool known;                 /* it was without failure */
+    double *y;                  /* [n + 1] the place of the latest evaluation; */
+    bool known;                 /* the latest evaluation succeeded */
     double *B, *E;              /* [K x c x c] */
     double *sizes;              /* [2n] of the states of the first orbit */
     double *domain;             /* [2 path.n] of the unknowns: least, largest */

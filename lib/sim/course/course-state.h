@@ -11,7 +11,7 @@ typedef struct {
     size_t event;
     double t;
     int way; /* 1, -1: left - right rises, falls as t grows; 0: it touches 0 */
-    double within, bend, blur; /* of a touch, as in qdot_root */
+    double within, bend, blur; /* shape of a touch, as in qdot_root */
 } qdot_occurrence;
 
 /* A stretch of time in which the function of an event was so small that rounding of the run hides its sign: whether the
@@ -46,7 +46,7 @@ typedef struct {
     double place;         /* |u| at the start */
     size_t mode[3];       /* below the surface, on it, above */
     double *along;        /* [n] of u = 1, then the slopes of u [n]; owned */
-    bool ended;           /* it has left the surface */
+    bool ended;           /* the motion has left the surface */
     bool steady;          /* no chatter: the rounding of a place that moves, as large until `end` */
 } qdot_course_chatter;
 
@@ -75,7 +75,7 @@ typedef struct qdot_course {
     qdot_vec(qdot_course_rest) rests;
     qdot_vec(qdot_course_chatter) chatters;
     size_t stopped_by; /* the event; SIZE_MAX: none */
-    char reason[400];  /* why it ended early; "" */
+    char reason[400];  /* why the course ended early; "": it did not */
     bool failed;       /* the reason is a failure, not an event's `stop` */
     bool began_on;     /* it started on a zero of a function that is watched */
 } qdot_course;

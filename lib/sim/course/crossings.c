@@ -14,7 +14,7 @@ typedef struct {
     qdot_trajectory_cursor *cursor;
     qdot_watch **watches; /* [modes] made when met */
     size_t piece;
-    int sign;   /* so far, since the last root */
+    int sign;   /* the sign of g since the last root */
     int before; /* that at the end of the piece before, which tells whether a zero at the start of the
                    next is a root; 0: unknown, or the state jumped */
     qdot_crossings *out;

@@ -339,7 +339,7 @@ qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
                     const qdot_stage *stage, qdot_drifts *d)
 {
-    bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* it may be cyclic */
+    bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* [n] coordinates that may be cyclic */
     qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
 
     d->at = qdot_calloc(p->n + 1, sizeof *d->at);

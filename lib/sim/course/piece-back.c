@@ -17,7 +17,7 @@ static const double roundings = 16;
 static const double alike = 1e-9;
 
 typedef enum {
-    PASSES, /* it has not occurred */
+    PASSES, /* the event has not occurred: the motion passes */
     UNDONE,
     LOST,  /* it may have: what was before cannot be known */
     RESTS, /* the motion may have been at rest there, for any time */

@@ -26,7 +26,7 @@ typedef struct {
     double *slopes;       /* [n] du/dq */
     double *along;        /* [n] the direction in which both sides push, du/dq along = 1 */
     double *rates, *moved; /* [4n], [2n] room */
-    double u, v;           /* before it was held */
+    double u, v;           /* u and du/dt before the surface was held */
     double square;         /* |du/dq|^2 */
 } held_motion;
 
@@ -241,7 +241,7 @@ qdot_piece_stop_chatter(qdot_piece *x, bool anew)
         for (size_t k = 0; k < x->crossed.n && !crossed; k++)
             crossed = x->crossed.at[k] == i;
         if (!crossed || (x->side[i] != 1 && x->side[i] != -1) || !qdot_piece_is_of_places(x, i)
-            || qdot_piece_holds_massless(x, i)) /* no mass swings about it */
+            || qdot_piece_holds_massless(x, i)) /* the surface holds a massless coordinate: there is no oscillation */
             continue;
         QDOT_TRY(slide(x, i, &may));
     }

@@ -105,7 +105,7 @@ qdot_piece_carry(qdot_piece *x)
                            : x->signs[i];
         x->residual[i] = -1;
     }
-    for (size_t i = 0; i < next->m; i++) { /* it was held at 0 */
+    for (size_t i = 0; i < next->m; i++) { /* u was held at 0 */
         const qdot_watched *w = &next->watched[i];
 
         if (w->kind == QDOT_WATCH_SURFACE && x->c->stage->switches.surfaces.at[w->index].puck > 0) {
@@ -133,7 +133,7 @@ qdot_piece_carry(qdot_piece *x)
         const qdot_root *root = &x->fired.at[k];
         const qdot_watched *w = &old->watched[root->function];
 
-        if (w->kind != QDOT_WATCH_SURFACE) { /* it has been counted */
+        if (w->kind != QDOT_WATCH_SURFACE) { /* an event, which has been counted already */
             x->before[root->function] = 0;
             x->residual[root->function] = root->residual;
             continue;

@@ -74,8 +74,8 @@ qdot_piece_reaction(qdot_piece *x, size_t surface, double *d, double *size)
 /* A trial of the `then` of one contact: with a velocity less `speed` along `aside` [n], and what it changes. */
 typedef struct {
     const double *slopes; /* [n] of u */
-    double *old, *y;      /* [2n] before and behind it */
-    double rate;          /* du/dt before it */
+    double *old, *y;      /* [2n] the states before and after the impact */
+    double rate;          /* du/dt before the impact */
 } blow;
 
 static qdot_status
@@ -92,7 +92,8 @@ strike(qdot_piece *x, size_t surface, const double *aside, double speed, blow *b
     return qdot_piece_change(x, &x->c->stage->events.at[s->event], x->start.t, b->old, NULL, b->y, NULL);
 }
 
-/* Whether it leaves the place where it is; and by how much it changes velocities at most, *most, which are as large as *size. */
+/* Whether it leaves the place where it is; and by how much it changes velocities at most, *most, which are as
+ * large as *size. */
 static bool
 stays_there(const qdot_piece *x, const blow *b, double *most, double *size)
 {
@@ -233,7 +234,7 @@ qdot_piece_is_smooth_wall(qdot_piece *x, size_t surface, double *share, bool *ye
     *yes = false;
     if (status == QDOT_OK)
         status = find_impulse_in_mode(x, surface, d, &size, slopes, along, share, yes);
-    if (status == QDOT_OK && *yes && size == 0) { /* nothing presses it */
+    if (status == QDOT_OK && *yes && size == 0) { /* no force presses against the wall */
         status = is_along_slopes(x, along, slopes, yes);
         qdot_free(room);
         return qdot_grave(status);

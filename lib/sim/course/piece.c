@@ -443,7 +443,7 @@ count_parts(qdot_piece *x, double t, size_t parts)
         return QDOT_OK;
     x->searched.parts = 0;
     x->searched.since = t;
-    if (to_come <= most_to_come) /* not so if time stands still */
+    if (to_come <= most_to_come) /* false if the time does not advance */
         return QDOT_OK;
     return qdot_fail(QDOT_ELIMIT,
                      "stopped at t = %.15g: an event or switch changes so fast that %d parts of "

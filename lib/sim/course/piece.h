@@ -89,10 +89,10 @@ typedef struct {
     const double *beyond;      /* while a step is accepted: the state less y; NULL: not known */
     double *end_low;           /* [n] that at the end of the piece */
     qdot_two *root;            /* [n] the state at the root that ends the piece; with constraints at t_act */
-    bool has_root;             /* it is known, by a series */
+    bool has_root;             /* `root` is known, from a series */
     bool broken_off;           /* the integration was stopped on purpose: no failure */
-    qdot_vec(qdot_root) roots; /* those at t_act */
-    qdot_vec(qdot_root) fired; /* those that ended the piece before */
+    qdot_vec(qdot_root) roots; /* the roots at t_act */
+    qdot_vec(qdot_root) fired; /* the roots that ended the piece before */
     qdot_vec(size_t) pushed;   /* surfaces of contacts that lasted, into which what ended it has pushed the motion */
     qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
     /* occurrences, and time spans in which they are lost in rounding, noted before this step */
@@ -105,7 +105,7 @@ typedef struct {
     /* Reading within the step. */
     qdot_watch_reader reader;
     const qdot_ode_expanded *expanded;
-    qdot_trajectory step; /* its two ends */
+    qdot_trajectory step; /* the two ends of the step */
     qdot_trajectory_cursor *cursor;
     double *y;      /* [n] scratch */
     size_t resting; /* the event of a persistent contact; SIZE_MAX: none was found in this piece */

@@ -24,7 +24,7 @@ typedef struct qdot_run qdot_run;
 
 typedef struct {
     const char *method;
-    double tol, t0, t1;            /* t1 where it ended */
+    double tol, t0, t1;            /* t1: where the run ended */
     size_t steps, rejected, evals, jacobians, factorizations;
     double cpu;                    /* s, the integration itself */
     double cpu_total;              /* s, with derivation, lowering, error estimate */

@@ -24,7 +24,7 @@ struct qdot_run {
     /* Of a run far from t = 0 (sim/course/run-time.h), whose times here are t less `origin`; else 0: */
     double origin;
     double *times;            /* [points] t at the points of the course */
-    qdot_run_report *told;    /* the report, its times in t */
+    qdot_run_report *told;    /* the report with times in t, not in s = t - origin */
     bool turns;           /* of the request */
     bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
     int t0_side, t1_side; /* sign of the exact limit less t0, t1 */
@@ -57,7 +57,7 @@ struct qdot_run {
     double within[2]; /* chart jump beyond them */
     struct qdot_precise_pair *precise; /* with `digits`: the run itself; course.tr holds its
                                           points as doubles */
-    qdot_expr *exact;                  /* [2n] its end state */
+    qdot_expr *exact;                  /* [2n] the exact end state of a run with digits */
 };
 
 /* run->notice, for one more line. */

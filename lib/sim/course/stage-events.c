@@ -37,7 +37,7 @@ find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_e
         if (qdot_expr_contains(p->pool, f, p->inputs[k]))
             e->positions = e->velocities = true;
     }
-    for (size_t i = 0; parameter && p->massless && i < p->n - p->n_states; i++) /* their equations are kept too */
+    for (size_t i = 0; parameter && p->massless && i < p->n - p->n_states; i++) /* the equations of massless coordinates are kept as constraints are */
         if (p->massless[i] && qdot_expr_contains(p->pool, p->f[i], p->inputs[k])) {
             e->velocities = true;
             e->positions = e->positions || qdot_massless_kind(p, i) == QDOT_HOLONOMIC;

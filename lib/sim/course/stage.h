@@ -20,7 +20,8 @@ typedef struct {
     bool keeps_speed; /* it changes nothing on which the speed of its function depends */
     bool moved;       /* its function is not that of the event, which a change of places or parameters has moved */
     qdot_tape *rates; /* from q, q', t, q'': g' of the function g of the event, g'' (0 if g holds q'), dg/dq [n] */
-    struct qdot_staged_event *forward; /* the event as it is stated; its targets are those of the event that undoes it */
+    /* the event as it is stated; its targets are those of the event that undoes it */
+    struct qdot_staged_event *forward;
 } qdot_staged_undoing;
 
 typedef struct qdot_staged_event {
@@ -35,7 +36,7 @@ typedef struct qdot_staged_event {
     size_t *targets; /* [changes] indices in y */
     qdot_tape *then; /* the new values from q, q', t, q''; NULL: no assignments */
     bool accelerations; /* `then` reads q'' */
-    bool positions, velocities; /* `then` may break constraints on these */
+    bool positions, velocities; /* `then` may break constraints on positions, on velocities */
     qdot_staged_undoing *undoing; /* NULL: time goes on, or the event changes nothing */
 } qdot_staged_event;
 

@@ -421,7 +421,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
     qdot_status status;
 
-    if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* what ended it is not known */
+    if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* the piece ended without a known root */
         return beyond_doubles(tr->t[last]);
     s->course->segment_of[k] = segment;
     QDOT_TRY(qdot_vec_push(&s->segments, ((qdot_precise_segment){

@@ -30,7 +30,7 @@ typedef struct {
     size_t near, near_segment; /* point expanded last (qdot_precise_at), and its segment */
     qdot_status status;
     qdot_domains *domains; /* checked along the run; NULL for the companion */
-    double *y;             /* [2n] scratch for that check */
+    double *y;             /* [2n] scratch for the check of domains */
 } qdot_precise_side;
 
 typedef struct qdot_precise_pair qdot_precise_pair;

@@ -23,7 +23,7 @@ static const double moved_by = 1e-13;
 enum {
     first_digits = 19,    /* of the pair that measures the amplification */
     guard_digits = 3,
-    companion_digits = 3, /* that it has more */
+    companion_digits = 3, /* by which the companion has more digits */
     companion_orders = 5,
     guard_bits = 32,
     most_passes = 8

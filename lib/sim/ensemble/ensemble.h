@@ -25,7 +25,7 @@ typedef struct qdot_ensemble qdot_ensemble;
 typedef struct {
     qdot_run_status status; /* QDOT_RUN_DONE or QDOT_RUN_FAILED */
     const char *reason;     /* NULL when done; valid until the next _run or _free */
-    double t;               /* where it ended */
+    double t;               /* the time at which the member ended */
     size_t steps, rejected;
     double error; /* of the end state, over max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;

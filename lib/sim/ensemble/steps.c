@@ -19,9 +19,9 @@ typedef struct {
     size_t passed, next;       /* times behind it; and with the step that is tried */
     bool doubtful;             /* in that step */
     qdot_vec(qdot_root) roots; /* of that step */
-    double *end;               /* [2N] the state at its end */
+    double *end;               /* [2N] the state at the end of the step */
     double *x;                 /* [2N x STRIDE] its series, for the watch */
-    double *y;                 /* [2N] the state at its start */
+    double *y;                 /* [2N] the state at the start of the step */
     qdot_ode_series series;
     qdot_ode_system system;
     qdot_ode_expanded step;
@@ -34,7 +34,7 @@ struct qdot_ensemble_steps {
     size_t n, varied, N;  /* coordinates; parameters; both */
     size_t stride;        /* of the series of the system, in groups */
     size_t asked;         /* occurrences of all events that are told */
-    qdot_repeated *zeros; /* [events] what is watched for them */
+    qdot_repeated *zeros; /* [events] the functions whose zeros are the events */
     size_t *first;        /* [events] where those of an event begin */
     lane lanes[L];
     size_t members;

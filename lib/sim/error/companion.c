@@ -446,7 +446,7 @@ add_delays(const qdot_course *c, double *floor)
         next = qdot_course_systems(c) + tr->pieces.at[end->piece + 1].mode;
         if (old->rhs(end->t, tr->y + (first - 1) * tr->n, before, old->user) != QDOT_OK
             || next->rhs(end->t, tr->y + first * tr->n, behind, next->user) != QDOT_OK)
-            continue; /* it is a floor only */
+            continue; /* the floor of the error may lack this part */
         for (size_t i = 0; i < tr->n; i++)
             floor[i] += end->late * fabs(behind[i] - before[i]);
     }
@@ -502,7 +502,7 @@ qdot_run_end_apart(qdot_run *run, double *apart, bool *known)
         for (size_t i = 0; i < n && *known; i++)
             apart[c * n + i] -= tr->y[(tr->count - 1) * n + i];
     }
-    for (size_t i = 0; i < n && !run->has_twin; i++) /* the other side */
+    for (size_t i = 0; i < n && !run->has_twin; i++) /* with one companion only, the other side is its mirror image */
         apart[n + i] = -apart[i];
     return QDOT_OK;
 }
@@ -523,7 +523,7 @@ qdot_run_end_error(qdot_run *run, double *difference)
     run->report.error = run->report.scaled_error = NAN;
     if (!known)
         return find_doubt(run, &run->companion);
-    of = qdot_calloc(3 * tr->n, sizeof *of); /* their ends, and what delays make */
+    of = qdot_calloc(3 * tr->n, sizeof *of); /* the end states of both companions; the effect of delayed events */
     status = of ? end_of(run, &run->companion, ends, of, &known) : QDOT_ENOMEM;
     if (status == QDOT_OK && known && run->has_twin)
         status = end_of(run, &run->twin, ends + 1, of + tr->n, &known);

@@ -25,14 +25,14 @@ enum { SAMPLES = 64, MOST_POINTS = 4096, LEAST_POINTS = 32 };
 
 typedef struct {
     const qdot_run *run;
-    const qdot_course *other; /* a companion of it */
+    const qdot_course *other; /* a companion of the run */
     qdot_trajectory_cursor *companion;
     double *y;      /* [n] the companion's */
     size_t *point;  /* [points] of the run, in order: those that are compared */
-    double *t, *d;  /* [points] their times; distances there */
+    double *t, *d;  /* [points] times of the points; distances of run and companion at these */
     size_t points, most; /* there are, and at most so many are compared at first */
     size_t read;         /* states of the companion */
-    size_t *pieces; /* [points] their pieces */
+    size_t *pieces; /* [points] the piece that each point lies in */
     double threshold;
 } search;
 
@@ -151,7 +151,7 @@ search_measure(search *s)
         while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)
             piece++;
         if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n)
-            break; /* it did not come so far */
+            break; /* the companion ended before */
         QDOT_TRY(measure_at(s, k, piece, &d));
         s->point[s->points] = k;
         s->pieces[s->points] = piece;

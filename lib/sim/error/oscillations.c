@@ -28,7 +28,7 @@ struct qdot_oscillations {
     const qdot_course *course;
     double longest; /* step */
     double lost;    /* a at the start */
-    double damping; /* least |Re lambda| there */
+    double damping; /* the least |Re lambda| at the point */
     double *J, *f;  /* [n x n], [2n] room */
     double complex *lambda, *v, *c; /* [n], [n x n], [n] */
 };

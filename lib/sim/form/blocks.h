@@ -10,7 +10,7 @@ typedef struct {
     bool constant;   /* factored once */
     double *a;       /* [n x n] M, then its factors; bordered: [M A^T; A 0] */
     double *x;       /* [n] for whoever solves; scratch of _invert */
-    qdot_ldlt ldlt;  /* of a plan that is indefinite */
+    qdot_ldlt ldlt;  /* factors if M is not positive definite */
     size_t m;        /* n, filled up to full vectors */
     double *inverse; /* [m x n], once asked for; else NULL */
     double *lower;   /* [m x n] its scratch; then the product of [m] */

@@ -35,7 +35,7 @@ struct qdot_ensemble_series {
     double *by; /* [solved groups] */
     double unit[L];
     bool shaken;
-    qdot_tape *shaken_masses; /* of a residual; NULL: its own */
+    qdot_tape *shaken_masses; /* a shaken tape of M for a residual; NULL: the plan's own */
     double *in, *out, *work;  /* groups */
     qdot_lanes_motion *code;  /* NULL: kernels run */
 };

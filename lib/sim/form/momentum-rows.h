@@ -17,7 +17,7 @@ typedef struct {
     const qdot_plan *plan;
     qdot_expansion at;
     const double *hi, *lo; /* [n_kept] the momenta, borrowed; NULL: 0 */
-    qdot_momentum *drawn;  /* [n_kept] as they were drawn last */
+    qdot_momentum *drawn;  /* [n_kept] the momenta as they were rounded last */
     const double **rates;  /* [n_kept] series of the velocities that follow */
     bool shaken;           /* of the momenta hi alone */
 } qdot_momentum_rows;

@@ -30,11 +30,11 @@ typedef struct {
     int refined;                /* and orders up to this one are; else NULL, and: */
     qdot_blocks solvers;
     size_t blocks; /* of the motion, */
-    size_t *block; /* [blocks] by their number in `solvers` */
+    size_t *block; /* [blocks] the number in `solvers` of each block */
     qdot_motion_matrix_entry *entries; /* [n_entries] those that move; none: K is of `masses` */
     size_t n_entries;
     const qdot_tape *masses; /* NULL: K is of the entries */
-    qdot_tape *shaken;       /* these, shaken; NULL: as they are */
+    qdot_tape *shaken;       /* a shaken copy of `masses`; NULL: none */
     double *in, *out, *work; /* of `masses` */
     double *by;              /* [solved] order k of what is solved for */
 } qdot_motion_matrix;

@@ -17,7 +17,7 @@ enum { most_coded = 6 };
 struct qdot_motion_series {
     const qdot_plan *plan;
     const qdot_motion *motion;
-    qdot_expansion at; /* its program */
+    qdot_expansion at; /* the expansion of the program */
     qdot_motion_matrix K;
     qdot_momentum_rows momenta;
     qdot_lanes_motion *code; /* by lanes; NULL: none */

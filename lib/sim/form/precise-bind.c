@@ -28,7 +28,7 @@ typedef struct {
 struct qdot_precise_bind {
     const qdot_plan *plan;
     qdot_motion own;
-    const qdot_motion *motion; /* that, or Hamilton's */
+    const qdot_motion *motion; /* the program of the motion, or of Hamilton's equations */
     qdot_precise *series;
     qdot_precise *momenta; /* of the latter, from q, q', t; */
     int late;              /* it has order k of velocities at stage k, else k + 1 */

@@ -30,7 +30,7 @@ typedef struct {
     double w;
     signed char side; /* where the exact w lies beside it */
     double low;       /* how far */
-    qdot_expr exact;  /* what it is */
+    qdot_expr exact;  /* the weight w as an expression */
 } qdot_residual_weight;
 
 typedef struct {

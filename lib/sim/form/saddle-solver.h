@@ -27,7 +27,7 @@ typedef struct {
     const qdot_plan *plan;
     qdot_saddle matrix;        /* of q'', then -lambda */
     qdot_saddle_series *M, *A; /* [n_masses], [n_slopes] */
-    double best;               /* its best quality so far */
+    double best;               /* the best quality of the factorisation so far */
     double *weak;              /* [m + n] scratch */
 } qdot_saddle_solver;
 

@@ -13,7 +13,7 @@
 typedef struct {
     double coordinates;
     double length; /* steps of programs that kernels carry out, each as often as it is */
-    double convolutions; /* of these, an order */
+    double convolutions; /* convolutions of these steps, per order */
     double calls;        /* of elementary functions, once an expansion */
     double operations;   /* of the tape of K */
     /* Of blocks of n >= 2 unknowns that are solved for together: sums of n, n^2, n^3; of

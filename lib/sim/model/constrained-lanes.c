@@ -16,20 +16,20 @@ enum { L = QDOT_LANES, most_iterations = 6, LEVELS = 2 };
 
 /* Rows that restrict positions, or velocities. */
 typedef struct {
-    const qdot_tape *tape; /* their residuals */
+    const qdot_tape *tape; /* the residuals of these rows */
     size_t m;
     size_t *place; /* [rows of the constraints] among these; SIZE_MAX: it is none of them */
 } level;
 
 struct qdot_constrained_lanes {
     const qdot_constraints *c;
-    size_t n, numbers; /* coordinates; parameters behind them */
+    size_t n, numbers; /* coordinates; parameters, which follow them in the state */
     const qdot_batch_kernels *kernels;
     qdot_tape *copies[3]; /* shaken; NULL: the constraints' */
     const qdot_tape *metric;
     level levels[LEVELS];
     double *in;              /* q, parameters, q', their rates, t */
-    double *M, *A, *work;    /* as the metric's outputs have them */
+    double *M, *A, *work;    /* in the order of the outputs of the metric */
     double *K, *x;           /* [n + m], factored; right-hand side, solution */
     double *residual, *size; /* [m] sum |A_ki| max(|x_i|, least) */
 };

@@ -59,7 +59,7 @@ typedef struct {
  * state, as far as it is known. */
 typedef struct {
     bool factored;
-    double rate; /* INFINITY: it is not */
+    double rate; /* INFINITY: not known */
 } convergence;
 
 /* Add the effect of the carry, by A, if A is evaluated. */

@@ -6,7 +6,7 @@
 #include "sim/model/equations.h"
 
 typedef struct {
-    size_t coordinate; /* its index */
+    size_t coordinate; /* the index of the coordinate */
     double lo, hi;     /* -inf, inf: no bound */
     bool lo_open, hi_open;
     char *text; /* "0 < theta < pi" */

@@ -41,8 +41,8 @@ typedef enum {
     QDOT_FORM_NONE,        /* no series: the equations switch */
     QDOT_FORM_EXPLICIT,    /* M q'' = f, by the program plan->motion */
     QDOT_FORM_RESIDUAL,    /* d'Alembert's residual, by the program of plan->residual */
-    QDOT_FORM_TREE,        /* the same along its tree (sim/form/tree-series.h) */
-    QDOT_FORM_CONSTRAINED, /* constraints by their own coefficients */
+    QDOT_FORM_TREE,        /* d'Alembert's residual along its tree (sim/form/tree-series.h) */
+    QDOT_FORM_CONSTRAINED, /* with the constraints themselves expanded as series */
     QDOT_FORM_ELIMINATED,  /* multipliers eliminated beforehand: plan->eliminated */
     QDOT_FORM_BORDERED     /* multipliers solved for by machine code: plan->bordered */
 } qdot_form;
@@ -63,7 +63,7 @@ struct qdot_plan {
     /* [m] the scene's lambda of each constraint, and what it is of those among the inputs: mu times
      * it where a run keeps mu f in place of f (mech/dynamics/integrated.h). */
     qdot_expr *multipliers, *scaled;
-    bool rescaled;     /* one of these differs */
+    bool rescaled;     /* some `scaled` differs from its multiplier */
     char **names;      /* [n] of the coordinates; owned */
     qdot_expr *M;      /* [n x n] M, f and tape are NULL if only the tree is used */
     qdot_expr *f;      /* [n]                                   (sim/plan/tree-alone.h) */

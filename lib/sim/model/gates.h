@@ -19,7 +19,7 @@
 
 /* The sign of a difference by the side of a surface: u, or -u. */
 typedef struct {
-    size_t surface; /* SIZE_MAX: it does not move */
+    size_t surface; /* SIZE_MAX: the argument does not change along a run */
     int turned;     /* -1: the surface has -u; else 1 */
     uint8_t sign;   /* what is known of that of one that does not move: QDOT_GE0 ... */
     qdot_expr u;    /* the difference */
@@ -38,7 +38,7 @@ typedef struct {
     qdot_expr node;
     qdot_gate_kind kind;
     uint16_t op; /* of the node, */
-    uint32_t n;  /* and how many arguments it has */
+    uint32_t n;  /* the number of arguments */
     size_t first; /* of its arguments in `arguments`: gates, SIZE_MAX for those that are none */
     size_t pair;  /* of its pairs */
 } qdot_gate;

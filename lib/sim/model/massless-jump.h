@@ -17,7 +17,7 @@
 typedef struct {
     size_t w;
     const qdot_expr *G;       /* [w] */
-    const size_t *coordinate; /* [w] the index of its coordinate */
+    const size_t *coordinate; /* [w] the index of the massless coordinate of each unknown */
     const bool *of_positions; /* [w] */
 } qdot_massless_rows;
 

@@ -411,7 +411,7 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
     qdot_expr to[QDOT_PUCK_MOST], rest = replace(pool, *e, &near);
     qdot_status status;
 
-    if (rest == *e) /* it holds no direction */
+    if (rest == *e) /* the expression does not contain the direction */
         return QDOT_OK;
     for (size_t a = 0; a < puck->k; a++)
         to[a] = qdot_add(pool, qdot_sub(pool, puck->symbol[a], puck->rest[a]),

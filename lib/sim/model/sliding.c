@@ -215,7 +215,7 @@ fill(sliding *s)
         if (holds_share(s, u))
             return cannot("one switch is inside another");
         QDOT_TRY(fill_row(s, r, u, holds(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
-        for (size_t i = 0; i < s->n && x->contact; i++) { /* its reaction */
+        for (size_t i = 0; i < s->n && x->contact; i++) { /* the reaction of the contact */
             const qdot_expr slope = s->A[r * s->size + i];
 
             s->A[i * s->size + r] =
@@ -341,7 +341,8 @@ solve(sliding *s)
 
 /* --- coordinates without mass --------------------------------------------------------- */
 
-/* Share j, whose slope in equation i of a massless coordinate is B, from that equation. Then u = 0 stands in its place. */
+/* Share j, whose slope in equation i of a massless coordinate is B, from that equation. Then u = 0 stands in its
+ * place. */
 static qdot_status
 sliding_settle(sliding *s, size_t i, size_t j, qdot_expr B)
 {
@@ -379,7 +380,8 @@ is_own(const sliding *s, size_t i, size_t j)
     return qdot_expr_contains(p->pool, u, p->inputs[i]) || qdot_expr_contains(p->pool, u, p->inputs[p->n + i]);
 }
 
-/* Solve the equations of massless coordinates for the shares in them, first where a share holds the coordinate itself. */
+/* Solve the equations of massless coordinates for the shares in them, first where a share holds the coordinate
+ * itself. */
 static qdot_status
 settle_massless(sliding *s)
 {

@@ -17,11 +17,11 @@ typedef struct {
     size_t n;
     const qdot_expr *targets;
     qdot_expr *unknown; /* [n] symbols */
-    qdot_expr *after;   /* [n] `then` of them */
+    qdot_expr *after;   /* [n] the values that `then` gives the targets */
     qdot_expr *before;  /* [n] what they are; NIL: not found yet */
     qdot_expr f;        /* of the unknowns */
     bool forgot;        /* f has been used as the equation of one of them */
-    qdot_expr image;    /* 0 where that may have happened */
+    qdot_expr image;    /* an expression that is 0 at states that the event may have left */
 } undoing;
 
 static bool

@@ -253,7 +253,7 @@ qdot_plan_choose_constrained(qdot_plan *p, const qdot_run_request *request)
     double least;
 
     QDOT_TRY(measure_constrained(p));
-    if (request->digits > 0 || p->n_massless > 0) /* the others need a regular M */
+    if (request->digits > 0 || p->n_massless > 0) /* other forms need an invertible M */
         return QDOT_OK;
     own = p->expansions;
     least = qdot_cost_constrained_steps(p, &own, request->tol);

@@ -32,10 +32,10 @@ typedef struct {
     qdot_facts facts;
     size_t n, h;
     bool *cyclic;         /* [n] */
-    bool *gone;           /* [n] its velocity is eliminated */
+    bool *gone;           /* [n] the velocity of the coordinate is eliminated */
     size_t *order;        /* [h] coordinates in the order of elimination */
     qdot_expr *M, *f;     /* [n x n], [n] after the eliminations so far */
-    qdot_expr *kept;      /* [n] p_c as a symbol */
+    qdot_expr *kept;      /* [n] the symbol of the momentum p_c */
     qdot_expr *momentum;  /* [n] dL/dq_c' */
     qdot_expr *rest;      /* [n] p_c - b_c after the eliminations so far */
     qdot_expr *above;     /* [n] pivot q_c' in p and in velocities not eliminated before it */

@@ -27,7 +27,7 @@ typedef struct {
     const size_t *pieces;     /* of the courses, in this step */
     int nodes;
     double first;             /* the value where the range begins */
-    double largest, smallest; /* so far */
+    double largest, smallest; /* the extrema found so far */
     long double integral;
     double highest, lowest;   /* bounds for values that were not evaluated */
     double rough;             /* error of the values */
@@ -36,12 +36,12 @@ typedef struct {
     double noise;             /* evaluation noise in this step */
     double blur;              /* change of e by a change of the state within its accuracy there */
     double *least;            /* [inputs of the tape] sizes beside which they are rounding */
-    size_t parts;             /* of this step so far */
+    size_t parts;             /* the number of parts of this step so far */
     size_t most_parts;        /* limit of `parts`: lowered after a step that exceeded it */
     double typical;           /* size of the values in this step */
     double length;            /* of this step */
     bool above, below;        /* e is unbounded above, below, at the time `pole` */
-    bool diverges;            /* its integral is too */
+    bool diverges;            /* the integral of the expression is infinite, too */
     double pole;
     bool sought; /* qdot_range_seek was called in this step */
     bool begun;

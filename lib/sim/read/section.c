@@ -23,7 +23,7 @@ static const double slope_over = 0x1p-28;
 typedef struct {
     const qdot_course *course;
     qdot_crossings at;
-    double *t; /* their times */
+    double *t; /* the times of the crossings */
     double lost;
     qdot_reader reader;
 } side;
@@ -230,7 +230,7 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
         x.sides[i].course = courses[i];
         x.n_sides = i + 1;
         status = find_crossings(&x, &x.sides[i], limits);
-        if (i > 0 && qdot_reader_has_nothing(status)) { /* a companion that tells nothing */
+        if (i > 0 && qdot_reader_has_nothing(status)) { /* the companion has no value here: it gives no error */
             x.n_sides = 1;
             status = QDOT_OK;
             break;

@@ -47,7 +47,7 @@ measure_at(qdot_reader *r, double t, double *before, nearness *x)
     const qdot_status status = qdot_reader_at(r, SIZE_MAX, t, &value);
 
     if (qdot_reader_has_nothing(status)) {
-        x->least = 0; /* M is singular just there */
+        x->least = 0; /* the run is at a place where M is singular */
         return QDOT_OK;
     }
     QDOT_TRY(status);

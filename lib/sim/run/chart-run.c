@@ -56,7 +56,7 @@ typedef struct {
     double *xy;   /* [4 m + 2 n] x, y of the angles with all signs 1, -1; then the roots w, and
                      the squares of their slopes */
     double *now;  /* [m] the angles at `t`, continued, */
-    double *next; /* [m] and those read */
+    double *next; /* [m] the angles at the next point */
     double *most; /* [m + n] the largest distance so far, or slope of a root */
     long *signs;  /* [n] at `t` */
     uint64_t passed; /* those whose place is passed, at the next point */
@@ -429,7 +429,7 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     if (!isnan(r->error))
         r->error = largest;
     r->scaled_error = r->error;
-    r->scales = NULL; /* those of the chart */
+    r->scales = NULL; /* they are of the coordinates of the chart */
     r->n = x->n;
     r->coordinates = x->coordinates;
     r->q = x->end;
@@ -437,7 +437,7 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     r->drifts = run->drifts.at;
     r->n_drifts = run->drifts.energy ? 1 : 0;
     r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
-    r->m = r->independent = 0; /* those of the chart alone */
+    r->m = r->independent = 0; /* only the chart has these constraints */
     r->constraint_drift = r->velocity_drift = NAN;
     return QDOT_OK;
 }

@@ -40,7 +40,7 @@ find_angles(const qdot_run_request *request, qdot_run_chart *x)
             c->of->pool, qdot_chart_at_start(c->of, request, c->moved.at[i].given), x->angles + i);
 
         if (status == QDOT_EDOMAIN)
-            x->angles[i] = 0; /* it has no direction there */
+            x->angles[i] = 0; /* the angle is undefined at the singular place */
         else
             QDOT_TRY(status);
     }

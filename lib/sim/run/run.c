@@ -470,7 +470,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->stage, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_energy(run, tol);
-    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* there is something to tell of */
+    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* the run has got somewhere: report that part */
         *interrupted = true;
         status = QDOT_OK;
     }

@@ -26,8 +26,8 @@ typedef struct {
     size_t n;
     size_t m;
     qdot_expr *F;        /* [m] */
-    size_t *constraint;  /* [m] whose F it is */
-    double *distance;    /* [m] as the start was */
+    size_t *constraint;  /* [m] the constraint to which each F belongs */
+    double *distance;    /* [m] |F| at the start as it was given */
     bool *free;          /* [n] */
     qdot_nearest near;
     const double *before; /* [2n] */

@@ -31,7 +31,7 @@ typedef struct {
     double *growth;        /* [windows x k] */
     bool alone;            /* steps end nowhere but where the integration says */
     bool stopped;
-    char reason[400]; /* why it ended early */
+    char reason[400]; /* why the integration ended early */
 } pursuit;
 
 void

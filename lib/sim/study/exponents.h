@@ -29,7 +29,7 @@ typedef struct {
     size_t n; /* exponents */
     double *value,
         *error; /* [n] in descending order; an error is NaN where the run ended too soon */
-    size_t windows;    /* that were reached */
+    size_t windows;    /* the number of windows that were completed */
     double *t;         /* [windows] time since the start, at their ends */
     double *course;    /* [windows x n] the sums up to there by that time */
     double steps, cpu; /* of the integration; its CPU seconds */

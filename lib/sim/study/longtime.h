@@ -47,7 +47,7 @@ typedef struct {
 
 typedef struct {
     const char *method; /* the only one; NULL: all */
-    double tol;         /* of all; 0: as above */
+    double tol;         /* the tolerance of all methods; 0: each its own */
     double budget;      /* work of a run, in about nanoseconds; 0: 1e10, of the only one without bound */
     size_t n, capacity;
     qdot_longtime_row *rows;

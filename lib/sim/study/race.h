@@ -17,7 +17,7 @@
 enum { QDOT_RACE_FORMULATIONS = 4, QDOT_RACE_TOLERANCES = 6 };
 
 typedef struct {
-    const char *method;        /* NULL: it did not run */
+    const char *method;        /* NULL: this formulation was not run */
     double tol, error;         /* NaN where the run failed */
     double energy, constraint; /* drifts; NaN: none */
     double cpu;                /* s, the integration; the least of several runs */

@@ -22,7 +22,7 @@ struct qdot_response {
     qdot_pool *pool;
     size_t n, n_parameters; /* coordinates; parameters among the unknowns */
     qdot_expr *parameters;  /* [n_parameters] */
-    size_t *place;          /* [n_parameters] their places among the unknowns */
+    size_t *place;          /* [n_parameters] the index of each parameter among the unknowns */
     qdot_tape *start;       /* from u: q, q' [2n], then their slopes by each unknown [k x 2n] */
     double *starts, *work;  /* [(1 + k) 2n], of the tape */
     double t0;              /* of the request */
@@ -41,7 +41,7 @@ struct qdot_response {
     qdot_run_request run_request;
     qdot_method_run run;
     qdot_course course;
-    double steps; /* of its runs so far */
+    double steps; /* the steps of all runs so far */
     qdot_expr *exprs; /* [m (1 + k)] each expression, then its slopes */
     qdot_reading reading;
     double *y, *out; /* [2 (1 + k) n + 2 n_parameters], [m (1 + k)] */

@@ -31,7 +31,7 @@ typedef struct {
     size_t K;              /* segments */
     qdot_flow flow;
     qdot_expr *parameters; /* [flow.p] among the unknowns */
-    size_t *place;         /* [flow.p] their places there */
+    size_t *place;         /* [flow.p] the index of each parameter among the unknowns */
     double *p;             /* [flow.p] */
     qdot_tape *tape;       /* [z + 1] start and period, of u [k] */
     double *tape_work;
@@ -208,7 +208,8 @@ moves(const shooting *x, const double *states)
     return false;
 }
 
-/* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best [2k]. */
+/* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best
+ * [2k]. */
 static qdot_status
 shooting_search(shooting *x, double trust, const double *u, double *best, double *off)
 {

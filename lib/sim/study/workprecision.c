@@ -45,7 +45,7 @@ typedef struct {
     size_t n;
     double *high, *low;
     double t_end;
-    bool stopped;     /* by an event, there */
+    bool stopped;     /* an event stopped the run at that time */
     double variation; /* of the motion (horizon.h) */
 } reference;
 

@@ -50,7 +50,7 @@ struct qdot_watch {
     qdot_tape *tape, *sizes; /* g; the sums of the magnitudes of their terms */
     qdot_tape *plain; /* g, where `tape` is shaken; else NULL */
     /* Values in sums of two doubles (watch-two.c). */
-    qdot_tape_two *two;   /* NULL until it is needed */
+    qdot_tape_two *two;   /* the tape of g in two doubles; NULL until it is needed */
     qdot_two *state_two;  /* [2n] scratch */
     struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
     bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
@@ -86,7 +86,7 @@ struct qdot_watch {
     size_t looked_at;   /* parts of all steps */
     double reach;       /* from the start of the step to the root that ended it; 0: none did */
     double part_before; /* the start of the part before the present one, in this step */
-    double direction;   /* of time in it */
+    double direction;   /* the direction of time in the step, 1 or -1 */
 
     /* The step's start, and the search so far. */
     double t, *y; /* [2n] */
@@ -105,7 +105,7 @@ struct qdot_watch {
     int *faded;      /* [m] the number of steps just before it, in a row, in which it was */
     double *faded_since; /* [m] the start of the first of these steps */
     double *most;    /* [m] the largest |g| at the ends of steps so far */
-    int nodes;       /* number that sufficed the last time */
+    int nodes;       /* the number of nodes that sufficed the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */
     double *fitted;  /* [m x QDOT_WATCH_NODES] Chebyshev coefficients of polynomials through the samples at */
     int *n_fitted;   /* [m] this number of nodes of the part; 0: not yet fitted */

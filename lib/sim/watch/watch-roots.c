@@ -485,7 +485,7 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 
     if (qdot_watch_zero(w, i) != 0)
         QDOT_TRY(qdot_watch_cross(w, p, i, sign, p->a, ends, &root, &found));
-    if (!found) /* it was before this step */
+    if (!found) /* the root lies before this step */
         root = (qdot_root){.function = i,
                            .t = p->a,
                            .way = sign,

@@ -21,7 +21,7 @@ typedef struct {
     double at;
     double zero; /* the time since which g is 0; NaN: it is not 0 */
     double from; /* the point that was evaluated before `at` */
-    int *sign;   /* the last that was not 0 */
+    int *sign;   /* the last sign of g that was not 0 */
 } walk;
 
 /* The root between two points, at the second of which g has the sign `way`. */
@@ -138,7 +138,7 @@ seek_least(walk *x, double *t, double g)
         return cross(x, t[1], p->b, sign);
     }
     if (fabs(t[1] - p->a) <= few_doubles * fabs(t[1]))
-        return QDOT_OK; /* it comes from there */
+        return QDOT_OK; /* g starts at this root */
     QDOT_TRY(is_at_zero(x, t[1], g, &touches));
     if (!touches)
         return QDOT_OK;

@@ -5,7 +5,7 @@
 
 struct qdot_watch_turn {
     qdot_tape *tape; /* of `turn`; NULL: f goes as g_i does */
-    double *in;      /* of the tape, then its work */
+    double *in;      /* the inputs of the tape, then its work space */
     bool half;
 };
 

@@ -108,7 +108,7 @@ resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot
         if (!w->live[i])
             continue;
         p->at_end = at_end[i];
-        (void)qdot_watch_fit(w, p, i, nodes); /* it was good */
+        (void)qdot_watch_fit(w, p, i, nodes); /* fit again with the number of nodes that sufficed */
         QDOT_TRY(qdot_watch_resolve(w, p, i, nodes, v));
     }
     return QDOT_OK;
