@@ -17,8 +17,8 @@
 typedef struct {
     FILE *file;
     const char *path; /* borrowed; "-" is standard output */
-    char *beside;     /* what is written, to become .. */
-    char *place;      /* .. this file; NULL: it is written itself */
+    char *beside;     /* the name of the file that is written: path.part */
+    char *place;      /* the file that it becomes by renaming at the end; NULL: the file is written directly */
 } qdot_sink;
 
 /* Begin. QDOT_EIO with the system's reason; QDOT_EINVAL for an empty path; QDOT_ENOMEM. */

@@ -17,10 +17,11 @@ typedef struct {
     double mu, length;         /* of the step, in units of the unknowns */
     double strongest;          /* the largest singular value of the search */
     double damping;            /* how strongly |F| shortens steps; 0: only the reach does */
-    bool gave_up;              /* the search ended because |F| did not halve in as many steps as it may take for that */
+    /* the search ended because |F| did not halve in as many steps as it may take for that */
+    bool gave_up;
     double order;              /* of the zero, by the last steps */
-    double *last_u, *last;     /* [n] where the order was taken last, and `whole` there, */
-    bool has_last;             /* if it was */
+    double *last_u, *last;     /* [n] the place at which `order` was measured last, and `whole` there, */
+    bool has_last;             /* whether these two are set */
     double reach;              /* the step is no longer than that where J is nearly singular */
     double *step, *whole;      /* [n] the step, and what it were by mu = 0, of any length */
     double *from_error;        /* [n] what errors of F make of it */

@@ -139,7 +139,7 @@ qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const dou
     return true;
 }
 
-/* Below which singular values of J at a zero are errors of J. */
+/* The bound below which singular values of J at a zero may be errors of J; 0: J is exact. */
 static double
 slope_noise(const qdot_zero_search *s)
 {

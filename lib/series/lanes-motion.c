@@ -136,7 +136,7 @@ write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k
     }
 }
 
-/* A block's unknowns, -K^-1 E. */
+/* Write the solution -K^-1 E for the unknowns of block b at order k. */
 static void
 write_block(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
 {

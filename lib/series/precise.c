@@ -208,7 +208,8 @@ qdot_precise_stage(qdot_precise *p, int k)
     }
 }
 
-/* The notes of a step's rows from those of what it reads, which are 0 where that is known already. */
+/* Find the changes of the rows of a step from the changes of its operands; operands that were known already do not
+ * change. */
 static void
 note_step(qdot_precise *precise, const qdot_program_step *i, int k)
 {

@@ -160,7 +160,7 @@ qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
     }
 }
 
-/* A row takes on its note, at the order that it has at stage k. */
+/* Add the noted change of a row to its coefficient of that order. */
 static void
 two_apply_note(qdot_tape_two *t, qdot_program_row row, int order)
 {

@@ -491,7 +491,7 @@ never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
            qdot_condition(r->pool, qdot_neg(r->pool, u), true, facts) == QDOT_TRUE;
 }
 
-/* Whether a place lies where one of these is 0; *may: that is not known. */
+/* *yes: one of the `zeros` is 0 at an equilibrium; *may: one may be, that is not known. */
 static qdot_status
 lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
 {

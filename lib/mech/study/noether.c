@@ -434,7 +434,8 @@ noether_add_unknown(search *f, int kind, size_t i, size_t j)
     return qdot_vec_push(&f->unknowns, u);
 }
 
-/* Those not conserved already. What comes late is preferred: simple before involved. */
+/* List the unknown coefficients of symmetries that are not conserved quantities already. Later ones are preferred
+ * as pivots, so complicated ones come first. */
 static qdot_status
 list_unknowns(search *f, const bool *cyclic, bool energy)
 {

@@ -44,8 +44,8 @@ typedef struct {
 typedef struct {
     const qdot_path_point *a;
     double from, to;
-    bool changes; /* what it is told by has clearly different signs there */
-    bool stays;   /* clearly the same */
+    bool changes; /* the test function clearly has different signs at both ends */
+    bool stays;   /* the test function clearly has the same sign at both ends */
     bool jumps;   /* it jumps from one to the other: the points lie on two curves */
 } qdot_bifurcation_bracket;
 

@@ -13,7 +13,7 @@
 static const double first_step = 2e-3, far_away = 100;
 /* Tangents of neighbouring points turn by less than acos of this. */
 static const double straight = 0.99;
-/* A chord is at most so much longer than its step along the tangent: another curve is further off. */
+/* A point whose distance exceeds the step by more than this factor belongs to another curve. */
 static const double longer = 1.02;
 /* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
 static const double turned = 0.5, grown = 1;

@@ -23,8 +23,8 @@ enum { QDOT_PATH_REASON = 160 };
 /* A point of a curve, with the direction in which it is followed. */
 typedef struct {
     double *y, *t;     /* [width], [n + 1] in one block, owned */
-    double det;        /* the determinant, by the tangent before */
-    long growing;      /* motions near by that grow; -1: unknown */
+    double det;        /* the determinant of F' bordered by the tangent of the point before */
+    long growing;      /* the number of directions in which neighbouring motions depart; -1: unknown */
     int flip;          /* of orbits: its sign changes where a multiplier passes -1; 0: unknown */
     bool rests;        /* of orbits: it is as small as a place at rest; nothing lies behind it; */
     double phase, growth; /* of orbits: the sum of the angles of multipliers, of the logarithms of those that grow */

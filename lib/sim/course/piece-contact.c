@@ -10,7 +10,8 @@
 
 /* Two places count as equal up to this, and two velocities without series. */
 static const double alike = 1e-9;
-/* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides them. */
+/* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides
+ * them. */
 static const double least_height = DBL_EPSILON / 8;
 /* The same of a place that moves with time: where it is at a root, rounding of that hides. */
 static const double least_moving = 0x1p10 * DBL_EPSILON;
@@ -90,7 +91,8 @@ size_of_place(const qdot_piece *x, const skipped *s)
     return size;
 }
 
-/* How high the next flight is; how long it and all that follow take: flights of 2 |u'|/pull, each shorter by `share`. */
+/* How high the next flight is; how long it and all that follow take: flights of 2 |u'|/pull, each shorter by
+ * `share`. */
 static double
 height(const skipped *s)
 {
@@ -122,7 +124,8 @@ move_onto(qdot_piece *x, size_t surface, int order, skipped *s)
     return QDOT_OK;
 }
 
-/* Fill s->along and s->pull by d [n], q'' of the contact less that without, of length `size`; 0: nothing presses it. */
+/* Fill s->along and s->pull from d [n], the difference of q'' with and without the contact; `size` is its length,
+ * 0 if no force presses. */
 static qdot_status
 find_pull(qdot_piece *x, size_t surface, const double *d, double size, skipped *s)
 {
@@ -142,7 +145,8 @@ find_pull(qdot_piece *x, size_t surface, const double *d, double size, skipped *
     return QDOT_OK;
 }
 
-/* The contacts that last beside it, which the impulse of the event has pushed into: by theirs. None of them moves another. */
+/* The contacts that last beside it, which the impulse of the event has pushed into: by theirs. None of them moves
+ * another. */
 static qdot_status
 keep_others(qdot_piece *x, size_t surface, double *d, skipped *s)
 {

@@ -167,7 +167,7 @@ start_of(const response *r, double *e)
     return low;
 }
 
-/* What ended the last piece is uncertain by that time. */
+/* Raise the uncertainty of the times at which the last piece ended to `late`. */
 static void
 leave_late(qdot_piece *x, double late)
 {

@@ -63,8 +63,8 @@ typedef struct {
     bool *functions_on; /* [functions] the piece starts on a zero of it */
     int *before;        /* [functions] sign just before the start; 0: unknown */
     int *signs;         /* [functions] of the mode before, where its piece ended */
-    int *left;          /* [functions] and just behind the start of the step that ended it */
-    bool *touching;     /* [functions] and was 0 where that piece ended, but for rounding */
+    int *left;          /* [functions] the sign just behind the start of the step that ended the piece before */
+    bool *touching;     /* [functions] the value was 0, within rounding, where the piece before ended */
     bool *untouched;    /* [functions] what ended that piece left its value as it was; it did not end it, or an event
                            behind it changed the state once more */
     bool *jumps;        /* [functions] the jump of coordinates without mass at the start changes its value */

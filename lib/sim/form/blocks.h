@@ -51,7 +51,7 @@ QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);
 void qdot_blocks_apply(const qdot_blocks *b, size_t k, double *x);
 
-/* A lower triangle by rows into block k; returns what stands behind it. */
+/* Copy a lower triangle, stored by rows, into block k. Returns the address behind it. */
 const double *qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from);
 
 /* The failure of a block whose row has no mass. */

@@ -14,7 +14,7 @@ struct qdot_guarded {
     size_t n, m;
     bool as_code; /* `own` is worth its time as machine code only: */
     int p;        /* before there is some, of order p, the other is taken */
-    bool looked;  /* at the first state, by `own` */
+    bool looked;  /* `own` has measured its rows at the first state */
     qdot_ode_series series;
 };
 

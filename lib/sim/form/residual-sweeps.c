@@ -66,7 +66,7 @@ align(const builder *b, const uint32_t *from, size_t step, size_t *to)
     return qdot_taylor_wide_align(s->places, s->slots, b->at, to);
 }
 
-/* The program's output that is applied to each coordinate, as they stand in the tree. */
+/* Find the output of the program that is the applied force on each coordinate, in the order of the tree. */
 static qdot_status
 align_applied(const builder *b)
 {
