@@ -60,7 +60,7 @@ add_blanks(qdot_text *out, size_t n)
     qdot_text_format(out, "%*s", (int)n, "");
 }
 
-/* Without its marks. */
+/* Append a piece of text without the marks of cells. */
 static void
 add_plain(qdot_text *out, piece p)
 {
@@ -101,7 +101,7 @@ piece_is_one_of(piece word, const char *const *words)
     return false;
 }
 
-/* Whether two words stay in one line. */
+/* Whether no line may be broken between two words. */
 static bool
 belong_together(piece before, piece behind)
 {
@@ -209,7 +209,7 @@ count_cells(piece line)
     return n;
 }
 
-/* Without the blanks at both ends. */
+/* A piece of text without the blanks at both ends. */
 static piece
 trimmed(piece p)
 {

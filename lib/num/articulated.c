@@ -83,7 +83,7 @@ QDOT_KIND_AVX512
 QDOT_KIND_END
 #endif
 
-/* NULL: there are none for this shape. */
+/* The compiled elimination for nodes of this size; NULL: there is none. */
 static const kernels *
 kernels_of(size_t m, size_t c)
 {
@@ -103,7 +103,7 @@ kernels_of(size_t m, size_t c)
 
 /* --- building ----------------------------------------------------------------------- */
 
-/* One parent a node, before it. */
+/* Whether each node has at most one parent, with a smaller number. */
 static bool
 is_tree(const qdot_articulated_tree *t)
 {

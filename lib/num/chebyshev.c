@@ -210,7 +210,7 @@ changes(double a, double b)
     return (a < 0) != (b < 0);
 }
 
-/* Drop coefficients below the rounding of the others. */
+/* The number of coefficients up to the last that is above the rounding of the sum. */
 static int
 series_shorten(int n, const double *c)
 {

@@ -194,7 +194,7 @@ make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
     return QDOT_OK;
 }
 
-/* *code NULL if it cannot be. */
+/* Write the code; *code is NULL if that is not possible. */
 static qdot_status
 lanes_code_build(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
 {

@@ -187,7 +187,7 @@ write_integrals(qdot_lanes_writer *w, const qdot_lanes_motion *c,
                        (qdot_lanes_at){u->once, k + 1});
 }
 
-/* Steps that lead most are at order m. */
+/* Write stage m: each step at the order that its lead makes of it. */
 static void
 write_stage(qdot_lanes_writer *w, int m, void *user)
 {

@@ -57,7 +57,7 @@ find_falling(const qdot_lanes_rows *rows, qdot_program_row row, int p, const dou
         may[l] = qdot_near_sizes_may_fall(fabs(b[l]), sum[l]);
 }
 
-/* In a lane in which it may. */
+/* How near a divisor comes to 0 within the step s, in one lane. */
 static double
 lane_divisor_nearness(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t lane, int p,
                       double s)

@@ -236,7 +236,7 @@ register_load(qdot_lanes_writer *w, qdot_lanes_at a)
     return reg;
 }
 
-/* A register that holds it, or its place. */
+/* The operand of an instruction: the register that holds `a`, or its address in memory. */
 static qdot_operand
 writer_operand(qdot_lanes_writer *w, qdot_lanes_at a)
 {

@@ -189,7 +189,7 @@ set_steps(qdot_lanes *t)
     }
 }
 
-/* Once it has its program. */
+/* Allocate and fill what depends on the program. */
 static qdot_status
 lanes_fill(qdot_lanes *t, bool shaken, int most)
 {

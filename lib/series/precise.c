@@ -246,7 +246,7 @@ note_step(qdot_precise *precise, const qdot_program_step *i, int k)
 #undef U1
 #undef U2
 
-/* Row `at` has changed by its note. */
+/* Add the noted change of a row to its coefficient of stage k. */
 static void
 precise_apply_note(qdot_precise *p, qdot_program_row row, int k)
 {

@@ -83,7 +83,7 @@ program_emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
     return to;
 }
 
-/* Further rows that the step just emitted writes. */
+/* Give the step that was added last a further row d. */
 static void
 with_d(builder *b)
 {

@@ -65,7 +65,7 @@ negate(sum *v)
         v->terms[i].minus = !v->terms[i].minus;
 }
 
-/* v + other */
+/* Append the terms of `other` to the sum v. */
 static void
 sum_append(qdot_generator *g, sum *v, const sum *other)
 {

@@ -217,7 +217,7 @@ find_sums(qdot_generator *g)
     return QDOT_OK;
 }
 
-/* The couplings of an unknown are one sum. */
+/* Make one sum of all couplings of an unknown. */
 static qdot_status
 find_unknown_sums(qdot_generator *g)
 {
@@ -389,7 +389,7 @@ emit_all(qdot_generator *g)
     qdot_asm_return(&g->m);
 }
 
-/* 1/n less its double. */
+/* The error of the double 1/n: exact value less double. */
 static double
 beyond(int n)
 {

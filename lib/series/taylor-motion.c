@@ -111,7 +111,7 @@ qdot_taylor_matrices(const qdot_taylor *t, size_t block)
 
 /* --- stages -------------------------------------------------------------------------- */
 
-/* No step reads what is solved for. */
+/* Whether no step reads newest coefficients of unknowns. */
 static bool
 is_explicit(const qdot_taylor *t)
 {

@@ -215,7 +215,7 @@ first_lanes(builder *b)
     w->width = w->changing = full(at);
 }
 
-/* The steps that move with their levels. */
+/* List the steps that are not constant in t, with their levels. */
 static void
 find_members(builder *b)
 {

@@ -247,7 +247,7 @@ qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
     return false;
 }
 
-/* Beyond it tanh is 1 in doubles. */
+/* The argument beyond which tanh is 1 in doubles. */
 static const double saturated = 20;
 
 /* How far the argument of an operation that falls off, or its logarithm, may go where its value

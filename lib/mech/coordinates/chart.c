@@ -148,7 +148,7 @@ copy_event(qdot_chart *c, const qdot_event *event)
     return status;
 }
 
-/* Nor are those that hold a root N. */
+/* A chart is of no use if a position contains the root N: it is not smooth where N is 0. */
 static void
 check_places(qdot_chart *c)
 {

@@ -546,7 +546,7 @@ express_energy(work *k)
                   &k->R, (qdot_expr[]){collision_dot(k, k->m, k->u, k->u)});
 }
 
-/* Events set nothing that moves. */
+/* Copy the events of the scene; they must not set coordinates or velocities. */
 static qdot_status
 copy_events(work *k)
 {

@@ -52,7 +52,7 @@ put_solved(work *w, size_t i, qdot_expr value)
             w->out->given[k] = qdot_subs(w->pool, w->out->given[k], 1, &q, &value);
 }
 
-/* f as the solved coordinates leave it. */
+/* f with the coordinates that were solved for replaced by their solutions. */
 static qdot_expr
 put_solved_in(const work *w, qdot_expr f)
 {

@@ -54,7 +54,7 @@ begin_branch(qdot_rest *r, qdot_expr equations)
 
 /* --- for all times ------------------------------------------------------------------------- */
 
-/* The coordinates' equations among those of a place. */
+/* Of the equations of an equilibrium those of coordinates, without multipliers. */
 static qdot_expr
 places_alone(const qdot_rest *r, qdot_expr equations)
 {

@@ -222,7 +222,7 @@ qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
     return e;
 }
 
-/* One side of Poisson's bracket, in momenta. */
+/* An argument of Poisson's bracket, with velocities replaced by momenta. */
 static qdot_expr
 bracket_side(qdot_scene *s, qdot_expr e)
 {

@@ -76,7 +76,7 @@ variation(const search *f, const unknown *u, size_t i)
     return sum;
 }
 
-/* xi_j of one unknown. */
+/* The component xi_j of the symmetry that one unknown stands for. */
 static qdot_expr
 generator_component(const search *f, const unknown *u, size_t j)
 {
@@ -478,7 +478,7 @@ euler_lagrange(search *f)
     return qdot_pool_check(pool);
 }
 
-/* Every symmetry of the ansatz that is left. */
+/* Find every symmetry of the ansatz that numbers at random points have not excluded. */
 static qdot_status
 search_linear(search *f)
 {

@@ -20,7 +20,7 @@ enum {
  * values and in tolerances. */
 static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it = 0.01;
 
-/* e^10: series and differences see that. */
+/* The exponent of a force e^u up to which series and differences resolve it. */
 static const double short_reach = 10;
 
 /* What may be missed of that on parts that are not known, in all and on one. */
@@ -81,7 +81,7 @@ bend_of(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
     return (s->to[i] - s->from[i]) / (s->b - s->a) - 0.5 * (s->from[p->n + i] + s->to[p->n + i]);
 }
 
-/* The cubic through both ends, and its slope. */
+/* Positions and velocities at t from the cubic through both ends of the step. */
 static void
 interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y)
 {

@@ -50,7 +50,7 @@ normalise(const qdot_path *x, double *t)
         t[i] /= length;
 }
 
-/* Both directions, one and two [n + 1]. */
+/* The directions of both curves at a crossing, one and two [n + 1]. */
 static void
 directions(const qdot_path *x, const double *c, const double *v, double root, double *one,
            double *two)

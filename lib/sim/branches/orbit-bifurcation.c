@@ -410,7 +410,7 @@ point_up(const qdot_path *x, double *t)
     t[most] = fabs(t[most]);
 }
 
-/* p stays along it to first order. */
+/* The direction of the branch of doubled period at y; p is constant along it to first order. */
 qdot_status
 qdot_orbit_bifurcation_double(qdot_orbit_path *orbit, const double *y, double *t)
 {

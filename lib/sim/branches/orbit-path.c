@@ -96,7 +96,7 @@ ask(qdot_orbit_path *x, const double *y)
     return QDOT_OK;
 }
 
-/* The gap behind segment k, and its slopes. */
+/* The gap between the end of segment k and the next state, and its derivatives. */
 static void
 fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 {
@@ -115,7 +115,7 @@ fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
     }
 }
 
-/* F and F' from these numbers. */
+/* Fill F and F' from the latest evaluation of the segments. */
 static void
 orbit_fill(qdot_orbit_path *x, const double *y)
 {
@@ -192,7 +192,7 @@ orbit_evaluate(qdot_path *path, const double *y)
     x->known = true;
 }
 
-/* B of what was evaluated last. */
+/* Fill B, the factors of the monodromy matrix, from the latest evaluation. */
 static qdot_status
 fill_factors(qdot_orbit_path *x, const double *y)
 {

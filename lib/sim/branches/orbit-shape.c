@@ -36,7 +36,7 @@ shape_begin(shape *s, qdot_orbit_read *r)
     return qdot_flow_read(r->flow, r->orbit, &r->at, PLACES, times, s->values);
 }
 
-/* s->one at a time. */
+/* Evaluate the expressions at one time, into s->one. */
 static qdot_status
 shape_read_one(shape *s, double time)
 {

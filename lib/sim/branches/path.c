@@ -137,7 +137,7 @@ qdot_path_distance(const qdot_path *x, const double *a, const double *b)
     return sqrt(sum);
 }
 
-/* Factor [J; g^T], J as it was evaluated. */
+/* Factor [J; g^T] with the J of the latest evaluation. */
 static bool
 factor(qdot_path *x, const double *g)
 {
@@ -197,7 +197,7 @@ qdot_path_hold(qdot_path *x, size_t i, double *y)
     return good;
 }
 
-/* The determinant of what was factored. */
+/* The determinant of the matrix that was factored last. */
 static double
 determinant(const qdot_path *x)
 {

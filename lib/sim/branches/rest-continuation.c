@@ -60,7 +60,7 @@ add_members(const qdot_equilibrium_set *set, double p, bool existing, double *y,
     return QDOT_OK;
 }
 
-/* Equilibria that are searched for at p. */
+/* Add the equilibria that a search at p finds. */
 static qdot_status
 add_searched(qdot_equilibrium_curve *c, double p, starts *to)
 {

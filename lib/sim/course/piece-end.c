@@ -375,7 +375,7 @@ widen_touches(qdot_piece *x, double t)
     return QDOT_OK;
 }
 
-/* And behind it. */
+/* Evaluate the functions just behind the end of the piece. */
 static qdot_status
 look_behind(qdot_piece *x, double t, double *g)
 {

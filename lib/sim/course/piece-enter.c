@@ -331,7 +331,7 @@ check_level(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* The piece that just ended keeps its delay. */
+/* Record by how much the piece that just ended was too late. */
 static void
 leave_late(qdot_piece *x)
 {

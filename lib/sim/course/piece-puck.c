@@ -12,7 +12,7 @@
 static const double behind = 64 * DBL_EPSILON;
 /* or of the time of the run. */
 static const double little = 0x1p-60;
-/* The cosine beyond which two directions are one. */
+/* Two directions count as equal if the cosine of their angle is above this. */
 static const double straight = 0.999;
 /* If it has none to start with, at that of so little of the time of the run. */
 static const double least = 0x1p-85;

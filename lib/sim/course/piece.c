@@ -60,7 +60,7 @@ read_either(double t, double *y, void *user)
 
 /* --- what a step holds --------------------------------------------------------------- */
 
-/* That of an occurrence, as t grows. */
+/* The direction of a root as t grows: 1 rising, -1 falling, 0 a touch. */
 static int
 way_of(qdot_piece *x, const qdot_root *root)
 {
@@ -637,7 +637,7 @@ qdot_piece_begin(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* The first one begins the trajectory. */
+/* Integrate one piece; the first piece begins the trajectory. */
 qdot_status
 qdot_piece_integrate(qdot_piece *x)
 {

@@ -121,7 +121,7 @@ is_parameter(const decision *d, size_t i)
     return i < d->n && i % d->s->n >= d->s->n - d->s->n_states;
 }
 
-/* Compute u, noise and flat with these sides. */
+/* Compute u, noise and flat for the given sides. */
 static void
 measure(decision *d, const long *side)
 {

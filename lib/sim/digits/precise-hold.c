@@ -155,7 +155,7 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
     }
 }
 
-/* log2 of the largest F that is kept. */
+/* log2 of the largest |F| among the rows in use. */
 static double
 excess(const qdot_precise_hold *h)
 {
@@ -170,7 +170,7 @@ excess(const qdot_precise_hold *h)
     return log2;
 }
 
-/* The rows that hold a free value. */
+/* Choose the rows that contain a free value. */
 static void
 choose_rows(qdot_precise_hold *h)
 {
@@ -348,7 +348,7 @@ take_gradient(qdot_precise_hold *h, const mpfr_t *x)
     }
 }
 
-/* One step of Newton's method; its log2. */
+/* One step of Newton's method; *moved: log2 of its length. */
 static qdot_status
 step_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, double *moved)
 {

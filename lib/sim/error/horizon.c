@@ -86,7 +86,7 @@ qdot_horizon_variation(const qdot_trajectory *tr)
 
 /* --- distances ----------------------------------------------------------------------- */
 
-/* The pieces that both went through alike. */
+/* The number of pieces at the start that both trajectories have in common. */
 static size_t
 common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
 {

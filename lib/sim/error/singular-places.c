@@ -246,7 +246,7 @@ comes_down(const double *q)
     return q[1] <= q[0] && q[1] < q[2] && q[1] < shallow * fmax(q[0], q[2]);
 }
 
-/* One more place of a piece. */
+/* Add a singular place, found at t with the quality q. */
 static qdot_status
 search_take_place(search *s, double t, double q)
 {

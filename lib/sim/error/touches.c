@@ -33,7 +33,7 @@ close_look(look *l)
     qdot_tape_free(l->of.tape);
 }
 
-/* g and its error at t; NaN: unknown. */
+/* The function g of an event at t, and its error; NaN: unknown. */
 static qdot_status
 touch_look_at(look *l, double t, double *g, double *error)
 {

@@ -69,7 +69,7 @@ moves(const builder *b, size_t i)
     return b->pull[i] != QDOT_ZERO || b->Q[i] != QDOT_ZERO;
 }
 
-/* Momenta that move come first. */
+/* Order the coordinates so that those whose momenta are not constant come first. */
 static qdot_status
 order(builder *b)
 {

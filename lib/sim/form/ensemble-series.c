@@ -42,7 +42,7 @@ struct qdot_ensemble_series {
 
 /* --- one stage ----------------------------------------------------------------------- */
 
-/* Two coordinates: the inverse is there at once. */
+/* Whether the block has two unknowns, whose matrix is inverted by formula. */
 static bool
 is_pair(const solver *s)
 {

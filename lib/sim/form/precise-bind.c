@@ -226,7 +226,7 @@ accelerations(qdot_precise_bind *e, int k)
     return QDOT_OK;
 }
 
-/* Momenta of the state that the inputs have. */
+/* Compute the momenta of the state in the inputs. */
 static void
 find_momenta(qdot_precise_bind *e)
 {

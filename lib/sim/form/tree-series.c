@@ -36,7 +36,7 @@ struct qdot_tree_series {
 
 /* --- along the tree --------------------------------------------------------------------- */
 
-/* Order k of the forces that hold velocities. */
+/* Evaluate order k of the forces that depend on velocities. */
 static void
 evaluate_forces(qdot_tree_series *s, int k)
 {

@@ -259,7 +259,7 @@ newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
     }
 }
 
-/* factored: K is that of these rows already. */
+/* Newton's method in lanes on the rows of one level. *factored: K is factored for these rows. */
 static void
 newton_hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
 {

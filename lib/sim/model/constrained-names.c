@@ -59,7 +59,7 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
     }
 }
 
-/* The names, and what has become of them. */
+/* Append the names of dependent constraints; returns the verb that goes with them. */
 static const char *
 name_dependent(const qdot_constraints *c, const bool *rows, qdot_text *names)
 {

@@ -92,7 +92,7 @@ add_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
     return n + 1;
 }
 
-/* q, q' as `then` has them. */
+/* Set q, q' to the values that `then` gives. */
 static void
 put_event(jump *j)
 {

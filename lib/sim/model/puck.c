@@ -35,7 +35,7 @@ half_slope(qdot_pool *pool, qdot_expr e, qdot_expr v)
     return qdot_mul(pool, QDOT_HALF, qdot_diff(pool, e, v));
 }
 
-/* e without the velocities that are tied. */
+/* e with the velocities that constraints relate replaced by the others. */
 static qdot_expr
 untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
 {

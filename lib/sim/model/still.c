@@ -31,7 +31,7 @@ coordinate_stays(const set *z, size_t i)
     return on(z, z->plan->f[i]) == QDOT_ZERO;
 }
 
-/* Whether M depends on no coordinate there. */
+/* Whether M depends on no coordinate while those of the set are 0. */
 static bool
 is_regular(const set *z)
 {

@@ -54,7 +54,7 @@ is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *
            && qdot_normal(pool, qdot_sub(pool, qdot_sub(pool, e, *rest), sum), NULL) == QDOT_ZERO;
 }
 
-/* Put what is known into the equations. */
+/* Replace the values before the event that are known already in the equations. */
 static void
 put_known(undoing *x)
 {

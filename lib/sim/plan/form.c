@@ -28,7 +28,7 @@ plan_take_form(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
 
 /* --- M q'' = f ------------------------------------------------------------------------ */
 
-/* Whether blocks that are numbers have an inverse. */
+/* Fail if a block of M that is constant has no inverse. */
 static qdot_status
 check_blocks(const qdot_plan *p)
 {

@@ -194,7 +194,7 @@ check_series(qdot_plan *p, const char *hindrance)
     return qdot_hint("method rk8pd");
 }
 
-/* With constraints: sim/model/constraints.h has all there is. */
+/* Fill the part of the plan that belongs to constraints (sim/model/constraints.h). */
 static qdot_status
 constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {

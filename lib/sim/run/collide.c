@@ -406,7 +406,7 @@ time_course(qdot_course *c, size_t clock, size_t end, double t1)
     return QDOT_OK;
 }
 
-/* The horizon, and other times of the report. */
+/* Replace a value of s in the report, as the horizon, by the time t. */
 static qdot_status
 time_of(const qdot_run *run, size_t clock, double *t)
 {

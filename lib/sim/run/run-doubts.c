@@ -11,7 +11,7 @@
 #include "sim/error/touches.h"
 #include "sim/error/unresolved-forces.h"
 
-/* Give the error up, for that reason. */
+/* Make the error of the run unknown, with the reason. */
 static qdot_status
 lose(qdot_run *run, const char *doubt)
 {
@@ -81,7 +81,8 @@ find_touch(qdot_run *run)
     return QDOT_OK;
 }
 
-/* Terms of a series are so many times smaller than its first, with which a step is at its end as large as they count. */
+/* Terms of a series are so many times smaller than its first, with which a step is at its end as large as they
+ * count. */
 static const double of_series = 0x1p80;
 
 /* Whether an acceleration that is off by so much all along the run may move coordinate i, of so many, by more than its

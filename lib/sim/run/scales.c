@@ -130,7 +130,7 @@ qdot_run_find_scales(qdot_run *run, const qdot_run_request *request, double *sca
     return *found ? QDOT_OK : qdot_run_say_scales(run, scales, false);
 }
 
-/* Whether all of these [n] are one number. */
+/* Whether all scales [n] are equal. */
 static bool
 are_alike(const double *scales, size_t n)
 {

@@ -116,7 +116,7 @@ from_metric(const search *s, double *x)
     }
 }
 
-/* away = C^T (x - a); its length. */
+/* The distance of a point from a in the metric C C^T; sets away = C^T (x - a). */
 static double
 search_distance(search *s, const double *at)
 {

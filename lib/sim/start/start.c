@@ -99,14 +99,14 @@ level_clear(level *l)
     qdot_free(l->free);
 }
 
-/* Whether the level is that of coordinate i. */
+/* Whether coordinate i belongs to this level: without mass, or with mass. */
 static bool
 is_own(const level *l, size_t i)
 {
     return l->massless == (l->plan->massless && l->plan->massless[i]);
 }
 
-/* Not a parameter that events set. */
+/* Whether i is a coordinate, not a parameter that events set. */
 static bool
 is_moving(const level *l, size_t i)
 {

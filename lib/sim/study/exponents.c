@@ -17,7 +17,7 @@
  * so much. */
 static const double most_growth = 1e4;
 
-/* A run without an end of its own. */
+/* A bound of work that is never reached. */
 static const uint64_t no_bound = UINT64_MAX / 2;
 
 typedef struct {
@@ -170,7 +170,7 @@ advance_in_pieces(pursuit *p, double end)
     return status;
 }
 
-/* Through one window. */
+/* Integrate through one window, to the time `end`. */
 static qdot_status
 pass_window(pursuit *p, double end)
 {

@@ -20,7 +20,7 @@ static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4};
 
 enum { foretelling_steps = 1000, least_in_window = 8, samples_in_window = 256 };
 
-/* A run without an end of its own. */
+/* A bound of work that is never reached. */
 static const uint64_t no_bound = UINT64_MAX / 2;
 
 /* A run that is watched. */

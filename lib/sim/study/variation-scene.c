@@ -97,7 +97,7 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z, qd
     return qdot_pool_check(pool);
 }
 
-/* Events that change the state; others only look. */
+/* Add the events that change the state, with the saltation of slopes. */
 static qdot_status
 add_events(const qdot_variation *v)
 {

@@ -318,7 +318,7 @@ factor_massless(elimination *e, size_t *pivot)
     return qdot_pool_check(pool);
 }
 
-/* Find them; mass 1 in L. */
+/* Find the massless coordinates and give them the mass 1 in L. */
 static void
 find_massless(elimination *e)
 {
@@ -337,7 +337,7 @@ find_massless(elimination *e)
     }
 }
 
-/* The rates of their equations that hold q''. */
+/* Differentiate the equations of massless coordinates until they contain q''. */
 static qdot_status
 prepare_massless(elimination *e, size_t *pivot)
 {

@@ -434,7 +434,7 @@ is_flat(const qdot_watch_part *p)
            <= least_slope(p) * qdot_chebyshev_size(p->n, p->c);
 }
 
-/* Whether that slope cannot be told from 0. */
+/* Whether the slope of g at the root is 0 within its rounding. */
 static bool
 is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {

@@ -78,7 +78,7 @@ go(walk *x, double t, double g)
     return QDOT_OK;
 }
 
-/* g at t with its sign before positive. */
+/* g at t, times its sign before: positive as long as g has not crossed 0. */
 static qdot_status
 height(const walk *x, double t, double *g)
 {

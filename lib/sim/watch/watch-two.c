@@ -15,7 +15,7 @@ qdot_watch_can_two(const qdot_watch *w)
     return w->reader.read_two && w->expanded && !w->accelerations;
 }
 
-/* Made when it is needed first. */
+/* Make the tape of g in two doubles, if it is not there yet. */
 static qdot_status
 make_two(qdot_watch *w)
 {

@@ -13,7 +13,7 @@
 
 /* --- their tapes --------------------------------------------------------------------- */
 
-/* Which functions hold nothing that switches. */
+/* Find which functions contain nothing that switches. */
 static qdot_status
 find_smooth(qdot_watch *w, const qdot_expr *e)
 {
