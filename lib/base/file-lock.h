@@ -17,7 +17,7 @@ typedef struct {
 
 /* QDOT_EIO: another process has it, or it cannot be made; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_file_lock_acquire(const char *path, qdot_file_lock *lock);
-/* Also of {0}. */
+/* Remove the lock file and unlock it; does nothing for a lock {0}. */
 void qdot_file_lock_release(qdot_file_lock *lock);
 
 #endif

@@ -8,7 +8,7 @@
 /* Bytes of the well-formed sequence at `text` (NUL-terminated), 0 if it is not one (or NUL). */
 size_t qdot_utf8_length(const char *text);
 
-/* Its code point; *length as above. 0 if it is not well-formed. */
+/* The code point of the sequence at `text`, and its *length in bytes; 0 if it is not well-formed. */
 uint32_t qdot_utf8_decode(const char *text, size_t *length);
 
 /* Columns that the first `bytes` bytes take on a terminal: one a code point, none for a mark that

@@ -180,7 +180,7 @@ numbers_reserve(double **numbers, size_t n)
     return at;
 }
 
-/* Numbers of a path in a plane, `at` on. */
+/* Place the arrays for a path of links in a plane, from `at` on. */
 static void
 make_plane(qdot_articulated *a, double *at)
 {

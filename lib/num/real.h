@@ -58,7 +58,7 @@ void qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n,
 QDOT_MUST_CHECK qdot_status qdot_real_lu(size_t n, mpfr_t *a, size_t *order,
                                          double *scale, size_t *failed, mpfr_t *w);
 
-/* b [n] becomes x; y [n] scratch, w [1]. */
+/* Solve A x = b with the factors of qdot_real_lu; b [n] in, x out; y [n], w [1] scratch. */
 void qdot_real_solve(size_t n, const mpfr_t *a, const size_t *order, mpfr_t *b, mpfr_t *y,
                      mpfr_t *w);
 

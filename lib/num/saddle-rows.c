@@ -3,7 +3,7 @@
 
 #include "num/saddle.h"
 
-/* Fraction of a squared norm. */
+/* A row whose squared norm falls below this fraction of its largest has faded. */
 static const double faded = 1e-14;
 
 /* A row belongs to a dependency if its coefficient, relative to the largest, is above this. */

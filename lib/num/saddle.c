@@ -285,7 +285,7 @@ reflect(const qdot_saddle *s, size_t k, double *x)
     add_multiple(s->n - k - 1, -sum, v + k + 1, x + k + 1);
 }
 
-/* Householder's step on column k, whose norm below is there. */
+/* Householder's reflection of column k, whose norm from row k on is given. */
 static void
 column_reflect(qdot_saddle *s, size_t k, double norm)
 {

@@ -56,7 +56,7 @@ typedef struct {
     size_t last;      /* position of the last pivot; after a failure of the one that failed */
     size_t *pivot;    /* [m] the rows of A in the order of the pivoting */
     double *widest;   /* [m] the largest squared norm of each row so far; the caller may begin it */
-    bool aside;       /* A is of a state that says nothing of how large its rows are */
+    bool aside;       /* the rows of A at this state do not count for `widest` */
     double *heaviest; /* [n] the largest diagonal entry of M so far */
 
     bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
@@ -113,7 +113,7 @@ bool qdot_saddle_widens(const qdot_saddle *s);
 /* Whether row k had shrunk so at that call. */
 bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
-/* The length of row k now over the largest that it had at such calls; 1: it had none. */
+/* The length of row k relative to the largest at earlier calls; 1 at the first. */
 double qdot_saddle_remains(const qdot_saddle *s, size_t k);
 
 /* Factor for M and A, which are kept. QDOT_ESINGULAR: A has lost rank

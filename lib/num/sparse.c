@@ -36,7 +36,7 @@ typedef struct {
     size_t n, positive;
     bool *beside;   /* [n x n] */
     size_t *degree; /* [n] SIZE_MAX: eliminated */
-    size_t *waits;  /* [n] positive neighbours */
+    size_t *waits;  /* [n] number of neighbours among the positive unknowns */
     uint32_t *near; /* [n] scratch */
 } graph;
 

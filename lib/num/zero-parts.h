@@ -10,7 +10,7 @@ typedef struct {
     const qdot_zero_problem *p;
     qdot_zero_result *r;
     double *slope;             /* [m x n] J at r->u */
-    double *u, *f, *error;     /* [n], [m], [m] where a step leads */
+    double *u, *f, *error;     /* [n], [m], [m] the end of a step, F there and its error */
     double *trial;             /* [n] */
     double *unit, *unit_f;     /* [n], [m] of unknowns and functions */
     double *small;             /* [m] below this a function may count as 0 */
@@ -33,7 +33,7 @@ typedef struct {
 
 /* F, its errors and J at r->u. */
 QDOT_MUST_CHECK qdot_status qdot_zero_evaluate(qdot_zero_search *s);
-/* u, or the bound of the j-th unknown that it is beyond. */
+/* u moved into the bounds of the j-th unknown. */
 double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
 /* |f| in units of the functions. */
 double qdot_zero_norm(const qdot_zero_search *s, const double *f);

@@ -46,7 +46,7 @@ store(const step *s, qdot_lanes_sum sum, qdot_program_row to)
         qdot_lanes_store(w, sum, row_at(to, s->k));
 }
 
-/* sum +- what a term has at this order */
+/* Add or subtract the coefficient of this order of a term. */
 static void
 step_add_term(const step *s, qdot_lanes_sum *sum, bool minus, qdot_writer_addend t)
 {

@@ -11,7 +11,7 @@ is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
     return row < w->t->rows.n;
 }
 
-/* The order at hand of a row of the program. */
+/* Whether `a` is the coefficient of the order at hand of a row of the program. */
 static bool
 is_newest(const qdot_lanes_writer *w, qdot_lanes_at a)
 {

@@ -53,7 +53,7 @@ typedef struct {
 typedef struct {
     bool folded; /* the step is not carried out by itself, but within its readers */
     bool idle;   /* no equation depends on the row */
-    bool lacks;  /* it lacked its argument, and nothing else */
+    bool lacks;  /* only the newest coefficient of its argument was missing */
     int pairs;   /* products whose sum it is, with those that it carries out for others */
     bool rests[QDOT_WRITER_RESTS]; /* there is one at the order at hand */
 } qdot_writer_step;
@@ -102,11 +102,11 @@ qdot_writer_inverse(size_t step)
     return (qdot_lanes_at){QDOT_WRITER_INVERSES + (qdot_lanes_row)step, 0};
 }
 
-/* An instruction, but when rows are only looked at; what it reads or writes. */
+/* Write an instruction, except in the pass that only finds which rows are needed. */
 void qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int first,
                       qdot_operand rm);
 qdot_operand qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
-/* A register that is free, taken; 0 in one. */
+/* Reserve a free register; its value is undefined. */
 int qdot_writer_take(qdot_lanes_writer *w);
 /* What registers have for the places of results is stored there, where orders to come read it. */
 void qdot_writer_settle(qdot_lanes_writer *w);
@@ -144,7 +144,8 @@ qdot_writer_term(const qdot_lanes_writer *w, const size_t *at)
     return at[w->block] - at[w->block + 1];
 }
 
-/* sums[0] = sum_{j=1..k-1} x_j y_{k-j}, sums[1] that of x and z; that of x and itself. */
+/* _pair: sums[0] = sum_{j=1..k-1} x_j y_{k-j}, sums[1] with z in place of y. _square: the sum with x in place of
+ * y. */
 void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
                       qdot_lanes_row z, int k, qdot_lanes_sum *sums);
 qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);

@@ -87,7 +87,7 @@ typedef struct {
 void qdot_motion_write(const qdot_motion *motion, qdot_program_builder *b, size_t from,
                        qdot_motion_line *lines, size_t first, size_t end);
 
-/* Whether all of its equations are explicit; also if there are none. */
+/* Whether all equations of a motion are explicit; also if it has none. */
 static inline bool
 qdot_motion_is_explicit(const qdot_motion *m)
 {

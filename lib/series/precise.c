@@ -270,7 +270,7 @@ note_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k
         mpfr_div_ui(note[u->twice], note[u->once], (unsigned long)k + 2, RN);
 }
 
-/* Of all steps, or of those alone that later orders read. */
+/* Find the changes of the rows of all steps, or only of those that later orders read. */
 static void
 note_steps(qdot_precise *p, int k, bool all)
 {

@@ -49,7 +49,7 @@ typedef struct {
     bool paired;
 } qdot_recurrence_operation;
 
-/* Up to QDOT_DO_END; LINK, RATE and what has order 0 only have none. */
+/* The operations of a recurrence, up to QDOT_DO_END; LINK, RATE and recurrences of order 0 only have none. */
 const qdot_recurrence_operation *qdot_recurrence_operations(int op);
 
 /* The first of them that does so; NULL. */

@@ -425,7 +425,7 @@ make_work(qdot_taylor_code *c)
     return QDOT_OK;
 }
 
-/* Whether all that is linked is of the program. */
+/* Whether all links (integrals) write rows of the program itself. */
 static bool
 reaches_all(const qdot_taylor *t)
 {

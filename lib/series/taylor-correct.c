@@ -29,8 +29,8 @@ struct qdot_taylor_changes {
     struct qdot_taylor_change *changes; /* in the order of the steps */
     struct qdot_taylor_scaled_change *scaled;
     size_t n_changes, n_scaled;
-    bool stale; /* order 0 is a new one */
-    bool begun; /* slopes that do not vary are there */
+    bool stale; /* order 0 has changed since the slopes were computed */
+    bool begun; /* the constant slopes have been computed */
     bool changes_zero; /* a slope is made of numbers of order 0 that change */
 };
 

@@ -124,7 +124,7 @@ do_all(qdot_generator *g, qdot_asm_operation op, int reg, int first, qdot_operan
     qdot_asm_do(&g->m, op, QDOT_ASM_ALL, reg, first, b);
 }
 
-/* Orders that are added to vectors by the same instructions. */
+/* A range of orders whose code is the same loop. */
 typedef struct {
     int blocks;   /* of sums */
     int inserted; /* the block of rows that the order itself enters; -1: none */

@@ -6,7 +6,7 @@
 
 /* --- building ------------------------------------------------------------------------ */
 
-/* Without the steps that write explicit equations: products of K are summed apart. */
+/* Remove the steps that write explicit equations E; products of K are summed apart. */
 static qdot_status
 motion_split_off_written(qdot_taylor *t, int most, int solved)
 {

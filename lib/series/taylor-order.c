@@ -135,7 +135,8 @@ qdot_taylor_order_leading(qdot_taylor *t, int k)
     qdot_taylor_changes_stale(t, k);
 }
 
-/* Of inputs that are integrals, what order 0 gives; and the unit for the others. */
+/* Begin the links (inputs that are integrals): set coefficient 1 from order 0, and the unit of time for later
+ * orders. */
 void
 qdot_taylor_begin_links(qdot_taylor *t, double unit)
 {

@@ -89,7 +89,7 @@ struct qdot_taylor {
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
     struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
     const char *no_code;           /* for this reason; NULL: none was asked for */
-    bool asked;                    /* for code that is kept */
+    bool asked;                    /* code kept from an earlier run has been asked for */
     bool refused;                  /* none is to be written */
 };
 

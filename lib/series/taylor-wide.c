@@ -200,7 +200,7 @@ first_lanes(builder *b)
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
 
-        w->lane[wide_row_of(w, s->to)] = 0; /* to come */
+        w->lane[wide_row_of(w, s->to)] = 0; /* assigned below */
         if (s->second)
             w->lane[wide_row_of(w, s->second)] = 0;
         if (s->third)

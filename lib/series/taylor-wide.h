@@ -58,7 +58,7 @@ void qdot_taylor_wide_correct(qdot_taylor_wide *wide, int k, const double *newes
 void qdot_taylor_wide_rows(const qdot_taylor_wide *wide, int last, double per_unit,
                            double *q, double *v, size_t stride);
 
-/* The sum of n orders of pairs, strides in doubles. */
+/* A sum of products of n orders, for pairs of groups; strides in doubles. */
 typedef struct {
     size_t pairs;
     const qdot_wide_pair *pair;

@@ -168,7 +168,7 @@ lower_sum(lowering *l, qdot_expr e, known *k)
     while (lead < count && addends[lead].minus)
         lead++;
     k->factor = QDOT_ONE;
-    if (lead == count) { /* minus the sum of opposites */
+    if (lead == count) { /* all terms have a minus: minus the sum of their opposites */
         for (size_t i = 0; i < count; i++)
             total_add(l, &t, addends[i].value, false);
         k->factor = QDOT_MINUS_ONE;

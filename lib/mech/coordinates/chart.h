@@ -54,10 +54,10 @@ typedef enum {
     QDOT_CHART_SPHERE,
     QDOT_CHART_BODY,
     QDOT_CHART_PARABOLIC,
-    QDOT_CHART_PARABOLOIDS, /* about an axis, x from it */
+    QDOT_CHART_PARABOLOIDS, /* rotated about an axis; x is the distance from it */
     QDOT_CHART_ELLIPTIC,
-    QDOT_CHART_PROLATE, /* about an axis, y from it, */
-    QDOT_CHART_OBLATE,  /* x from it */
+    QDOT_CHART_PROLATE, /* rotated about an axis; y is the distance from it */
+    QDOT_CHART_OBLATE,  /* likewise; x is the distance from it */
     QDOT_CHART_ROOT
 } qdot_chart_kind;
 
@@ -66,7 +66,7 @@ typedef struct {
     qdot_chart_kind kind;
     size_t index[3];
     bool turned;        /* sin and cos of the angle theta, or v, change places */
-    qdot_expr square;   /* of a root: P */
+    qdot_expr square;   /* of a root w: the expression P = w^2 */
     qdot_expr distance; /* 0 at the singular place, in the coordinates given, with its sign */
 } qdot_chart_group;
 

@@ -567,7 +567,7 @@ copy_events(work *k)
     return QDOT_OK;
 }
 
-/* A domain ends at the collision or nowhere. */
+/* Check that domains of coordinates end at the collision only. */
 static void
 check_domains(work *k)
 {

@@ -53,7 +53,7 @@ rational(const fmpq *x)
     return ldexp(a / b, shift > 5000 ? 5000 : shift < -5000 ? -5000 : (int)shift);
 }
 
-/* In (0, 1), of a name and a seed. */
+/* A pseudo-random number in (0, 1), fixed by a name and a seed. */
 static double
 scatter(const char *name, uint64_t seed)
 {

@@ -14,7 +14,7 @@ qdot_expr qdot_kinematics_weight(qdot_scene *s, qdot_kinematics *k, uint32_t set
 /* sum over p of w_p a_p b_p for two grouped functions; people: simplified for printing. */
 qdot_expr qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a,
                                const qdot_groups *b, bool people);
-/* The same over one function and the gravity fields: sum w_p g_axis(p) a_p. */
+/* sum over p of w_p g_axis(p) a_p for one grouped function and the gravity fields. */
 qdot_expr qdot_kinematics_gravity(qdot_scene *s, qdot_kinematics *k,
                                   const qdot_groups *a);
 

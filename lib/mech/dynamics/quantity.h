@@ -52,7 +52,7 @@ bool qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part);
 typedef struct {
     const char *kind, *name; /* "gravity", "spring", "damper" ...; its label or what it acts on, or
                                 NULL */
-    bool conservative;       /* a part of V */
+    bool conservative;       /* the force is the gradient of a part of V */
     size_t row, k;           /* internal */
 } qdot_force_source;
 /* Source k of generalized forces; false past the end. */

@@ -201,7 +201,7 @@ bool
 qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f)
 {
     qdot_pool *pool = s->pool;
-    bool ready = qdot_kinematics_rest(s, k) != NULL; /* with its sets */
+    bool ready = qdot_kinematics_rest(s, k) != NULL; /* also fills the sets of masses of k */
     size_t sets = k->weight.n, n = s->coordinates.n;
     qdot_family family = {.items = k->terms.n, .words = k->words};
     qdot_expr *force = qdot_calloc(k->terms.n + 1, sizeof *force);

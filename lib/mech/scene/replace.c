@@ -18,7 +18,7 @@ map(const mapping *m, qdot_expr *e)
         *e = m->f(*e, m->user);
 }
 
-/* In a field of every item. */
+/* Map a field of every item of a list. */
 #define MAP(list, field)                                                                 \
     do {                                                                                 \
         for (size_t i_ = 0; i_ < s->list.n; i_++)                                        \

@@ -49,7 +49,7 @@ append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr e
     return qdot_vec_push(&r->found, one);
 }
 
-/* The region as intervals, appended; *done: it is listed so. */
+/* Append a region of one free coordinate as intervals; *done: that was possible. */
 static qdot_status
 list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
 {

@@ -136,7 +136,7 @@ add_walls(qdot_equilibrium_set *set, qdot_expr g)
     return status;
 }
 
-/* Walls where one of the relations ceases to hold. */
+/* Add the values of p at which one of the relations ceases to hold. */
 static qdot_status
 add_walls_of(qdot_equilibrium_set *set, qdot_expr relations)
 {

@@ -25,8 +25,9 @@ typedef struct {
     const qdot_equilibrium_curve *c; /* borrowed */
     qdot_vec(qdot_equilibrium_member) member;
     qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
-    bool complete;         /* proved: at every p, but for single values, all equilibria are members, all walls are known */
-    bool families;         /* of some, which recur without end, one place is a member */
+    /* proved: at every p, but for single values, all equilibria are members, all walls are known */
+    bool complete;
+    bool families;         /* some equilibria belong to infinite families, of which one is a member of the set */
 } qdot_equilibrium_set;
 
 /* From {0}; ended in any case. Where nothing can be said the set is empty, and not complete. */
@@ -40,7 +41,8 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_folds(qdot_equilibrium_set 
 /* Walls ascending, each once. */
 void qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set);
 
-/* Member k at y[n] = p: y [n + 1], NaN where there is no value; *exists: all conditions hold there, and it has values. */
+/* Member k at y[n] = p: y [n + 1], NaN where there is no value; *exists: all conditions hold there, and it has
+ * values. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_place(const qdot_equilibrium_set *set, size_t k, double *y,
                                                        bool *exists);
 /* The verdict on member k at p. */

@@ -285,7 +285,7 @@ works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
     return true;
 }
 
-/* What stands below in v, once: v is multiplied by it. */
+/* The common denominator of the coefficients v, by which v is multiplied. */
 static qdot_expr
 denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
 {

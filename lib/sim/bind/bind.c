@@ -164,7 +164,7 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
     return qdot_bind_accelerate(b, a);
 }
 
-/* Those of a block whose outputs may be off by `of`; returns what stands behind them. */
+/* The rounding x of f and M a of a block whose outputs are uncertain by `of`. Returns the outputs behind them. */
 static const double *
 sum_roundings(const qdot_plan_block *block, const double *of, const double *a, double *x)
 {
@@ -353,7 +353,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
     }
     if (status == QDOT_OK) {
         status = qdot_bind_accelerate(b, b->in + 2 * p->n + 1);
-        if (status == QDOT_EDOMAIN) /* the run itself says so, with its time */
+        if (status == QDOT_EDOMAIN) /* the run will report the failure, with its time */
             status = QDOT_OK;
     }
     return status;

@@ -210,7 +210,7 @@ allowance(const qdot_pulses_step *s, double all)
     return fmax(fmax(tolerances * s->tol, least) * all, floor_of_it * s->tol);
 }
 
-/* What the parts of the step may leave unknown, by the values at its nodes. */
+/* Set what parts of the step may leave unknown, from the values at its nodes. */
 static void
 allow(qdot_pulses *p, const qdot_pulses_step *s)
 {

@@ -18,7 +18,8 @@ void qdot_branch_turn_back(const qdot_path *x, double *y);
 /* The longest step from y that does not go over to another curve near two crossings that lie close together. */
 double qdot_branch_longest_near(const qdot_branch_search *s, const double *y);
 
-/* Keep it, if it is new, with the direction of the other curve; *mark is 1 + its index. Takes both. */
+/* Keep the bifurcation b, if it is new, with the direction of the other curve; *mark is 1 + its index. Owns both
+ * from then on. */
 QDOT_MUST_CHECK qdot_status qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b,
                                              double *other, size_t *mark);
 

@@ -32,7 +32,7 @@ grows(const qdot_path *x, const qdot_branch *b, size_t from, size_t to)
            sqrt(x->weight[T]) * (z[T] - y[T]) > mostly * qdot_path_distance(x, y, z);
 }
 
-/* Ends at which the period grows without a bound. */
+/* Mark the ends of branches at which the period grows without bound. */
 static void
 name_ends(const qdot_path *x, qdot_continuation *all)
 {

@@ -65,7 +65,7 @@ struct qdot_path {
 /* Room for n unknowns. From {0}; ended in any case. The rest is filled by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_path_begin(qdot_path *x, size_t n);
 void qdot_path_end(qdot_path *x);
-/* Weights: 1 / range of p, 1 / size [n] of the unknowns; those that are not told weigh little. */
+/* Set the weights of y: 1 / range of p, 1 / size [n] of the unknowns; hidden unknowns get small ones. */
 void qdot_path_scale(qdot_path *x, const double *size);
 
 QDOT_MUST_CHECK qdot_status qdot_path_point_begin(const qdot_path *x, qdot_path_point *a);

@@ -16,7 +16,7 @@ enum { PARTS = sizeof parts / sizeof *parts };
 /* Steps over a cell of an exact curve, closer to its walls; places that are one. */
 enum { STEPS = 64 };
 static const double same = 1e-6;
-/* Of the range of p: cells in which nothing is searched for. */
+/* Cells narrower than this part of the range of p are not searched. */
 static const double narrow = 1e-12;
 
 /* Places: at [count * m], owned. */
@@ -181,7 +181,7 @@ is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
     return QDOT_OK;
 }
 
-/* Member k as one branch over each sequence of cells in which no curve that is followed holds it. */
+/* Add member k as a branch over each sequence of cells in which it lies on no curve that was followed. */
 static qdot_status
 draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *y)
 {

@@ -333,7 +333,7 @@ look_before(qdot_piece *x, double t, double *g)
     const qdot_trajectory *tr = &x->c->tr;
     const bool instant = tr->t[tr->pieces.at[tr->pieces.n - 1].first] == t;
 
-    /* places are as uncertain as velocities make them in a rounding of t */
+    /* a rounding of t makes positions uncertain by the velocity times it */
     memcpy(x->y, x->largest, x->n * sizeof *x->y);
     for (size_t i = 0; i < x->n / 2; i++)
         x->y[i] = fmax(x->y[i], fabs(t) * x->largest[x->n / 2 + i]);

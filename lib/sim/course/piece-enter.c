@@ -177,7 +177,7 @@ qdot_piece_widen_residuals(qdot_piece *x)
     for (size_t i = 0; i < qdot_piece_mode(x)->m; i++) {
         double off, noise;
 
-        /* places are put onto their surfaces, but for those that equations determine */
+        /* positions are moved onto their surfaces, except those of massless coordinates */
         if (!(x->residual[i] >= 0) || !(qdot_piece_mode(x)->watched[i].velocity || qdot_piece_has_massless(x)))
             continue;
         QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));

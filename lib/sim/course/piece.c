@@ -244,7 +244,7 @@ acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
     if (!qdot_staged_event_acts(e) || !x->untouched[i] || !x->touching[i] || root->way == 0
         || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, root))
         return QDOT_OK;
-    /* of one that rises or falls the side before may be rounding: it must be the other one */
+    /* for a rising or falling event the sign before may be rounding: take the opposite one */
     if (root->way == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
         return QDOT_OK;
     QDOT_TRY(qdot_piece_way(x, i, &way));
@@ -548,7 +548,7 @@ look_at_step(qdot_piece *x, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Check constraints on accelerations; projection, where it is used, does so itself. */
+/* Check constraints on accelerations, if there is no projection, which would do that. */
 static qdot_status
 check_accelerations(const qdot_piece *x, double t, const double *y)
 {

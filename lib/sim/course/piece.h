@@ -54,7 +54,7 @@ typedef struct {
         double t_low; /* the time of y less t, where y is at a root */
         bool on_root; /* y was moved to the root that ended the piece before, */
         double late;  /* and then on by this */
-        size_t from;  /* the mode before */
+        size_t from;  /* the mode of the piece before */
         bool jumped;  /* an event has changed the state */
         bool followed; /* coordinates without mass have jumped with their equations, */
         bool slipped;  /* positions of them against dry friction: `bare` is behind that */
@@ -116,7 +116,7 @@ typedef struct {
     qdot_vec(qdot_piece_doubt) doubts;
     qdot_tape_two **thens; /* [events] `then` in two doubles; NULL until it is needed */
     double *largest;       /* [n] of |y|, at the ends of steps so far */
-    /* Repetitions, by kind and index. */
+    /* How often each event, bound or surface was met recently. */
     qdot_vec(qdot_piece_repeat) repeats;
 } qdot_piece;
 

@@ -203,7 +203,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     memcpy(x->side, held, surfaces * sizeof *x->side);
     x->side[surface] = side;
     QDOT_TRY(qdot_piece_sides(x, held));
-    if (qdot_piece_has_massless(x)) /* their values are those of the sides found */
+    if (qdot_piece_has_massless(x)) /* massless coordinates take the values that belong to the sides found */
         put_start(x, x->bare);
     status = side_enter(x, &can);
     if (status == QDOT_OK && can) {

@@ -20,10 +20,10 @@ QDOT_MUST_CHECK qdot_status qdot_digits_carry_out(qdot_run *run, qdot_scene *sce
                                                   qdot_domains *domains,
                                                   bool *interrupted);
 
-/* Fill the report as for a run in doubles. */
+/* Fill the report of a run with digits as for a run in doubles. */
 void qdot_digits_fill_report(qdot_run *run);
 
-/* Fill run->occurrences of such a run. Errors: QDOT_ENOMEM, those of the pool. */
+/* Fill run->occurrences of a run with digits. Errors: QDOT_ENOMEM, those of the pool. */
 QDOT_MUST_CHECK qdot_status qdot_digits_occurrences(struct qdot_run *run);
 
 #endif

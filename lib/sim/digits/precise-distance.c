@@ -112,7 +112,7 @@ distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_d
     return QDOT_OK;
 }
 
-/* When both have parted, among places that follow each other at 9 %; NaN: not known. */
+/* The time *t since which run and companion have parted, from a series of times 9 % apart; NaN: not known. */
 static qdot_status
 parting(qdot_precise_pair *pair, double *t)
 {

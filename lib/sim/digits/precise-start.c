@@ -22,7 +22,7 @@ typedef struct {
     const bool *named; /* [n]; NULL: all */
     bool velocities;
     mpfr_t *start;  /* [2 + 2n] */
-    mpfr_t *x;      /* [n] of them */
+    mpfr_t *x;      /* [n] the part of `start` that is solved for: positions or velocities */
     size_t m;       /* equations */
     qdot_precise *program;
     double *A, *b, *dx, *work; /* [m x n], [m], [n] */

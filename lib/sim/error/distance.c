@@ -17,7 +17,7 @@ static const double least_turn = 0.5;
 /* A component that moves by fewer tolerances turns by rounding alone. */
 static const double tolerances = 1000;
 
-/* From one point to the next, of what the companions are off by: they jump apart. */
+/* If the distance to the companions grows by this factor from one point to the next, they jump apart. */
 static const double jump = 32;
 
 /* Points that tell what the companions are off by near t. */

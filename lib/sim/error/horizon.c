@@ -30,7 +30,7 @@ typedef struct {
     double *y;      /* [n] the companion's */
     size_t *point;  /* [points] of the run, in order: those that are compared */
     double *t, *d;  /* [points] times of the points; distances of run and companion at these */
-    size_t points, most; /* there are, and at most so many are compared at first */
+    size_t points, most; /* the points compared so far; the most that are compared at first */
     size_t read;         /* states of the companion */
     size_t *pieces; /* [points] the piece that each point lies in */
     double threshold;

@@ -37,15 +37,15 @@ typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
     qdot_constrained *held; /* of the piece at hand */
-    size_t piece, end; /* and the stored point that it ends before */
+    size_t piece, end; /* the piece at hand; the index of the first point behind it */
     double *y; /* [2n] */
     size_t step; /* whose end is stored point `step`: where between[] is of */
     double *between; /* [4n] of a method without series: slopes of its ends' states */
     bool sloped;     /* they are known; else those of cubics stand for them */
     double enough; /* of q, to be 0 */
-    double t[3], q[3]; /* at the last places of the piece, */
-    size_t taken;      /* as many */
-    double most;       /* q since the last that was told */
+    double t[3], q[3]; /* time and quality of the last places of the piece that were evaluated, */
+    size_t taken;      /* the number of these */
+    double most;       /* the largest q since the last place that was reported */
     qdot_vec(group) groups;
 } search;
 

@@ -108,7 +108,7 @@ lanes_factor(const qdot_ensemble_series *e, const solver *s)
         e->kernels->factor(s->n, s->positive, s->A);
 }
 
-/* Order k of what is solved for, by the factor of K or its inverse. */
+/* Solve for order k of the unknowns, with the factor of K or its inverse. */
 static void
 stage(qdot_ensemble_series *e, int k)
 {

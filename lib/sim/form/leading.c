@@ -78,7 +78,7 @@ leading_factor(qdot_leading *l, const double *masses)
     return QDOT_OK;
 }
 
-/* Of d'Alembert's residual, from a tape of its own, at y. */
+/* Evaluate and factor M at a state, for d'Alembert's residual, whose M has a tape of its own. */
 static qdot_status
 factor_residual(qdot_leading *l, const qdot_ode_place *at)
 {

@@ -170,7 +170,7 @@ make_solvers(qdot_motion_matrix *K, bool shaken)
     return QDOT_OK;
 }
 
-/* Lower triangles: where entries of blocks that are not constant come from. */
+/* List the sources of the entries of blocks that are not constant, lower triangles. */
 static qdot_status
 make_entries(qdot_motion_matrix *K, qdot_taylor *taylor)
 {

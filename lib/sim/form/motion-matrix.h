@@ -53,7 +53,7 @@ QDOT_MUST_CHECK qdot_status qdot_motion_matrix_begin(qdot_motion_matrix *K, doub
                                                      const double *y);
 QDOT_MUST_CHECK qdot_status qdot_motion_matrix_take_rows(qdot_motion_matrix *K);
 
-/* Before orders 1 ... p - 1 are solved for. */
+/* Prepare for solving orders 1 ... p - 1: invert blocks that are not constant. */
 void qdot_motion_matrix_prepare(qdot_motion_matrix *K, int p);
 
 /* K->by, order k of -E, becomes order k of what is solved for. */

@@ -45,7 +45,7 @@ stage(qdot_motion_series *s, int k)
     return QDOT_OK;
 }
 
-/* Whether all is given by rows: a whole expansion is the program's. */
+/* Whether no unknown is solved for: the program alone gives the whole expansion. */
 static bool
 is_given(const qdot_motion_series *s)
 {

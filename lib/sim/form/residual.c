@@ -21,7 +21,7 @@ typedef struct {
     qdot_residual *r;
     qdot_vec(qdot_expr) functions, outputs, forces;
     qdot_keymap place; /* (term, function + 1) -> its place in the sum that the function is */
-    qdot_vec(qdot_expr) terms; /* of a difference */
+    qdot_vec(qdot_expr) terms; /* the terms of a difference of positions */
 } builder;
 
 void

@@ -20,7 +20,7 @@ enum { QDOT_SADDLE_REFINED = 3, QDOT_SADDLE_LEAST_REFINED = 18 };
 /* An entry of M or A. */
 typedef struct {
     const double *series; /* borrowed */
-    double sign;          /* it is so many times that */
+    double sign;          /* the entry is `sign` times the series */
 } qdot_saddle_series;
 
 typedef struct {

@@ -30,7 +30,7 @@ struct qdot_constrained {
     double *f, *w; /* [m] residuals of positions and velocities, by row */
     double *f_bound,
         *w_bound; /* [m] rounding of f, w; they grow along a run */
-    double *a;    /* [n + m] */
+    double *a;    /* [n + m] q'', then multipliers */
     double *weight; /* [m] of the multipliers, with room for the outputs and the work of c->scale; NULL: 1 */
     /* If the method needs a Jacobian, else NULL; derivatives by q, q', t: */
     double *slopes;      /* [outputs x (2n + 1)] of a tape */

@@ -287,7 +287,7 @@ open_extreme(opening *o, size_t i, const size_t *arguments)
             if (!may)
                 continue;
             if (pair->surface != SIZE_MAX && o->side && o->side[pair->surface] == QDOT_SIDE_SLIDES) {
-                sign = 0; /* they are equal */
+                sign = 0; /* on a surface along which the motion slides both sides are equal */
                 known = true;
             }
             open_pair(o, i, pair);

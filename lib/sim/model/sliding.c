@@ -12,7 +12,7 @@
 #include "sim/model/puck.h"
 #include "sim/model/switch.h"
 
-/* Up to so many coordinates q'' = M^-1 f is integrated. */
+/* With up to this many coordinates M^-1 f is formed in symbols and integrated. */
 enum { MOST_SOLVED = 3 };
 
 bool

@@ -10,7 +10,7 @@ typedef struct {
     const qdot_switches *s;
     const long *side;   /* NULL: symbols */
     const long *corner; /* [surfaces] the side meant by QDOT_SIDE_SLIDES */
-    qdot_gates gates;   /* of what is frozen */
+    qdot_gates gates;   /* the gates of the expressions that are frozen */
     uint8_t *open;
     qdot_expr *to; /* [gates] */
 } freezer;

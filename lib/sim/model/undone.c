@@ -109,7 +109,7 @@ list_open(const undoing *x, size_t *open)
     return m;
 }
 
-/* A value that no equation has: by the event's own, f = 0, if that is linear in it. */
+/* Find a value that no equation of `then` contains from the event's own equation f = 0, if that is linear in it. */
 static qdot_status
 recall(undoing *x)
 {

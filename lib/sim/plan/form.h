@@ -17,7 +17,7 @@
  * the form that it has so far. Errors: those of the program; QDOT_ESINGULAR. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 
-/* The form of a smooth plan without constraints, complete but for it. */
+/* Choose the form of the equations of a smooth plan without constraints, which is complete otherwise. */
 QDOT_MUST_CHECK qdot_status qdot_plan_choose_form(qdot_plan *plan, qdot_scene *scene,
                                                   const qdot_run_request *request);
 /* Choose the form of the equations of a plan with constraints. */

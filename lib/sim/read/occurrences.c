@@ -90,7 +90,7 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
     return status;
 }
 
-/* Of an event whose occurrences are known up to `from` alone: drop those behind, and touches. */
+/* Drop the occurrences of an event after `from`, up to which they are known, and its touches. */
 static void
 drop_from(qdot_run *run, const char *event, double from)
 {

@@ -481,7 +481,7 @@ range_by_chart(const qdot_run_expression *x, qdot_range_kind kind, const double 
     return range_along(x, kind, range, value, error);
 }
 
-/* Of runs that all count their times from one origin. */
+/* An extremum or mean over runs that count their times from the same origin. */
 static qdot_status
 range_from_origin(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
                   double *error)

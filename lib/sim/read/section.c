@@ -67,7 +67,7 @@ find_crossings(section *x, side *s, const double *limits)
     return qdot_reader_init(&s->reader, &x->reading, s->course);
 }
 
-/* The numbers out [m] at a crossing. */
+/* The values of the expressions, out [m], at a crossing. */
 static qdot_status
 read_at(section *x, side *s, const qdot_crossing *at, double *out)
 {

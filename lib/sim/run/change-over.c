@@ -29,7 +29,7 @@ run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
     *run = other;
 }
 
-/* At most so many changes of the method are told one by one. */
+/* The most changes of the method that are listed one by one. */
 enum { most_told = 4 };
 
 static qdot_status

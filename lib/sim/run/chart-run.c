@@ -265,7 +265,7 @@ express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr
                                                quarters, NULL);
 }
 
-/* The square of the slope of P. */
+/* The squared gradient of P. */
 static qdot_expr
 slope_of(const qdot_chart *c, const qdot_chart_sign *s)
 {

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-/* The range is halved to this part of it; two values are equal within so many roundings. */
+/* The range is narrowed to this fraction; values are equal within ROUNDINGS roundings. */
 static const double narrow = 1e-5;
 enum { HALVINGS = 40, STEPS = 8, ROUNDINGS = 8 };
 

@@ -259,7 +259,7 @@ pair_up(qdot_floquet *x)
     }
 }
 
-/* The multipliers nearest to 1 are 1. */
+/* Set the `count` multipliers nearest to 1, which are 1 in theory, to exactly 1. */
 static void
 state_trivial(qdot_floquet *x, size_t count)
 {

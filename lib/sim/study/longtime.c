@@ -218,7 +218,7 @@ longtime_check(const qdot_method_run *m)
     return QDOT_OK;
 }
 
-/* At one tolerance: *done unless the work foretold exceeds `most`. */
+/* Try one tolerance. *done is false if the first steps predict more work than `most`. */
 static qdot_status
 try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_longtime_row *row,
        bool *done)

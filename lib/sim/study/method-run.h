@@ -41,7 +41,7 @@ QDOT_MUST_CHECK qdot_status qdot_method_run_settled(qdot_scene *scene,
                                                     const qdot_run_request *request,
                                                     qdot_expr *start);
 
-/* The error of the energy at (t, y), as above; there must be one. */
+/* The error of the conserved energy at (t, y), relative to max(1, |its start|). */
 double qdot_method_run_energy_error(qdot_method_run *m, double t, const double *y);
 
 #endif

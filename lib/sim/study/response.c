@@ -151,7 +151,7 @@ response_settle(qdot_response *r, const double *u, double t)
     return QDOT_OK;
 }
 
-/* y of the scene made: q, slopes, parameters, then their velocities. */
+/* Fill the start y of the variational scene: q, slopes, parameters, then the velocities of all these. */
 static void
 response_put_start(qdot_response *r, const double *u)
 {

@@ -22,7 +22,7 @@ typedef struct {
     size_t n_massless;               /* equations of coordinates without mass (sim/model/massless.h) */
     size_t w;                        /* of these, those held: all or none */
     qdot_expr *G;                    /* [n] of them, 0 = G, without numbers */
-    size_t *massless;                /* [n] of which coordinates they are */
+    size_t *massless;                /* [n] the massless coordinate to which each belongs */
     bool *of_positions;              /* [n] whether such an equation holds no velocity of these */
     const qdot_variation_by *by;     /* [k] borrowed */
     qdot_expr *y;                    /* [k x n] */

@@ -450,7 +450,7 @@ elimination_prepare(elimination *e)
     return status == QDOT_ESINGULAR ? say_singular(e, pivot, true) : status;
 }
 
-/* q'' and lambda. */
+/* Solve for q'' and lambda in symbols, by the factors. */
 static qdot_status
 solve_motion(const elimination *e)
 {

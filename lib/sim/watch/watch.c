@@ -28,7 +28,7 @@ sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
     return QDOT_OK;
 }
 
-/* What the part needs, of all functions that are looked at. */
+/* The worst verdict of all watched functions on a part. */
 static qdot_watch_verdict
 judge(qdot_watch *w, qdot_watch_part *p, int nodes)
 {
@@ -99,7 +99,7 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
     return qdot_watch_seek_least(w, p, i, nodes);
 }
 
-/* Whether all polynomials of the part show what their functions do. */
+/* Whether the polynomials of the part represent all functions accurately; *v: the worst verdict. */
 static qdot_status
 resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot_watch_verdict *v)
 {
