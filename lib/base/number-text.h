@@ -8,7 +8,8 @@
 
 /* Append a double as people read it: as many digits as the error leaves meaningful. */
 void qdot_number_text(qdot_text *text, double value, double error);
-/* The same, but "unknown" where the error leaves no digit: above half of max(1, |value|). */
+/* Append a double as qdot_number_text does, but "unknown" where the error leaves no digit: above half of max(1,
+ * |value|). */
 bool qdot_number_is_known(double value, double error);
 void qdot_number_text_known(qdot_text *text, double value, double error);
 /* Append an error bound, one digit, rounded up: 3e-13. */

@@ -8,7 +8,7 @@
 /* Whether a stream goes to one. What mpirun gives its ranks looks so and is none. */
 bool qdot_terminal_is(const FILE *stream);
 
-/* Its size in characters; one that does not tell its size has 80 x 24. false: the stream goes
+/* The size of the terminal in characters; 80 x 24 if it is not known. false: the stream goes
  * elsewhere. */
 bool qdot_terminal_size(const FILE *stream, size_t *columns, size_t *rows);
 

@@ -20,8 +20,8 @@ void qdot_text_char(qdot_text *s, char c);
 void qdot_text_format(qdot_text *s, const char *format, ...) QDOT_PRINTF(2, 3);
 /* All that the file still has, or a block more than `most` bytes; false: it cannot be read. */
 bool qdot_text_add_stream(qdot_text *s, FILE *from, size_t most);
-/* The same with its errors, which name `path`: QDOT_EIO, also of a directory; QDOT_ELIMIT: it is larger than
- * `most`; QDOT_ENOMEM. */
+/* Append all that a file still has, as _add_stream; errors name `path`: QDOT_EIO, also of a directory;
+ * QDOT_ELIMIT: it is larger than `most`; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_text_read(qdot_text *s, FILE *from, const char *path,
                                            size_t most);
 void qdot_text_truncate(qdot_text *s, size_t length);

@@ -37,7 +37,8 @@ legendre_near(int s, family of, double x)
     return of == GAUSS ? p[0] : p[0] - p[of];
 }
 
-/* Its zero between low and high, where its sign changes: by bisection, then with a constant slope. */
+/* The zero of the polynomial between low and high, where its sign changes: by bisection, then with a constant
+ * slope. */
 static qdot_two
 zero_between(int s, family of, double low, double high)
 {

@@ -30,7 +30,7 @@
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues(size_t n, const double *A, const double *E,
                                              double *re, double *im, double *error);
 
-/* The same of the product of A [K x n x n], the first to act first, with errors E [K x n x n]. */
+/* The eigenvalues of the product of A [K x n x n], the first to act first, with errors E [K x n x n]. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E,
                                                         double *re, double *im, double *error);
 

@@ -30,7 +30,7 @@ bool qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows);
 /* Solve A x = b with the factors; b [n] in, x out. */
 void qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b);
 
-/* The same for complex matrices re + i im; the factors hold the inverses of the pivots. */
+/* Factor and solve for complex matrices re + i im; the factors hold the inverses of the pivots. */
 bool qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows);
 void qdot_lu_solve_complex(size_t n, const double *re, const double *im,
                            const qdot_lu_row *rows, double *b_re, double *b_im);

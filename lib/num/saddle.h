@@ -121,7 +121,7 @@ double qdot_saddle_remains(const qdot_saddle *s, size_t k);
  * unknown), or something is not finite. QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor(qdot_saddle *s, size_t *failed);
 
-/* The same by the null space, even with a pattern: it finds nearly dependent rows. */
+/* Factor by the null space even if there is a sparsity pattern: this finds nearly dependent rows. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed);
 
 /* How far the rows of A are from losing rank, 0 ... 1; 0 if they have lost it. Not counted as a

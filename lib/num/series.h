@@ -78,7 +78,7 @@ typedef struct {
     qdot_series_dot *dot[QDOT_SERIES_MOST + 2];
     qdot_series_pair *pair[QDOT_SERIES_MOST + 2];
 
-    /* The same for m series at once, m a multiple of 8, coefficients by order, then
+    /* Sums of n products for m series at once, m a multiple of 8, coefficients by order, then
      * member: out[i] = sum_{j=0..n-1} a[j m + i] b[-j m + i]. */
     void (*dots)(size_t m, size_t n, const double *a, const double *b, double *out);
 

@@ -106,7 +106,7 @@ unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t 
                               : qdot_lanes_number(w, c->unknown + i);
 }
 
-/* The same by the factor, whose diagonal is inverted: -L y = E, L^T a = y. */
+/* Write the solution for a block by the Cholesky factor, whose diagonal is inverted: -L y = E, L^T a = y. */
 static void
 write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
 {

@@ -15,7 +15,7 @@
 
 /* out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
 void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work);
-/* The same with sines and cosines as those of series. */
+/* As qdot_lanes_eval, with sines and cosines computed as in series. */
 void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work);
 
 /* The series program with its coefficients: one a thread. */

@@ -63,7 +63,7 @@ typedef struct {
  * those later orders read, beside the equations. Errors: QDOT_ENOTBUILT (a coefficient is read before
  * it is known). */
 QDOT_MUST_CHECK qdot_status qdot_motion_arrange(qdot_motion *motion);
-/* The same behind qdot_program_end: of a motion that was filled by `b`, with `status` so far. If
+/* End the program and arrange the motion: of a motion that was filled by `b`, with `status` so far. If
  * that, or one of the two, is a failure, it is returned and the motion is empty. */
 QDOT_MUST_CHECK qdot_status qdot_motion_complete(qdot_motion *motion, qdot_program_builder *b,
                                             qdot_status status);

@@ -17,7 +17,7 @@
 
 #include "series/taylor-steps.h"
 
-/* What divides the orders of an expansion among loops (taylor-code.c). */
+/* The layout by which the orders of an expansion are divided among loops (taylor-code.c). */
 typedef struct {
     int lanes, lag;
     bool as_they_stand;

@@ -71,12 +71,12 @@ void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
  * without this call. The code is shared with programs of the same shape, to orders up to `most` at
  * least if vectors are narrow (below `to`: as `to`). Errors: QDOT_EINVAL (to), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to, int most);
-/* The same where such code lies there from before, and nothing is to be written; asked for
- * once, beside other code never. False: nothing has changed. */
+/* Take such code if it is kept from an earlier run, without writing any. This is tried
+ * once, and not if there is other code. False: nothing has changed. */
 bool qdot_taylor_take_kept(qdot_taylor *taylor, int to, int most);
 /* All is evaluated by the kernels again. */
 void qdot_taylor_drop_code(qdot_taylor *taylor);
-/* The same, and no code is written from now on, for this reason; borrowed. */
+/* Evaluate all by the kernels, and write no code from now on, for the reason `why`, borrowed. */
 void qdot_taylor_refuse_code(qdot_taylor *taylor, const char *why);
 /* Whether orders 1 ... to are machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);

@@ -19,7 +19,7 @@ typedef struct qdot_tape qdot_tape;
  * input: QDOT_EUNSET with its name. Relations and if() are allowed (1.0 and 0.0). */
 QDOT_MUST_CHECK qdot_status qdot_tape_new(qdot_pool *pool, size_t n, const qdot_expr *inputs,
                                           size_t m, const qdot_expr *outputs, qdot_tape **tape);
-/* The same for a tape that is evaluated on series (taylor.h, lanes.h), where the costs of angles
+/* Make a tape that is evaluated on series (taylor.h, lanes.h), where the costs of angles
  * differ from those for numbers (tape/angle.h). */
 QDOT_MUST_CHECK qdot_status qdot_tape_new_for_series(qdot_pool *pool, size_t n,
                                                      const qdot_expr *inputs, size_t m,

@@ -77,7 +77,7 @@ typedef struct {
 } qdot_cyclic;
 /* Coordinates absent from L (their velocities may stand there). *list [*n], owned by caller. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n);
-/* The same of coordinate i alone; *is: whether it is one of them. */
+/* Whether coordinate i is cyclic (*is), with its momentum and rate. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *cyclic,
                                                 bool *is);
 /* Whether x stands in what is applied along any coordinate beside V: forces, dampers,

@@ -156,7 +156,7 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
         rate = qdot_mul(pool, qdot_ddt(pool, u), partial(s, u, i, kane));
         return qdot_neg(pool, qdot_mul(pool, damper->stiffness, rate));
     }
-    /* By u.u simplified: u.u' and u.du/dq are half its derivatives. */
+    /* Uses u.u simplified, of which u.u' and u.du/dq are half the derivatives. */
     square = qdot_link_square(s, true, k);
     rate = half_of_terms(pool, qdot_ddt(pool, square));
     if (!kane)

@@ -23,7 +23,7 @@ qdot_expr qdot_mech_component(const qdot_pool *pool, qdot_expr r, uint32_t d);
 qdot_expr qdot_mech_dot(qdot_pool *pool, qdot_expr a, qdot_expr b); /* scalars too */
 /* e simplified with the scene's facts; above a certain size e is returned as it is. */
 qdot_expr qdot_mech_tidy(qdot_scene *s, qdot_expr e);
-/* The same for a sum of parts that are simplified: tried while it is short. */
+/* A sum of simplified parts, simplified as a whole if it is short; else as it is. */
 qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
 /* Coordinate, velocity, acceleration i. */
 qdot_expr qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order);

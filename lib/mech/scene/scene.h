@@ -30,7 +30,7 @@ QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name,
  * the place of the one without label before. */
 QDOT_MUST_CHECK qdot_status qdot_scene_term(qdot_scene *s, qdot_scene_kind kind,
                                             const char *name, qdot_expr e);
-/* The same without label. */
+/* Declare a term, spring or damper without label. */
 QDOT_MUST_CHECK qdot_status qdot_scene_gravity(qdot_scene *s, qdot_expr field);
 QDOT_MUST_CHECK qdot_status qdot_scene_potential(qdot_scene *s, qdot_expr V);
 QDOT_MUST_CHECK qdot_status qdot_scene_spring(qdot_scene *s, const qdot_link *spring);
@@ -118,7 +118,7 @@ QDOT_MUST_CHECK qdot_status qdot_scene_moves_within(qdot_scene *s, qdot_expr pla
 
 /* `scene` printed: every declaration as a statement that parses back, a line each (plain style). */
 QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
-/* The same without the coordinates. */
+/* Print all declarations except the coordinates. */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_things(const qdot_scene *s, qdot_text *out);
 /* A symbol with its domain, "0 < theta < pi". */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_domain(const qdot_scene *s, qdot_expr x,

@@ -45,7 +45,7 @@
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind,
                                                   void *user, qdot_equilibria *out);
 
-/* The same up to the first that is not unstable; all if there is none. */
+/* Find equilibria up to the first that is not unstable; all if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_first(qdot_scene *s, qdot_binder bind,
                                                    void *user, qdot_equilibria *out);
 /* The stability of the place one->equations, which exists where one->exists holds, to *one. */

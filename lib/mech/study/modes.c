@@ -316,7 +316,7 @@ frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
     return QDOT_OK;
 }
 
-/* The same at the values of the parameters, those without one at a generic place. */
+/* The order of a and b at the values of the parameters; those without a value are put at a generic place. */
 static int
 order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
 {

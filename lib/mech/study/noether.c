@@ -100,7 +100,7 @@ work_of(const search *f, const unknown *u, const qdot_expr *F)
     return sum;
 }
 
-/* The same for the reaction of a constraint, where the constraint holds: f is taken off. */
+/* The work of a reaction along a symmetry, where the constraint holds: multiples of f are removed. */
 static qdot_expr
 reaction_work(const search *f, const unknown *u, size_t k, const qdot_expr *F)
 {

@@ -128,7 +128,7 @@ rhs(double t, const double *y, double *dydt, void *user)
     return qdot_bind_accelerate(b, dydt + n);
 }
 
-/* The same by the reduced plan: rates of the coordinates whose momenta are kept. */
+/* The right side by the reduced plan; cyclic coordinates, whose momenta are constant, only have rates. */
 static qdot_status
 reduced_rhs(double t, const double *y, double *dydt, void *user)
 {

@@ -44,7 +44,7 @@ QDOT_MUST_CHECK qdot_status qdot_bind_accelerations(const qdot_ode_system *syste
  * 0 under constraints, and of a plan without M. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_bind_roundings(const qdot_ode_system *system, double t,
                                                 const double *y, const double *a, double *e);
-/* The same of what operations lose below the least normal double alone; it may be infinite or a NaN. */
+/* The uncertainty e of q'' that underflow alone causes; it may be infinite or a NaN. */
 QDOT_MUST_CHECK qdot_status qdot_bind_underflows(const qdot_ode_system *system, double t, const double *y,
                                                  const double *a, double *e);
 

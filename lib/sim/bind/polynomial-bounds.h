@@ -93,8 +93,8 @@ void qdot_polynomial_bounds_enclose(qdot_polynomial_bounds *h, double a, double 
  * h->radius[i] and t in a ... b. */
 void qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b);
 
-/* The same for the states of a step by the series that was computed for it: each term lies between 0
- * and its value at the end. */
+/* h->out -+ h->out_radius contain the outputs for the states of a step, from the series that was computed
+ * for it: each term lies between 0 and its value at the end. */
 void qdot_polynomial_bounds_series(qdot_polynomial_bounds *h, const qdot_ode_series *series,
                                    const qdot_ode_expanded *step);
 /* Then intervals of the outputs for the same inputs, into h->box. */

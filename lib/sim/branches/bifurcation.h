@@ -40,7 +40,7 @@ typedef struct {
     char reason[QDOT_PATH_REASON]; /* why none was followed from there; "": it was, or that was not tried */
 } qdot_bifurcation;
 
-/* It lies between the points at `from` and `to` from a along a->t. */
+/* Where a bifurcation lies: between the points at `from` and `to` from a along a->t. */
 typedef struct {
     const qdot_path_point *a;
     double from, to;

@@ -10,7 +10,8 @@
 /* Of the step that a crossing lies in: half the distances of places for its polynomial. Of a length of 1: the step of second
  * derivatives. A direction with less along p has none. */
 static const double wide = 0.1, narrower = 0.3, difference = 1e-4, upright = 1e-4;
-/* A crossing that polynomials put no better than that, of a length of 1, is none: two curves come near each other. */
+/* A crossing whose position polynomials determine no better than this, in units of the curve, is none: two curves
+ * come near each other. */
 static const double apart = 1e-10;
 /* The rounding that both runs share and their difference does not show, relative to a value. */
 static const double rounding = 4e-15;
@@ -216,7 +217,8 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
     return good;
 }
 
-/* The same; where a place happens to lie at the crossing, and cannot be had, from places beside these. */
+/* Fit a polynomial through places next to *s; if a place lies at the crossing and has no solution, through others
+ * beside them. */
 static bool
 fit_beside(search *f, double *s, double step, double *y, double *off)
 {
@@ -462,7 +464,7 @@ as_coarse(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
     return qdot_path_go(path, a, 0, to, &steps);
 }
 
-/* The same by the coarse runs, near s; errors of what is at y. */
+/* Find the bifurcation once more by the coarse runs, and the errors of y by the difference. */
 static qdot_status
 orbit_find_errors(search *f, double lo, double hi, const double *y, const double *t, double off,
                   double *error, bool *found)

@@ -13,9 +13,9 @@ static const double alike = 1e-9;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides
  * them. */
 static const double least_height = DBL_EPSILON / 8;
-/* The same of a place that moves with time: where it is at a root, rounding of that hides. */
+/* This part for a place that moves with time, whose position at a root is rounded, too. */
 static const double least_moving = 0x1p10 * DBL_EPSILON;
-/* The same for methods without series, from which a state within a step is known only to that part of its size. The
+/* This part for methods without series, from which a state within a step is known only to that part of its size. The
  * search of a step tells heights above a sixth of that from rounding. */
 static const double least_in_doubles = 0x1p16 * DBL_EPSILON;
 /* A multistep method begins anew behind each bounce, with short steps of low order: its own error there hides heights

@@ -17,7 +17,7 @@
 typedef enum {
     QDOT_PIECE_GOES_ON,
     QDOT_PIECE_RETRIED, /* stopped after its first step: x->well says why */
-    QDOT_PIECE_ENDS     /* at t_act */
+    QDOT_PIECE_ENDS     /* the piece ends at t_act */
 } qdot_piece_intent;
 
 /* How often an event, bound or surface was met: used to detect accumulation. */
@@ -221,7 +221,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root
  * companion takes the root for earlier by that, the other for later. If other switches are on other
  * sides then, nothing is done. */
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
-/* The same by the root itself, where x->has_root: the state there, on the constraints. */
+/* Go to the state at the root itself, on the constraints, if x->has_root. */
 QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
 /* Where the piece ended: its last point, and what that leaves out. */
 void qdot_piece_start_at_end(qdot_piece *x);
@@ -287,7 +287,8 @@ bool qdot_piece_meets_again(const qdot_piece *x, size_t i);
 /* (piece-back.c) In a run back in time, of an event with a `then`: whether it has just occurred at a root of its function,
  * or may have; *way: that of its function before it, as t grows. */
 bool qdot_piece_is_undone(qdot_piece *x, const qdot_root *root, int *way);
-/* The same of event i where the run starts: the motion rests on it, or the start is behind an impact. */
+/* *acts: at the start of a run back in time event i has just occurred: the motion rests on it, or starts behind an
+ * impact. */
 QDOT_MUST_CHECK qdot_status qdot_piece_undone_at_start(qdot_piece *x, size_t i, bool *acts);
 /* Before it is undone: c->reason if what was before it is not known. */
 QDOT_MUST_CHECK qdot_status qdot_piece_check_undone(qdot_piece *x, const qdot_root *root);

@@ -49,7 +49,7 @@ typedef struct {
 /* Lower exprs [m]; the tape is the caller's to free, NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
                                               const qdot_expr *exprs, qdot_reading *of);
-/* The same along the courses of another reading, which may have no tape. */
+/* Lower exprs [m] along the courses of another reading, which may have no tape. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, size_t m,
                                                      const qdot_expr *exprs, qdot_reading *of);
 

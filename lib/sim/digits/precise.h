@@ -82,7 +82,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_pair_values(qdot_precise_pair *pair, si
                                                      qdot_expr time, qdot_expr *values,
                                                      double *errors);
 
-/* The same at the first or the last point of a piece, of each run at its own: the states on either side of
+/* Values of expressions at the first or the last point of a piece, of each run at its own: the states on either side of
  * an event. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_end_values(qdot_precise_pair *pair, size_t m,
                                                          const qdot_expr *exprs, size_t piece,

@@ -396,7 +396,7 @@ qdot_run_twin(qdot_run *run)
         return QDOT_OK;
     QDOT_TRY(follow(run, 1, &run->twin, &run->has_twin));
     if (run->has_twin && !covers(&run->twin, run->course.tr.t[run->course.tr.count - 1])) {
-        /* given up on the way: the first alone */
+        /* the second companion was given up on the way: only the first counts */
         begin_anew(&run->twin);
         run->has_twin = false;
         run->way = QDOT_COMPANION_WAYS;

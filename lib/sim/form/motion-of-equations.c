@@ -14,7 +14,7 @@ typedef struct {
     qdot_program_builder *program;
     qdot_program_row *outputs; /* of the plan's tape */
     qdot_motion_line *lines;   /* [n + m] by number in the motion; right: f, gamma */
-    uint32_t *place;           /* [n + m] which of these it is */
+    uint32_t *place;           /* [n + m] the index of each coordinate or multiplier among the unknowns */
 } builder;
 
 static bool

@@ -24,7 +24,7 @@
 QDOT_MUST_CHECK qdot_status qdot_motion_of_equations(const qdot_plan *plan,
                                                      qdot_motion *motion);
 
-/* The same for members of an ensemble: parameters that are coordinates of the plan (plan->n_states)
+/* The motion for members of an ensemble: parameters that are coordinates of the plan (plan->n_states)
  * are numbers. Inputs are q, q' of the other coordinates, t, these parameters, momenta that are
  * kept. */
 QDOT_MUST_CHECK qdot_status qdot_motion_of_members(const qdot_plan *plan, qdot_motion *motion);

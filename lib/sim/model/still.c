@@ -70,7 +70,7 @@ reduce(set *z)
     return qdot_grave(qdot_pool_check(p->pool)); /* there may be no value there */
 }
 
-/* Those that are 0 and at rest, and are not accelerated. */
+/* Find the coordinates that are 0 and at rest, and are not accelerated. */
 static bool
 still_begin(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
             double *rate)

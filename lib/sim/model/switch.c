@@ -40,7 +40,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     if (!steps)
         u = qdot_gates_upright(s->pool, u, &turned);
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (!qdot_gates_moves(s->pool, u)) /* what moved cancelled */
+    if (!qdot_gates_moves(s->pool, u)) /* what changes along a run cancelled in u */
         return QDOT_OK;
     QDOT_TRY(switches_collect(s, u));
     for (size_t i = 0; i < s->surfaces.n; i++)

@@ -44,7 +44,7 @@ qdot_ode_cost qdot_cost_of_kernels(const qdot_ode_cost *cost);
 /* Steps of a way as long as the radius of convergence, at a middling tolerance: forms are
  * compared at one, for a plan is kept for runs under any. */
 double qdot_cost_steps(const qdot_ode_cost *cost);
-/* The same with constraints, under a tolerance, and with what is done behind every step. */
+/* The cost of such steps with constraints, under a tolerance, with the projection after every step. */
 double qdot_cost_constrained_steps(const qdot_plan *plan, const qdot_ode_cost *cost, double tol);
 /* An evaluation of a tape. */
 double qdot_cost_evaluation(const qdot_tape *tape);

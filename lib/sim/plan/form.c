@@ -220,7 +220,8 @@ offer_eliminated(qdot_plan *p, double tol, double *least)
     return QDOT_OK;
 }
 
-/* The same of multipliers solved for by machine code; kernels: of what begins it. */
+/* Take the bordered form, in which machine code solves for multipliers, if its steps cost less than *least.
+ * kernels: the cost before there is code. */
 static qdot_status
 offer_bordered(qdot_plan *p, double tol, const qdot_ode_cost *kernels, double *least)
 {

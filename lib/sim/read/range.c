@@ -314,7 +314,7 @@ range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *ra
     return range_of(&inner, QDOT_RANGE_REACH, range, value, error);
 }
 
-/* The same where run k was made in other coordinates: what is said along it, put into those for the
+/* If run k was made in other coordinates: the expression along it, written in those for the
  * stretch of time t. */
 static qdot_status
 express(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdot_expr *e,

@@ -193,7 +193,7 @@ values_along(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_t
     return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
 }
 
-/* The same of a run that counts its times from an origin. */
+/* Values along a run that counts its times from an origin. */
 static qdot_status
 values_from_origin(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
                    double *values, double *errors)

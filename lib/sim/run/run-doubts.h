@@ -16,7 +16,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_doubt_places(qdot_run *run);
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_doubt_end(qdot_run *run);
 
-/* The same, if the energy was not kept as steps under the tolerance would keep it; the drifts are
+/* Make the error unknown if the energy was not kept as steps under the tolerance would keep it; the drifts are
  * measured. */
 QDOT_MUST_CHECK qdot_status qdot_run_doubt_energy(qdot_run *run, double tol);
 

@@ -603,7 +603,7 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
 }
 
-/* The same, by a method for stiff scenes where `auto` finds one, or under a tighter tolerance. */
+/* Make a run; again by a method for stiff scenes if `auto` finds that it is one, or under a tighter tolerance. */
 static qdot_status
 make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {

@@ -70,7 +70,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const
                                                   qdot_expr time, qdot_expr *values,
                                                   double *errors);
 
-/* The same at point k of qdot_run_times beside an event: the state before it at the earlier of the two
+/* Exact values at point k of qdot_run_times beside an event: the state before it at the earlier of the two
  * points of one time, the state after it at the later. */
 QDOT_MUST_CHECK qdot_status qdot_run_exact_point_values(qdot_run *run, size_t m,
                                                         const qdot_expr *exprs, size_t k,

@@ -77,7 +77,7 @@ find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
             found[i] = largest;
 }
 
-/* Those of the velocities of coordinates that have one; of a motion so slow that no velocity is larger, all. */
+/* Find scales of velocities: of coordinates that have a scale; of all if no velocity of the motion is large. */
 static void
 find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
                 double *found)

@@ -80,7 +80,7 @@ orthonormalise(const pursuit *p, double *y, double *size)
     }
 }
 
-/* The same of the state; ln R_kk are added to the sums. */
+/* Make the slopes of the state orthonormal, and add ln R_kk to the sums. */
 static qdot_status
 pursuit_gather(pursuit *p)
 {
@@ -127,7 +127,7 @@ pursuit_advance(pursuit *p, double end)
     return status;
 }
 
-/* The same where events, switches or domains may divide it: a course from the state that is there. */
+/* Advance to `end` by a course from the present state, if events, switches or domains may divide it. */
 static qdot_status
 advance_in_pieces(pursuit *p, double end)
 {

@@ -319,7 +319,7 @@ floquet_judge(qdot_floquet *x)
         x->verdict = QDOT_FLOQUET_STABLE;
 }
 
-/* Those of the product of B in units in which its factors are alike. */
+/* The multipliers, as eigenvalues of the product of B, in units in which its factors are of similar size. */
 static qdot_status
 find_eigenvalues(size_t K, size_t k, const double *B, const double *E, qdot_floquet *x)
 {

@@ -499,7 +499,7 @@ slope_by(const elimination *e, qdot_expr z)
                                                      v, qdot_diff(pool, e->F[c], z))));
 }
 
-/* The same by the parameter of direction k, added to x, z. */
+/* Add the derivatives by the parameter of direction k to x, z. */
 static void
 add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
 {

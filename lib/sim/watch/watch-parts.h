@@ -30,7 +30,7 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
 /* Extrema that were not sought yet. */
 #define QDOT_WATCH_UNKNOWN (-2)
 
-/* The signs up to which a step has been searched. */
+/* The signs of the functions at the time up to which a step has been searched. */
 struct qdot_watch_state {
     int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on
                    g stays 0 */

@@ -38,7 +38,7 @@ cross(walk *x, double from, double to, int way)
     return found ? qdot_watch_push(x->w, root) : QDOT_OK;
 }
 
-/* It has become 0 between x->from and x->zero; `touches`: and has its sign again. */
+/* g has become 0 between x->from and x->zero; `touches`: it has its former sign again. */
 static qdot_status
 stay(walk *x, bool touches)
 {

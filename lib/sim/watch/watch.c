@@ -114,7 +114,7 @@ resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot
     return QDOT_OK;
 }
 
-/* Values at the nodes; in two doubles, and *at_end too, where doubles do not tell the sign. */
+/* Evaluate the values at the nodes; in two doubles, with *at_end, if doubles do not tell the sign. */
 static qdot_status
 sample_enough(qdot_watch *w, const qdot_watch_part *p, int nodes, const double **at_end)
 {
