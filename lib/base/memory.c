@@ -74,7 +74,7 @@ qdot_memory_press_at(long n)
     qdot_memory_visit_at(n, qdot_interrupt_set);
 }
 
-/* What was allocated, noted in the scope; NULL: not even that. */
+/* Note an allocated block in the scope and return it; if that fails, free it and return NULL. */
 static void *
 noted(void *block, size_t size)
 {

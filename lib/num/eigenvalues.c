@@ -156,7 +156,7 @@ find_planes(const solver *s, size_t k, size_t j, double complex *Q, double compl
     return size > 0 && isfinite(cabs(det)) && cabs(det) > 0;
 }
 
-/* What E makes of the k-th by its plane with the j-th. */
+/* The change of the k-th eigenvalue by E within the plane of the k-th and j-th eigenvectors. */
 static double
 error_in_plane(const solver *s, const double *A, const double *E, const double complex *Q, const double complex *L)
 {

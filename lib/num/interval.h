@@ -39,7 +39,7 @@ qdot_interval qdot_interval_power(qdot_interval a, qdot_interval b);
 /* x - y floor(x/y) */
 qdot_interval qdot_interval_remainder(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* atan2 */
-/* Of a function that rises, or falls, over all of a. */
+/* The image of a under a function that rises, or falls, on all of it. */
 qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
 qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);
 /* Of sin (top pi/2) or cos (top 0): highest at top + 2 pi k, lowest halfway between. */

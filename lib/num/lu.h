@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What there is to know of rows: pivot, first and last column. */
+/* The pivot, the first and the last column of a row. */
 typedef struct {
     size_t pivot, from, to;
 } qdot_lu_row;

@@ -27,7 +27,7 @@ static const double nothing = 0x1p-92, lightest = 0x1p-14;
  * largest. */
 static const double shrunk = 0x1p-10;
 
-/* For many right-hand sides an inverse is computed up to so many unknowns. */
+/* With up to this many unknowns an inverse is computed if there are many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
 static double
@@ -207,7 +207,7 @@ scale_unknowns(qdot_saddle *s)
     }
 }
 
-/* What row k of R, of that norm, is scaled as. */
+/* The size relative to which row k of R, of that norm, is judged. */
 static double
 size_of_row(const qdot_saddle *s, size_t k, double norm)
 {

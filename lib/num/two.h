@@ -88,7 +88,7 @@ qdot_two_mul_double(qdot_two a, double b)
     return qdot_two_of(p, fma(a.lo, b, fma(a.hi, b, -p)));
 }
 
-/* By a power of two: exact. */
+/* a times a power of two: exact. */
 QDOT_TWO_INLINE qdot_two
 qdot_two_scale(qdot_two a, double power)
 {

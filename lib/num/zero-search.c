@@ -100,7 +100,7 @@ descend_once(qdot_zero_search *s)
     return QDOT_OK;
 }
 
-/* What a search led to, from one place to another. */
+/* Copy the result of a search. */
 static void
 copy_result(const qdot_zero_search *s, const qdot_zero_result *from, qdot_zero_result *to)
 {

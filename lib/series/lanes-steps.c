@@ -127,7 +127,7 @@ before(const step *s, qdot_lanes_sum *sums)
 
 /* --- with coefficient k of the operands --------------------------------------------- */
 
-/* What an order makes of a row only while unknowns are left out. */
+/* Whether the step is only needed while unknowns are still unknown. */
 static bool
 is_passing(const qdot_lanes_writer *w, const qdot_program_step *s)
 {

@@ -19,7 +19,7 @@ enum {
     QDOT_WRITER_MOST_TABLES = 16
 };
 
-/* What a row's number begins with that is none of the program. */
+/* Bits of row numbers that denote constants and tables, not rows of the program. */
 enum {
     QDOT_WRITER_NUMBERS = 1 << 24,
     QDOT_WRITER_INVERSES = 2 << 24,

@@ -203,7 +203,7 @@ lanes_fill(qdot_lanes *t, bool shaken, int most)
     return QDOT_OK;
 }
 
-/* Of a program, which may be that of a motion. */
+/* Make lanes for a program, which may be that of a motion. */
 static qdot_status
 lanes_make(const qdot_program *program, const qdot_motion *motion, bool shaken, int most,
            qdot_lanes **lanes)

@@ -23,7 +23,7 @@ writes_of(const qdot_program_step *s, qdot_program_row rows[WRITES])
     rows[3] = s->d;
 }
 
-/* By how much a step reads ahead of what it writes. */
+/* By how many orders a step reads its operands ahead of the row it writes. */
 static int
 step_reads_ahead(const qdot_program_step *s)
 {

@@ -14,7 +14,7 @@ qdot_near_limit(int p, double u0, double digits)
     return fmax(0.5 * (p + 1), fabs(u0) - digits - QDOT_NEAR_BEYOND);
 }
 
-/* In two chains that do not wait for each other. */
+/* sum_{k>=1} |x_k| s^k, in two chains that the processor computes side by side. */
 double
 qdot_near_sum(int p, const double *x, double s)
 {

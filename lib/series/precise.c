@@ -167,7 +167,7 @@ precise_at(const qdot_precise *p, qdot_program_row row, int k)
     return row != QDOT_NO_ROW && (size_t)k < p->stride ? precise_place(p, row)[k] : NULL;
 }
 
-/* What order k of an unknown makes of its integrals. */
+/* Compute the coefficients of the integrals of an unknown from its order k. */
 static void
 precise_integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr a, int k)
 {

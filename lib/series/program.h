@@ -126,7 +126,7 @@ qdot_program_row qdot_program_rate(qdot_program_builder *b, qdot_program_row x);
  * program is then empty. */
 QDOT_MUST_CHECK qdot_status qdot_program_end(qdot_program_builder *b);
 
-/* How many programs this process has begun so far: work that tests count. */
+/* The number of programs that this process has made; tests count it. */
 size_t qdot_program_made(void);
 
 /* Whether a tape has a series: the operation that has none, or NULL. */

@@ -174,7 +174,7 @@ sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_ope
     *other = (sum){.v = {.reg = -1}};
 }
 
-/* What an operation makes; `sums` counts those of the step. */
+/* The sum that one operation of a recurrence computes; `sums` counts the sums of the step. */
 static sum
 operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
                  int *sums, sum *u)

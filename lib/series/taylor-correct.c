@@ -83,7 +83,7 @@ add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double 
         (struct qdot_taylor_scaled_change){row, qdot_taylor_row(t, x), s->lead};
 }
 
-/* What changes by one step, a second row after the first. */
+/* List the rows that one step changes, the second after the first. */
 static void
 list(qdot_taylor *t, const qdot_taylor_step *s)
 {

@@ -158,7 +158,7 @@ void qdot_code_zero(qdot_generator *g);
 /* Sums and products that are read once are added up where they are read: without rows, and
  * without waits of their own. Sums of products being known. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_code_fold(qdot_generator *g);
-/* Where the product of two factors stands that no order changes. */
+/* The place of the product of two factors that are the same at all orders. */
 qdot_operand qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b);
 
 /* Order g->k of unknowns. */

@@ -99,12 +99,12 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_settle(qdot_taylor *t, const qdot_progra
                                                bool shaken);
 /* Blocks of the motion's explicit equations. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_solve_motion(qdot_taylor *t, int solved);
-/* What its unknowns are, `linked`: their integrals are links. Errors: QDOT_ENOMEM. */
+/* Find the unknowns of the motion; `linked`: their integrals are links. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_find_unknowns(qdot_taylor *t, bool linked);
 /* Equations that are rates of a row become that row; steps go which only write explicit equations, such
  * rates, or an entry of K that is another one negated. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_shorten(qdot_taylor *t);
-/* Of unknowns, which rows steps read at their newest order. Errors: QDOT_ENOMEM. */
+/* Find the rows of unknowns whose newest coefficients steps read. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_find_newest(qdot_taylor *t);
 static inline double *
 qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
@@ -124,11 +124,11 @@ qdot_taylor_row(const qdot_taylor *t, const double *row)
 void qdot_taylor_changes_free(qdot_taylor *t);
 /* Order k is being evaluated. */
 void qdot_taylor_changes_stale(qdot_taylor *t, int k);
-/* Of what is linked that order which follows from order k. */
+/* Compute the coefficients of links (integrals) that follow from order k. */
 void qdot_taylor_order_links(qdot_taylor *t, int k);
 /* All steps of a motion, each at order k + its lead. */
 void qdot_taylor_order_leading(qdot_taylor *t, int k);
-/* For the orders of steps, by the processor at hand. */
+/* Choose the functions that evaluate orders of steps, for this processor. */
 void qdot_taylor_find_functions(qdot_taylor *t);
 /* The steps of a motion that are kept are to follow changes. Where by how much the newest coefficient
  * of a row changes is to be put; then what those steps make of all that. */

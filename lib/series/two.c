@@ -309,7 +309,7 @@ qdot_tape_two_rounding(const qdot_tape_two *t)
     return 0x1p-98;
 }
 
-/* Where the step stands that switches; 0: on the border of two sides. */
+/* On which side a switching step is; 0: on the border of two sides. */
 static int64_t
 switch_side_of(const qdot_tape_two *t, const qdot_program_step *i)
 {

@@ -255,7 +255,7 @@ put_branches(qdot_pool *pool, qdot_expr node, void *user)
     return factor == QDOT_ONE ? node : qdot_mul(pool, node, factor);
 }
 
-/* In new coordinates and roots, before products are looked at. */
+/* e with the new coordinates and roots put in, before products are simplified. */
 static qdot_expr
 replaced(const qdot_chart *c, qdot_expr e)
 {

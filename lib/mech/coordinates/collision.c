@@ -21,7 +21,7 @@ qdot_collision_clear(qdot_collision *c)
     *c = (qdot_collision){0};
 }
 
-/* What the scene is made from: symbols, and the equations of the pair. */
+/* The scene in regular coordinates while it is made: symbols, and the equations of the pair. */
 typedef struct {
     qdot_collision *c;
     qdot_pool *pool;

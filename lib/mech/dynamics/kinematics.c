@@ -436,7 +436,7 @@ number_coordinates(const qdot_scene *s, summands *m)
     return QDOT_OK;
 }
 
-/* What is wanted of all x, or of all y, grouped. */
+/* Group what is wanted of the first, or of the second, functions of all inertial terms. */
 static qdot_status
 group_all(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_groups *out)
 {

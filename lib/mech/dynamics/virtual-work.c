@@ -257,7 +257,7 @@ torque_name(const qdot_scene *s, size_t k)
                                        : s->bodies.at[t->body].name;
 }
 
-/* What the k-th of a kind is called in an answer. */
+/* The name of the k-th thing of a kind in an answer. */
 #define CALLED(list, word)                                                               \
     static const char *list##_words(const qdot_scene *s, size_t k)                       \
     {                                                                                    \

@@ -63,7 +63,7 @@ is_on(const qdot_torque *torque, int body)
         }                                                                                \
     } while (0)
 
-/* What acts on the thing that goes. Before anything is taken out. */
+/* Name what acts on the thing to be removed; called before anything is removed. */
 static qdot_status
 name_dependents(qdot_scene *s, const char *label, int body)
 {

@@ -11,7 +11,7 @@
 #include "mech/scene/cache.h"
 #include "normal/simplify/kinks.h"
 
-/* What may not stand in a declaration, with its words. */
+/* Kinds of symbols that a declaration must not contain, and their names in messages. */
 enum {
     NO_SYMBOLS =
         QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA,

@@ -95,7 +95,7 @@ QDOT_MUST_CHECK qdot_status qdot_scene_map(qdot_scene *s,
  */
 QDOT_MUST_CHECK qdot_status qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to);
 
-/* By label; NULL if there is none. */
+/* Find a thing by its label; NULL if there is none. */
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
 const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
 bool qdot_scene_has_label(const qdot_scene *s, const char *label);

@@ -136,7 +136,7 @@ residual_square(const problem *p)
     return sum;
 }
 
-/* In which coordinates the equations are proved to repeat after a full turn. */
+/* Find the coordinates in which the equations are proved to repeat after a full turn. */
 static qdot_status
 find_angles(problem *p, const qdot_rest *rest)
 {

@@ -9,7 +9,7 @@
 
 enum { MOST = 4 };
 
-/* What may be spent on n unknowns before the search from many starts. */
+/* budgets[n]: the work that exclusion for n unknowns may take, before the search from many starts. */
 static const uint64_t budgets[MOST + 1] = {0, 20000, 60000, 120000, 80000};
 
 static bool

@@ -8,7 +8,7 @@
 
 enum { MOST_COORDINATES = 6 };
 
-/* Whether all equations are proved to hold at these values. */
+/* Whether all equations at rest are proved to hold at given values. */
 static bool
 hold_there(const qdot_rest *r, qdot_expr values)
 {

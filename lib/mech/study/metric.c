@@ -8,7 +8,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* What the argument R is: a place, or a line element in dq. */
+/* Whether the argument R is a line element in dq, not a position. */
 static bool
 is_element(const qdot_scene *s, qdot_expr R)
 {

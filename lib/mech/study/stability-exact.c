@@ -246,7 +246,7 @@ conclude_if_definite(qdot_definite how, qdot_stability verdict)
     return how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL ? verdict : QDOT_STABILITY_UNDECIDED;
 }
 
-/* By an energy that has a strict minimum at rest. */
+/* Prove stability by an energy that has a strict minimum at the equilibrium. */
 static qdot_status
 by_energy(qdot_judgement *j, qdot_equilibrium *e)
 {

@@ -288,7 +288,7 @@ pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
     x->H = x->Gamma + x->n * x->n;
 }
 
-/* Whether one block grows, whatever others need: it is asked without their conditions. */
+/* Whether the motion of one block grows; decided without the conditions noted for other blocks. */
 static qdot_status
 one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes)
 {

@@ -181,7 +181,7 @@ sum_roundings(const qdot_plan_block *block, const double *of, const double *a, d
     return M;
 }
 
-/* What the rounding of the equations, or their underflow alone, makes of q''. */
+/* The uncertainty of q'' from the rounding of the equations, or from underflow alone. */
 static qdot_status
 find_roundings(const qdot_ode_system *system, double t, const double *y, const double *a, bool underflows, double *e)
 {

@@ -74,7 +74,7 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
     return QDOT_OK;
 }
 
-/* What the mean velocity of coordinate i is beyond that of the ends. */
+/* The mean velocity of coordinate i over the step less the mean of its velocities at both ends. */
 static double
 bend_of(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {
@@ -415,7 +415,7 @@ shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
            goes_one_way(p, s, k);
 }
 
-/* What of output i is missed, over as much as may be. */
+/* The missed part of output i, relative to what may be missed. */
 static double
 missed(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {

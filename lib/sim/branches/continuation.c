@@ -375,7 +375,7 @@ add_left(qdot_branch_search *s, const double *y)
     return QDOT_OK;
 }
 
-/* Of the places that are left only those on no curve. */
+/* Remove the places that lie on a curve which has been followed. */
 static qdot_status
 leave_out_known(qdot_branch_search *s)
 {

@@ -27,7 +27,7 @@ cubic(const double *f, size_t stride, double s)
     return sum;
 }
 
-/* Where the cubic is 0; its ends have different signs. */
+/* The zero of the cubic, whose ends have different signs. */
 static double
 zero_of(const double *f)
 {

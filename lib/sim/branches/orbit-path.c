@@ -27,7 +27,8 @@ static const double grows = 1e-6;
 /* Relative to max(1, |mu|): of a multiplier with a larger error nothing is known. */
 static const double blurred = 0.03;
 
-/* Of Newton's corrections, which runs bound; steps along a curve. */
+/* Newton's corrections end below `exact`, which the errors of runs bound; the shortest and longest step along a
+ * curve. */
 static const double exact = 1e-12, shortest = 1e-6, longest = 2e-2;
 
 size_t

@@ -175,7 +175,7 @@ say_changing(const qdot_pool *pool, qdot_expr p, double at, double T)
                      T, qdot_expr_symbol(pool, p)->name, at);
 }
 
-/* Whether all have the period for a value of p. */
+/* Fail unless all forces that depend on the time have the period at a value of p. */
 static qdot_status
 period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
 {

@@ -22,7 +22,7 @@ widen(double *most, size_t row, double x)
         *most = x;
 }
 
-/* At the last point; NaN where the equations do not exist there. */
+/* Find the multipliers at the last point; NaN if the equations have no value there. */
 static qdot_status
 find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
                  qdot_multipliers *b)

@@ -7,7 +7,7 @@
 
 #include "ode/scale.h"
 
-/* What rounding leaves of u: so many ulps of its coordinates. */
+/* The rounding of u, in ulps of its coordinates. */
 static const double ulps = 4;
 /* Where u is near 0 by the size of its coordinates there is no such rounding. A motion that would cross more often than
  * that until the end is not followed if it is as slow, and as near, in parts of the sizes of the state. */

@@ -307,7 +307,7 @@ find_rest(qdot_piece *x, size_t i, const held_motion *held, remainder_of_motion 
 /* The way until rest is known but for the change of the forces in that time, and may err by so much. */
 static const double way_left_out = 1e-12;
 
-/* Whether that is so of the motion that is held. */
+/* Whether the way that the held motion would still go is small enough to be left out. */
 static bool
 may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *left)
 {

@@ -223,7 +223,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
 /* Go to the state at the root itself, on the constraints, if x->has_root. */
 QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
-/* Where the piece ended: its last point, and what that leaves out. */
+/* Start the next piece where this one ended: its last point, with the low part of the state. */
 void qdot_piece_start_at_end(qdot_piece *x);
 /* The state at the start of the piece less y [n], into low [n]. */
 void qdot_piece_low(const qdot_piece *x, double *low);
@@ -242,7 +242,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 /* A run ends if more events than that would follow at the rate at which they come. */
 extern const double qdot_piece_most_to_come;
 
-/* How often an event, bound or surface was met; NULL: never yet. */
+/* The record of how often an event, bound or surface was met; NULL: it was not met yet. */
 qdot_piece_repeat *qdot_piece_repeat_of(const qdot_piece *x, qdot_watched_kind kind, size_t index);
 
 /* Carry out all events at x->t_act, in order; x->start.y is the state before, then after. *over:

@@ -28,7 +28,7 @@ qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_node(pool, e)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
 }
 
-/* Where the state of one course comes from and goes to. */
+/* The state of one course: where it is read, and its place among the inputs of the tape. */
 typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;

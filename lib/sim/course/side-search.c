@@ -75,7 +75,7 @@ say_open(qdot_piece *x, size_t surface)
 
 /* --- the search ---------------------------------------------------------------------- */
 
-/* Whether these sides were tried from here before; marks them as tried. */
+/* Whether the present sides were tried at this start before; marks them as tried. */
 static qdot_status
 was_tried(qdot_piece *x, bool *again)
 {

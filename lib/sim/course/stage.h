@@ -138,7 +138,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const
  * `latest`. Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_pucks(qdot_stage *stage, double t, const double *y,
                                              double latest);
-/* What stage->pucks has of puck i at a state. Allocates. */
+/* The numbers of puck i at a state, from the tape stage->pucks. */
 typedef struct {
     size_t k;
     double speed;                                         /* |w| */

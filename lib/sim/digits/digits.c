@@ -9,7 +9,7 @@
 
 enum { MOST_NAMES = 8 };
 
-/* As in doubles, with the end state rounded to them. */
+/* Report a failure as for a run in doubles, with the end state rounded to doubles. */
 static qdot_status
 say_failure(qdot_run *run, const qdot_ode_result *result)
 {

@@ -16,7 +16,7 @@ static const double pad = 0x1p-8;
 
 enum { MOST_TRIES = 2000, MOST_BOUNCES = 1000000 };
 
-/* As the `event` of a formula: it is the rate of its function. */
+/* In place of the `event` of a formula: the formula is the rate of the event's function. */
 #define RATE (SIZE_MAX - 1)
 
 /* An expression in all digits. */
@@ -110,7 +110,7 @@ formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
     return status;
 }
 
-/* What brings states of the mode onto its constraints after an event. */
+/* Add what brings states of a mode onto its constraints after an event. */
 static qdot_status
 add_hold(qdot_precise_side *s, size_t mode)
 {

@@ -344,7 +344,7 @@ precise_carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
     return b->status == QDOT_EINTR || b->status == QDOT_ENOMEM ? b->status : QDOT_OK;
 }
 
-/* How many digits the pair has to carry next; 0: it is good. */
+/* The number of digits with which the pair must be run next; 0: the result is good. */
 static double
 digits_wanted(const qdot_precise_pair *pair)
 {

@@ -14,7 +14,7 @@
 /* What is inspected on the steps of one lane. */
 typedef struct qdot_ensemble_doubts qdot_ensemble_doubts;
 
-/* For a plan, borrowed; *doubts NULL: there is nothing to look at. QDOT_ENOMEM. */
+/* Make the inspection for a plan, borrowed; *doubts NULL: there is nothing to inspect. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_doubts_new(const qdot_plan *plan,
                                                      qdot_ensemble_doubts **doubts);
 void qdot_ensemble_doubts_free(qdot_ensemble_doubts *doubts);

@@ -211,7 +211,7 @@ read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, 
     }
 }
 
-/* What the watch reads: the solution of the lane's step. */
+/* The state at t within the step of a lane, for the watch. */
 static qdot_status
 read_lane(double t, double *y, void *user)
 {
@@ -221,7 +221,7 @@ read_lane(double t, double *y, void *user)
     return QDOT_OK;
 }
 
-/* Where component i of a batch is in a state with parameters. */
+/* The index of component i of a batch in a state with parameters. */
 static size_t
 state_place(const qdot_ensemble_steps *s, size_t i)
 {

@@ -237,7 +237,7 @@ crossing(const search *s, size_t k)
     return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
 }
 
-/* Where that one is lost, before what has been found so far. */
+/* Find the time since which this companion has lost the run, if that is earlier than the horizon found so far. */
 static qdot_status
 horizon_find(qdot_run *run, search *s)
 {
@@ -276,7 +276,7 @@ horizon_find(qdot_run *run, search *s)
     return QDOT_OK;
 }
 
-/* How many points may be compared, by what is left of the budget. */
+/* The number of points that the rest of the budget allows to compare. */
 static size_t
 affordable(const qdot_run *run)
 {

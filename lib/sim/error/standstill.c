@@ -6,7 +6,7 @@
 /* The part of the largest slopes below which a motion stands still. */
 static const double little = 1e-2;
 
-/* At most so many points are looked at. */
+/* The most points that are inspected. */
 enum { MOST = 4096 };
 
 /* The slopes f [n] at point k of the run's only piece; false where there are none. */

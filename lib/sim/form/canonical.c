@@ -19,7 +19,7 @@ typedef struct {
     qdot_expr *slope, *pull, *Q, *before; /* [n] dH/dp, -dH/dq, what is applied beside V; dL/dq' */
 } builder;
 
-/* Where M is of numbers momenta are velocities by another name. */
+/* Whether Hamilton's equations are worth it: not if M is constant, for momenta are then velocities up to factors. */
 static bool
 canonical_fits(const qdot_plan *p)
 {

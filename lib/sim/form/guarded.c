@@ -18,7 +18,8 @@ struct qdot_guarded {
     qdot_ode_series series;
 };
 
-/* Of eliminated multipliers, whose pivots and then diagonal entries are the last outputs. */
+/* Whether the constraints are independent: compares the pivots of the eliminated multipliers, then diagonal
+ * entries, the last outputs. */
 static bool
 is_independent(const qdot_guarded *g)
 {

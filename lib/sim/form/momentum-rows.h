@@ -22,7 +22,7 @@ typedef struct {
     bool shaken;           /* of the momenta hi alone */
 } qdot_momentum_rows;
 
-/* Of a plan, borrowed, whose program is there. Errors: QDOT_ENOMEM. */
+/* Make the rows of kept momenta for a plan, borrowed, whose program exists. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_momentum_rows_init(qdot_momentum_rows *m,
                                                     const qdot_plan *plan,
                                                     qdot_expansion at, bool shaken);

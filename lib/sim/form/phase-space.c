@@ -62,7 +62,7 @@ holds_velocity(const qdot_plan *plan, qdot_expr e)
     return (qdot_expr_node(plan->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
-/* What lower_all lowers: p [n], p' [n], then b [n] and M. */
+/* Form the expressions that lower_all lowers: p [n], p' [n], then b [n] and M. */
 static qdot_status
 write_down(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
 {

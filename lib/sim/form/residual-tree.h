@@ -23,7 +23,7 @@ typedef struct {
     uint8_t *unknowns;      /* [nodes] coordinates */
 } qdot_residual_tree;
 
-/* Of a residual with n coordinates. *tree NULL: it is none. Errors: QDOT_ENOMEM. */
+/* Find the tree of a residual with n coordinates. *tree NULL: it is no tree. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_residual_tree_new(const qdot_residual *r, size_t n,
                                                    qdot_residual_tree **tree);
 void qdot_residual_tree_free(qdot_residual_tree *tree);

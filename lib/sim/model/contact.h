@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_contacts_find(const qdot_scene *scene, const qd
 
 /* The surface of an event whose contact keeps du/dt from the sign `way`; SIZE_MAX: none. */
 size_t qdot_contacts_surface(const qdot_switches *switches, size_t event, int way);
-/* Whether that place moves with time: it does work on what rests there. */
+/* Whether the wall of a contact moves with time, and so does work. */
 bool qdot_contacts_moves(const qdot_switches *switches, size_t surface);
 
 #endif

@@ -67,7 +67,7 @@ QDOT_MUST_CHECK qdot_status qdot_gates_find(qdot_pool *pool, size_t m, const qdo
                                             const qdot_expr *e, bool deciding, qdot_gates *gates);
 void qdot_gates_clear(qdot_gates *gates);
 
-/* What may be true of a condition; whether a gate is open. */
+/* Bits: a condition may be false, may be true; a gate is open. */
 enum { QDOT_GATE_FALSE = 1, QDOT_GATE_TRUE = 2, QDOT_GATE_OPEN = 4 };
 
 /* The sign of a pair by the sides; *known: there is one. Where the motion slides it is that of corner

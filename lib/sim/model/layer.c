@@ -98,7 +98,7 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
            == 0;
 }
 
-/* What a layer is at least as wide as, over U. */
+/* The least width of a layer, in units of U. */
 static double
 beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {

@@ -43,11 +43,11 @@ typedef struct {
 
 /* Before there is a plan; derives M and f. Cleared in any case. */
 QDOT_MUST_CHECK qdot_status qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_massless *x);
-/* How many of the values q, q' [2n] of a start they determine. */
+/* The number of values q, q' [2n] of a start that the equations of massless coordinates determine. */
 size_t qdot_massless_determines(const qdot_massless *x);
 void qdot_massless_clear(qdot_massless *x);
 
-/* Of which kind the equation of coordinate i is, as a constraint. */
+/* The kind of constraint that the equation of massless coordinate i is. */
 qdot_constraint_kind qdot_massless_kind(const qdot_plan *p, size_t i);
 
 #endif

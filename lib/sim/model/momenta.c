@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "series/precise.h"
 
-/* Of a momentum: that of two doubles, and what its terms may cancel. */
+/* The precision of a momentum: two doubles, and the digits that its terms may cancel. */
 enum { bits = 256 };
 
 struct qdot_momenta {

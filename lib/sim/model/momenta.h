@@ -11,7 +11,7 @@
 
 typedef struct qdot_momenta qdot_momenta; /* one a thread */
 
-/* For a reduced plan, borrowed. `tape`: its tape or a shaken one, borrowed. */
+/* Make the kept momenta of a reduced plan, borrowed. `tape`: its tape or a shaken one, borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_momenta_new(const qdot_plan *reduced,
                                              const qdot_tape *tape, qdot_momenta **momenta);
 void qdot_momenta_free(qdot_momenta *m);

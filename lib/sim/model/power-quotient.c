@@ -3,7 +3,7 @@
 
 #include "expr/walk.h"
 
-/* Of a sum c + k b^p: k, c, and b^-p. */
+/* Whether a sum is c + k b^p; parts: k, c, and b^-p. */
 static bool
 is_power_and_number(qdot_pool *pool, qdot_expr sum, qdot_expr parts[3])
 {

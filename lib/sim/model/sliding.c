@@ -53,7 +53,7 @@ share_symbol(const sliding *s, size_t j)
     return u->puck ? u->puck->share[u->c] : s->p->mode->surfaces.at[u->surface].side;
 }
 
-/* Where a share of a puck is kept in p->share. */
+/* The place of a share of a puck in p->share. */
 static qdot_expr *
 place_of(const qdot_plan *p, const qdot_puck *puck, size_t c)
 {
@@ -258,7 +258,7 @@ keep_shares(sliding *s)
     }
 }
 
-/* To f[i] what the contacts press with: they stand in no force. */
+/* Add the reactions of the contacts to f[i]; the forces do not contain them. */
 static void
 add_reactions(sliding *s, size_t i)
 {

@@ -17,7 +17,7 @@
 /* The side of a surface whose switches are not frozen. */
 #define QDOT_SIDE_OPEN LONG_MIN
 
-/* Of a surface that nothing in the mode switches on (sim/model/gates.h). */
+/* The side of a surface at which nothing switches in this mode (sim/model/gates.h). */
 #define QDOT_SIDE_IDLE (LONG_MIN + 1)
 
 typedef struct {

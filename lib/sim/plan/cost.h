@@ -36,7 +36,7 @@ qdot_ode_cost qdot_cost_lanes(const qdot_work *work);
 /* Numbers of so many bits: of a plan with `digits`. */
 void qdot_cost_precise(const qdot_plan *plan, mpfr_prec_t bits, double cost[3]);
 
-/* What is done behind every step with constraints: states are projected. */
+/* The cost of projecting the state after every step with constraints. */
 double qdot_cost_projection(const qdot_plan *plan);
 
 /* The models of one executor: kernels alone. */

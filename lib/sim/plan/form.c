@@ -172,7 +172,7 @@ qdot_plan_make_lanes(qdot_plan *p)
 
 /* --- constraints ---------------------------------------------------------------------- */
 
-/* By their own coefficients: what all other forms fall back to. */
+/* Measure the cost of the form with the constraints expanded as series, which is always possible. */
 static qdot_status
 measure_constrained(qdot_plan *p)
 {

@@ -23,7 +23,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
                                                   size_t m, const qdot_expr *exprs,
                                                   double t);
-/* Whether they hold at another time, too: it is in the same stretch. */
+/* Whether the expressions also hold at time t: it is in the same stretch. */
 bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
 void qdot_in_chart_clear(qdot_in_chart *in);
 

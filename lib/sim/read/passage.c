@@ -9,7 +9,7 @@
 
 enum { NODES = 16, TRIES = 4 };
 
-/* Of the step at the place: half of the first interval. */
+/* Half of the first interval, as a fraction of the step at the place. */
 static const double part = 0.1;
 
 /* A function is smooth if its last Chebyshev coefficients are below this fraction of the largest. */

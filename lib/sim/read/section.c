@@ -213,7 +213,7 @@ add_rows(section *x, qdot_section *s)
     return section_find_errors(x, s, first);
 }
 
-/* Of expressions in the coordinates of the run, from limits[0] up to limits[1]. */
+/* Find the section from limits[0] to limits[1], for expressions in the coordinates of the run. */
 static qdot_status
 find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
 {

@@ -153,7 +153,7 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     return status;
 }
 
-/* Where the run leaves the places that a root can write. */
+/* Note the times at which the run leaves the positions that a root of the scene can express. */
 static qdot_status
 say_branches(qdot_run *run)
 {

@@ -12,7 +12,7 @@
 #include "sim/course/report.h"
 #include "sim/model/request.h"
 
-/* How runs are made, as by qdot_run_new, read, as by qdot_run_values, and freed. */
+/* The functions that make runs, as qdot_run_new, read them, as qdot_run_values, and free them. */
 typedef struct {
     qdot_status (*make)(qdot_scene *scene, const qdot_run_request *request,
                         qdot_run **run);

@@ -425,7 +425,7 @@ time_of(const qdot_run *run, size_t clock, double *t)
     return status;
 }
 
-/* What an event of the scene given says of its time. */
+/* Write that an event of the given scene stopped the run, with its time in t. */
 static qdot_status
 say_stop(qdot_run *run, double t)
 {

@@ -110,7 +110,7 @@ pursuit_look(double t, const double *y, bool *stop, void *user)
 
 /* --- the way --------------------------------------------------------------------------------- */
 
-/* To `end`, or to where a direction has grown too long. */
+/* Integrate to `end`, or until a direction has grown too long. */
 static qdot_status
 pursuit_advance(pursuit *p, double end)
 {
@@ -272,7 +272,7 @@ qdot_exponents_mean(size_t n, const double *x, double *mean, double *error)
     *error = fmax(3 * most, 4 * change_by_an_episode(n, x, *mean)) + fabs(half[1] - half[0]);
 }
 
-/* In descending order. */
+/* Put the exponents in descending order. */
 static void
 sort(qdot_exponents *x)
 {

@@ -10,7 +10,7 @@
 
 #include "sim/run/run.h"
 
-/* What is looked at: e, de/dt, d2e/dt2 along the run. */
+/* An extremum to be found: e, de/dt, d2e/dt2 along the run. */
 typedef struct {
     qdot_run *run;
     qdot_range_kind kind; /* QDOT_RANGE_MAX, QDOT_RANGE_MIN */

@@ -60,7 +60,7 @@ state_jet(const qdot_scene *s, size_t i)
     return qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
 }
 
-/* What differences of the i-th of q, then q', count beside. */
+/* The size relative to which a difference of the i-th of q, q' counts. */
 static double
 size_of(const qdot_run_report *report, size_t n, size_t i, double value)
 {

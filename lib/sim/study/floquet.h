@@ -40,7 +40,7 @@ typedef struct {
 
 /* How far the run goes by the rates at its beginning over its time, the largest of q and q'. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach);
-/* Whether it began at rest: none of them changes, relative to max(scale, |value|). */
+/* Whether the run began at rest: no coordinate or velocity changes, relative to max(scale, |value|). */
 QDOT_MUST_CHECK qdot_status qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests);
 /* Whether the run ends where it began: *off, the largest difference of a q or q', relative to max(scale, |value|);
  * *where, that jet. */

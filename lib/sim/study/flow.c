@@ -18,7 +18,7 @@ const double qdot_flow_tolerance[2] = {1e-13, 1e-11};
 /* The rounding that both flows share and their difference does not show, relative to a slope. */
 static const double alike = 1e-14;
 
-/* What sums that cancel keep, relative to the largest slope. */
+/* The rounding that sums keep when terms cancel, relative to the largest slope. */
 static const double cancelled = 8 * DBL_EPSILON;
 
 static qdot_status

@@ -276,7 +276,7 @@ one_method(qdot_scene *scene, const qdot_run_request *request, const char *metho
     return status == QDOT_OK ? push_row(out, &row) : status;
 }
 
-/* What `auto` would take: the plan and the run decide. */
+/* Ask which method `auto` would take; the plan and a run decide. */
 static qdot_status
 ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 {

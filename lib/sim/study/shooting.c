@@ -10,7 +10,7 @@
 #include "num/zero.h"
 #include "tape/derivative.h"
 
-/* How much may grow what the states between are first taken from. */
+/* The growth up to which a run gives the first guess of the states between segments. */
 static const double trusted[] = {30, 5, 1};
 
 /* Units of the states between, beside how far the motion goes: their changes count little. */

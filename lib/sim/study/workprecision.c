@@ -245,7 +245,7 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
     return status;
 }
 
-/* From the start to the end, `watched` or timed. */
+/* Integrate from the start to the end, `watched` for drifts or timed. */
 static qdot_status
 worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
 {

@@ -46,7 +46,7 @@ discs_exclude(const qdot_watch *w, size_t i)
            qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
 }
 
-/* By so much that it does not touch 0 either. */
+/* Whether the bounds exclude 0 of function i, touches included. */
 static bool
 box_excludes(const qdot_watch *w, size_t i)
 {

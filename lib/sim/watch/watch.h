@@ -97,7 +97,7 @@ void qdot_watch_take(qdot_watch *w);
  * roots. Such a step is to be tried shorter. */
 double qdot_watch_reached(const qdot_watch *w);
 
-/* How many parts of steps were looked at so far. */
+/* The number of parts of steps that were inspected so far. */
 size_t qdot_watch_looked_at(const qdot_watch *w);
 
 /* Whether only bounds are watched and the step, by its series, stays far from all of them: then
@@ -120,7 +120,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const doubl
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
                                                 const double *by, size_t i, double *noise);
 
-/* What 4 roundings of the time make of g_i where that holds it. */
+/* The change of g_i by 4 roundings of the time, if g_i depends on it. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i,
                                                      double *noise);
 
