@@ -214,7 +214,7 @@ qdot_lanes_sum
 qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs, const qdot_lanes_pair *pair, int k)
 {
     const size_t number = next_sum(w);
-    const int n = k - 1; /* terms, if the block begins */
+    const int n = k - 1; /* the number of terms in the first order of a block */
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
     size_t moving = 0;
 

@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
     double *row;
     double near, far;
-    int64_t limit; /* 2^53 times the chance of the far one, up */
+    int64_t limit; /* 2^53 times the probability of `far`, rounded up */
 } drawn;
 
 typedef struct {
@@ -331,7 +331,7 @@ qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
         t->per_unit[l] = 1 / unit[l];
 }
 
-/* Order k of an unknown, and what that makes of its integrals. */
+/* Store order k of an unknown, and the coefficients of its integrals that follow. */
 static void
 lanes_put_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
 {

@@ -5,7 +5,7 @@
 
 enum { lanes = 8 };
 
-/* Of x, number `to`, so many times the sum number `of` is taken off. */
+/* sign times the sum number `of` is subtracted from component `to` of x. */
 typedef struct {
     size_t to, of;
     double sign;

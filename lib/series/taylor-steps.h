@@ -20,15 +20,15 @@ typedef struct {
         c; /* the inverse of what every order divides by, of RATE that of the unit; of LINK it */
 } qdot_taylor_step;
 
-/* A constant between two doubles. */
+/* A constant between two doubles, rounded to one of them at random. */
 struct qdot_taylor_drawn {
     double *row;
-    double near, far, chance; /* of the far one */
+    double near, far, chance; /* both doubles; the probability of `far` */
 };
 
 /* Unknowns of explicit equations, solved for at every order (taylor-motion.h). */
 typedef struct {
-    uint32_t i; /* in row i M times a */
+    uint32_t i; /* the product M a belongs to row i */
     const double *M, *a;
 } qdot_taylor_coupling;
 

@@ -41,9 +41,9 @@ struct qdot_taylor_wide {
     size_t inputs;    /* filled up to full vectors */
     size_t width, rows, stride;
     int orders;
-    const double *coefficients; /* the program's, for numbers of rows */
+    const double *coefficients; /* the coefficients of the program, read for rows that are numbers */
     size_t *lane;               /* [rows] */
-    size_t *input;              /* [inputs] which of them a lane is; NO_LANE: none */
+    size_t *input;              /* [inputs] the input that each lane holds; NO_LANE: none */
     size_t constant;            /* the first lane that is 0 beyond order 0, itself 0 there; */
     size_t changing;            /* behind the last of them */
     qdot_vec(group) groups;

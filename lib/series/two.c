@@ -129,7 +129,7 @@ integral(const qdot_tape_two *t, qdot_two rate, int k)
     return t->kernels->mul(rate, qdot_two_scale(t->inverse[k + 1], t->unit));
 }
 
-/* Order k of an unknown, and what that makes of its integrals. */
+/* Store order k of an unknown, and the coefficients of its integrals that follow. */
 static void
 two_put_unknown(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
 {

@@ -72,7 +72,7 @@ turned(qdot_pool *pool, direction a, direction b, bool hyperbolic)
                                 qdot_mul(pool, a.cosine, b.sine))};
 }
 
-/* Of `angle`, whose multiples of moved angles, or lengths, are whole numbers; false if one is not. */
+/* The cosine and sine of `angle`, a sum of integer multiples of moved angles; false if a multiple is no integer. */
 static bool
 find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *d)
 {
@@ -377,7 +377,7 @@ put_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters
                      (qdot_expr[]){half.cosine, half.sine, qdot_add(pool, turns, beyond)});
 }
 
-/* The angles, roots and signs that e holds, once: values hold others. */
+/* e with its angles, roots and signs replaced by their values, once; these values may contain others. */
 static qdot_expr
 chart_put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
 {

@@ -18,7 +18,7 @@ typedef struct {
     qdot_expr *x;  /* [n] */
     size_t m;      /* forms */
     qdot_expr *a;  /* [m * n] */
-    size_t *of;    /* [m] whose */
+    size_t *of;    /* [m] the constraint that each form belongs to */
     bool *in;      /* [m] is still in the system */
     qdot_expr *B;  /* [m * n] the system, reduced */
     size_t *pivot; /* [m] */

@@ -27,7 +27,7 @@
  * takes milliseconds; a rotation in space is long but simplifies well. */
 static const struct {
     size_t coordinates;
-    uint64_t units; /* of cost() */
+    uint64_t units; /* units of cost() */
 } both_forms = {4, 150}, both_forms_in_space = {12, 600};
 
 /* Entries so short that simplifying each costs nothing to speak of: Pythagoras. */

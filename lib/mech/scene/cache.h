@@ -72,7 +72,7 @@ struct qdot_derived {
         *square_damper;  /* u.u of a link, simplified, nil until asked */
     qdot_expr *M, *b, c; /* of T: [n*n], [n], scalar; simplified; M NULL until asked */
     bool slopes_ready;
-    qdot_vec(qdot_mass_slope) slopes; /* of M, nonzero ones */
+    qdot_vec(qdot_mass_slope) slopes; /* the derivatives of M that are not 0 */
     qdot_vec(qdot_pattern) patterns;
     qdot_expr kinetic, potential, lagrangian, energy, mass_matrix;
     qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each */

@@ -51,7 +51,8 @@ is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
     return kind == QDOT_HOPF ? a->growing == b->growing : (a->det < 0) == (b->det < 0);
 }
 
-/* The value that changes its sign; 0: it is not of that kind, or there is no point at s from a. here: room. */
+/* The test function of a bifurcation of that kind at arclength s from a; 0: there is none, or no point. here:
+ * room. */
 static double
 branch_value_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a, double s,
                 qdot_path_point *here)

@@ -417,7 +417,8 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
                                                  "where a velocity is 0");
 }
 
-/* Sizes of the unknowns: how far each of z changes, or where it stays the others of its kind. */
+/* The sizes of the unknowns: the change of each of z over the orbit; for those that are constant, that of the
+ * others of their kind. */
 static qdot_status
 orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
 {

@@ -38,7 +38,7 @@ typedef struct {
 
 /* --- variation ----------------------------------------------------------------------- */
 
-/* The least and the largest of component i, over every so many points. */
+/* The least and the largest value of component i, at every `stride`-th point. */
 static void
 component_range(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
 {

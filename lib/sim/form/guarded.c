@@ -13,7 +13,7 @@ struct qdot_guarded {
     const qdot_ode_series *own, *other, *now; /* `own` of `fast`; `now`: the one begun last */
     size_t n, m;
     bool as_code; /* `own` is worth its time as machine code only: */
-    int p;        /* before there is some, of order p, the other is taken */
+    int p;        /* the order; `other` is taken until `own` has code of this order */
     bool looked;  /* `own` has measured its rows at the first state */
     qdot_ode_series series;
 };

@@ -9,7 +9,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/residual.h"
 
-/* Corrections at most; one that is no larger than this leaves nothing for another. */
+/* The most corrections; after one that is no larger than `enough` no other is needed. */
 enum { most_corrections = 4 };
 static const double enough = 0x1p-36;
 

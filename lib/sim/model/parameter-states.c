@@ -201,7 +201,7 @@ typedef struct {
     expressions sides;
 } builder;
 
-/* The sign of a relation as it was written. */
+/* The sign of a relation, "<" or ">=", as it was typed. */
 static const char *
 sign_of(int op, bool turned)
 {

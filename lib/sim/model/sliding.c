@@ -25,7 +25,7 @@ qdot_sliding_is(const qdot_switches *s, const long *side)
     return false;
 }
 
-/* A share: of a surface, or of component c of a puck. */
+/* An unknown share: of a surface, or of component c of a puck. */
 typedef struct {
     size_t surface, c;
     const qdot_puck *puck; /* NULL: the surface is of none */

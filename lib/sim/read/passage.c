@@ -61,7 +61,7 @@ read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *valu
             at[n] = j;
             times[n++] = qdot_chebyshev_place(t - h, t + h, qdot_chebyshev_node(NODES, j));
         }
-    QDOT_TRY(qdot_run_chart_quarters(run, times[0], &quarters)); /* to compare on this side */
+    QDOT_TRY(qdot_run_chart_quarters(run, times[0], &quarters)); /* the turns of the chart's angles on this side */
     QDOT_TRY(qdot_in_chart_values(run, 1, &e, &(qdot_exact_times){n, times, NULL}, read, errors));
     for (size_t i = 0; i < n; i++) {
         values[at[i]] = read[i];

@@ -31,7 +31,9 @@ struct qdot_response {
     bool once, made;        /* the scene is made once; it is made */
 
     /* the scene made; with constraints from numbers: */
-    qdot_expr *u, *values; /* [k], [(1 + k) x n_values]: with all, and with one free */
+    /* [k] the unknowns as symbols; [(1 + k) x n_values] the values of the request with all, and with one of them
+     * free */
+    qdot_expr *u, *values;
     qdot_expr *first, *settled; /* [2 half], [2n] the start of the first run, and on the constraints */
     qdot_run_request request; /* what the variation is of */
     qdot_variation_by *by;    /* [k] */

@@ -9,7 +9,7 @@
  * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
-/* The fraction of its size that is not small. */
+/* A value of at least this fraction of the size of the function is not small. */
 static const double least_of_size = 1e-3;
 
 /* Beside a root a function is less than this part of its size; beside a jump and a pole it is not. */

@@ -166,7 +166,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     }
     for (;; nodes *= 2) {
         QDOT_TRY(sample_enough(w, p, nodes, &at_end));
-        if (w->fine) /* what is seen may be all rounding */
+        if (w->fine) /* the values may consist of rounding only */
             QDOT_TRY(qdot_watch_find_noise(w, p));
         *v = judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
