@@ -39,6 +39,9 @@ typedef struct {
 /* What is known of a function; of `hold` nothing but its name and its one argument. */
 const qdot_fun_facts *qdot_fun_facts_of(qdot_fun_id id);
 
+/* All its values are between *lo and *hi, doubles next to the ends of its row; infinite: there is no end. */
+void qdot_fun_ends(qdot_fun_id id, double *lo, double *hi);
+
 /* Whether a function has all of the traits. */
 bool qdot_fun_is(qdot_fun_id id, unsigned traits);
 

@@ -1,6 +1,7 @@
 /* function-facts.c -- the rows of function.def: names of the elementary functions, what is known of each. */
 #include "expr/elementary.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -33,6 +34,22 @@ const qdot_fun_facts *
 qdot_fun_facts_of(qdot_fun_id id)
 {
     return table + id;
+}
+
+/* k pi/2 rounded towards 0 by M_PI_2, so the next double outward is beyond it. */
+static double
+fun_end(const qdot_fun_end *end, double none)
+{
+    if (!end->known)
+        return none;
+    return end->angle && end->number != 0 ? nextafter(end->number * M_PI_2, none) : end->number;
+}
+
+void
+qdot_fun_ends(qdot_fun_id id, double *lo, double *hi)
+{
+    *lo = fun_end(&table[id].lo, -INFINITY);
+    *hi = fun_end(&table[id].hi, INFINITY);
 }
 
 bool

@@ -326,6 +326,29 @@ facts_are_those_of_the_values(void **state)
     }
 }
 
+/* Ends in doubles are no further in than the ends themselves, and hardly further out. */
+static void
+ends_hold_all_values(void **state)
+{
+    double lo, hi;
+
+    (void)state;
+    for (int id = 0; id < QDOT_FUNCTION_COUNT; id++) {
+        qdot_fun_ends((qdot_fun_id)id, &lo, &hi);
+        for (int k = -400; k <= 400 && qdot_fun_facts_of((qdot_fun_id)id)->most == 1; k++) {
+            const long double x = k / 40.0L * (k % 5 == 0 ? 1e6L : 1), v = function_value((qdot_fun_id)id, &x);
+
+            assert_true(isnan(v) || (v >= lo && v <= hi));
+        }
+    }
+    qdot_fun_ends(QDOT_ATAN, &lo, &hi);
+    assert_true(hi > acosl(0) && hi < acosl(0) + 1e-15L && lo == -hi);
+    qdot_fun_ends(QDOT_ACOS, &lo, &hi);
+    assert_true(lo == 0 && hi > acosl(-1) && hi < acosl(-1) + 1e-15L);
+    qdot_fun_ends(QDOT_EXP, &lo, &hi);
+    assert_true(lo == 0 && hi == (double)INFINITY);
+}
+
 int
 main(void)
 {
@@ -344,6 +367,7 @@ main(void)
         MOVED_TEST(a_node_is_one_function_or_none),
         MOVED_TEST(functions_are_found_from_the_inside),
         MOVED_TEST(facts_are_those_of_the_values),
+        MOVED_TEST(ends_hold_all_values),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

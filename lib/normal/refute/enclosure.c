@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "num/arb.h"
 
@@ -250,7 +251,11 @@ of_one(uint32_t op, qdot_interval a)
     case QDOT_SIGN:
     case QDOT_FLOOR: return stepped(op, a);
     case QDOT_HOLD: return (image){a, qdot_interval_point(1), QDOT_ENCLOSURE_WHOLE};
-    default: return inverse_function(op, a);
+    default:
+        if (qdot_fun_is((qdot_fun_id)op, QDOT_FUN_ARC) || qdot_fun_is((qdot_fun_id)op, QDOT_FUN_AREA))
+            return inverse_function(op, a);
+        qdot_fun_ends((qdot_fun_id)op, &a.lo, &a.hi); /* all that is known of it */
+        return (image){a, qdot_interval_whole, QDOT_ENCLOSURE_PARTLY};
     }
 }
 
