@@ -322,7 +322,8 @@ beyond_doubles(double t)
     return qdot_hint("a run that ends before t = %.6g", t);
 }
 
-/* Carry out the changes at the ends [n] of a piece: s->course->y becomes the state after. */
+/* Carry out the changes at the ends [n] of a piece, each on what those before it have made: s->course->y becomes the
+ * state after. */
 static qdot_status
 state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
              mpfr_srcptr t)
@@ -330,14 +331,14 @@ state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, 
     const qdot_stage *stage = s->guide->stage;
     const size_t mode = s->segments.at[segment].mode, size = s->guide->tr.n;
 
-    for (size_t i = 0; i < size; i++)
-        mpfr_set(s->course->old[i], s->course->y[i], RN);
     for (size_t k = 0; k < n; k++) {
         const qdot_staged_event *e = &stage->events.at[ends[k].what.index];
         const formula *f;
 
         if (ends[k].what.kind != QDOT_WATCH_EVENT || !e->then)
             continue;
+        for (size_t i = 0; i < size; i++)
+            mpfr_set(s->course->old[i], s->course->y[i], RN);
         f = formula_find(s, mode, SIZE_MAX, ends[k].what.index);
         QDOT_TRY(formula_evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
         memset(s->course->set, 0, size * sizeof *s->course->set);
