@@ -17,6 +17,7 @@ typedef struct {
     /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the
      * run: not negative. */
     double late, blur;
+    double rounding; /* of a function of t alone: so far rounding of its operations may move the root */
     /* Of a touch: the tolerance under which |g| counts as 0, 0 if rounding makes it so; and g''. */
     double within, bend;
 } qdot_root;

@@ -12,7 +12,7 @@ is_about_to_cross(qdot_watch *w, size_t i, double t, bool *is)
     double g;
 
     *is = false;
-    if (!qdot_watch_can_two(w) || !qdot_watch_has_two(w, i) || !w->live[i] || w->now.on[i]
+    if (!qdot_watch_can_two(w, i) || !w->live[i] || w->now.on[i]
         || w->now.sign[i] == 0 || before == w->t)
         return QDOT_OK;
     w->wants[i] = true;

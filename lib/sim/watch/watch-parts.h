@@ -24,6 +24,9 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
  * by the distance of nodes. */
 #define QDOT_WATCH_MOST 0x1p900
 
+/* Of |g| beside a root that was located: what is less is 0, for the place of the root is rounded. */
+#define QDOT_WATCH_NEGLIGIBLE 0x1p-10
+
 /* A function of not more than so many times its noise is 0 but for rounding. */
 #define QDOT_WATCH_ROUNDINGS 16
 
@@ -54,6 +57,7 @@ struct qdot_watch {
     qdot_two *state_two;  /* [2n] scratch */
     struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
     bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
+    bool *clock;          /* [m] it is one of t alone */
     bool expanded;        /* the step has a series */
     bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
     bool fine;            /* values of those within the step are in two doubles at present */
@@ -123,6 +127,7 @@ typedef struct {
     double c[QDOT_WATCH_NODES];
     bool from_zero; /* the function is (g - g(a)) (b - a)/(t - a) */
     double at_end;  /* g(b) */
+    bool sharp;     /* it is in two doubles, though values within the part are not */
 } qdot_watch_part;
 
 /* How a part is treated further, the most expensive last. */
@@ -184,8 +189,8 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double 
 
 /* --- values in two doubles (watch-two.c) --------------------------------------------- */
 
-/* Whether states within the step can be read in two doubles. */
-bool qdot_watch_can_two(const qdot_watch *w);
+/* Whether function i can be evaluated in two doubles within the step: the state can be read so, or is not needed. */
+bool qdot_watch_can_two(const qdot_watch *w, size_t i);
 
 /* g [m] at t within the step, in two doubles where w->wants says so; w->in is the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double *g);
@@ -194,9 +199,17 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, const double *y,
                                                       const double *low, double *g);
 
+/* w->start.g0 where a piece begins, in two doubles where w->start.sharp: all if its states are read so, else those of t
+ * alone. low as for _value_at_start. */
+QDOT_MUST_CHECK qdot_status qdot_watch_value_at_begin(qdot_watch *w, const double *low);
+
 /* Set w->wants [m] of functions that, sampled on the part, are so small, or start on a zero, that doubles do not
  * tell their signs; *any: whether there is one. */
 QDOT_MUST_CHECK qdot_status qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any);
+
+/* Where function i, whose polynomial is p->c, is so small at the end of the part that a double may not tell its sign, take
+ * its value there in two doubles, by which its roots are located: p->at_end, p->sharp. */
+QDOT_MUST_CHECK qdot_status qdot_watch_sharpen_end(qdot_watch *w, qdot_watch_part *p, size_t i);
 
 /* --- functions that have decayed (watch-fade.c) ---------------------------------------- */
 
@@ -268,8 +281,7 @@ double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 bool qdot_watch_is_noisy(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
 /* Append the roots of function i on the part to w->roots; w->now advances to the part's end. */
-QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p,
-                                             size_t i);
+QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i);
 
 /* g at t, before a root or from it on. */
 typedef struct {
@@ -287,6 +299,21 @@ QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_par
  * w->now.sign, which becomes 0. */
 QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from, double to,
                                             double least);
+
+/* --- roots of one instant (watch-instants.c) ------------------------------------------ */
+
+/* Set root->rounding, if its function is of t alone and has that slope at the root. */
+QDOT_MUST_CHECK qdot_status qdot_watch_clock_rounding(qdot_watch *w, qdot_root *root, double slope);
+
+/* That rounding, if it is negligible beside `step` between doubles of t; else 0. */
+double qdot_watch_negligible_rounding(const qdot_root *root, double step);
+
+/* If rounding does not tell such a root from the double before root->t, it is there. */
+void qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdot_root *root);
+
+/* Among the roots in order of time, those of functions of t alone that are no farther apart than rounding of their
+ * operations are given the same t; whether there are any, so that the order is another one. */
+bool qdot_watch_join_instants(qdot_watch *w);
 
 /* --- touches (watch-touches.c) ------------------------------------------------------- */
 

@@ -207,7 +207,7 @@ add_offset(const qdot_watch *w, const qdot_watch_part *p, double slope, double s
     if (!qdot_watch_is_fine(w, root->function) || slope == 0 || fabs(late) > 16 * step)
         return;
     root->late = late;
-    while (root->late < 0 && root->t != p->b) {
+    while (root->late < -qdot_watch_negligible_rounding(root, step) && root->t != p->b) {
         root->t += w->direction * step;
         root->late += step;
     }
@@ -233,6 +233,7 @@ refine(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root 
     QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
     root->late = step * (fabs(ends[1].g) / rise);
     add_offset(w, p, slope, step, root);
+    qdot_watch_put_on_double(w, p, root);
     root->blur = noise < rise ? step * (noise / rise) : step;
     if (!qdot_watch_is_fine(w, root->function) && noise > root->blur * slope && slope > 0)
         root->blur = fmin(noise / slope, fabs(p->b - p->a));
@@ -275,6 +276,7 @@ found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_w
                         .way = way,
                         .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
                         .exact = ends[1].g == 0};
+    QDOT_TRY(qdot_watch_clock_rounding(w, root, w->coarse ? 0 : fabs(slope_at(p, root->t))));
     if (root->exact && qdot_watch_is_fine(w, i) && w->now.offset[i] == 0)
         return QDOT_OK;
     QDOT_TRY(refine(w, p, ends, root));
@@ -341,11 +343,12 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
                  qdot_watch_end *ends, qdot_root *root, bool *found)
 {
     const bool others = w->fine; /* are evaluated so on this part */
-    const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && qdot_watch_has_two(w, i) && qdot_watch_can_two(w);
-    const qdot_watch_end wide[2] = {ends[0], ends[1]};
-    qdot_watch_end near[2] = {wide[0], wide[1]};
+    const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && qdot_watch_can_two(w, i);
+    const double from = ends[0].t;
+    qdot_watch_end near[2] = {ends[0], ends[1]};
     qdot_root again;
     bool also = false;
+    double beside; /* |g| beside the root; or at that end of the interval beyond which it is by doubles */
     qdot_status status = QDOT_OK;
 
     if (two) {
@@ -356,14 +359,15 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
             return status;
     }
     QDOT_TRY(cross(w, p, i, way, guess, ends, root, found));
-    if (!two || !*found || root->pole
-        || root->residual > rest_of_size * qdot_chebyshev_size(p->n, p->c))
+    beside = *found ? root->residual : fabs(ends[ends[1].t == from].g);
+    if (!two || (*found && root->pole) || beside > rest_of_size * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
     set_fine(w, i, true, others); /* the same root, where doubles do not tell */
-    status = cross(w, p, i, way, root->t, near, &again, &also);
+    status = cross(w, p, i, way, *found ? root->t : guess, near, &again, &also);
     set_fine(w, i, false, others);
     if (status == QDOT_OK && also && !again.pole) {
         *root = again;
+        *found = true;
         ends[0] = near[0];
         ends[1] = near[1];
     }
@@ -489,6 +493,7 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
         root = (qdot_root){.function = i,
                            .t = p->a,
                            .way = sign,
+                           .residual = fabs(w->now.g0[i]) / QDOT_WATCH_NEGLIGIBLE,
                            .blur = qdot_watch_zero(w, i) != 0
                                        ? time_of_change(p, fabs(qdot_watch_zero(w, i)))
                                        : 0,
@@ -603,7 +608,7 @@ be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
 }
 
 qdot_status
-qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
+qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
 {
     const double *extrema;
     double x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
@@ -615,6 +620,9 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
         w->slow[i] = true;
     if (qdot_watch_vanishes(w, p, i))
         return be_zero(w, p, i);
+    grazes = grazes_at_end(p);
+    if (!grazes)
+        QDOT_TRY(qdot_watch_sharpen_end(w, p, i));
     if (p->from_zero) {
         sign = leaves_to(w, p, i);
         QDOT_TRY(pass_start(w, p, i, sign));
@@ -623,7 +631,6 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
     if (n > 0)
         memcpy(x, extrema, (size_t)n * sizeof *x);
     x[n++] = 1;
-    grazes = grazes_at_end(p);
     for (int e = 0; e < n; e++) {
         double v = qdot_chebyshev_at(p->n, p->c, x[e]);
         int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);

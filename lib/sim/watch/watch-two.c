@@ -10,9 +10,43 @@
 static const double small = 0x1p-20;
 
 bool
-qdot_watch_can_two(const qdot_watch *w)
+qdot_watch_can_two(const qdot_watch *w, size_t i)
 {
-    return w->reader.read_two && w->expanded && !w->accelerations;
+    return qdot_watch_has_two(w, i) && !w->accelerations && (w->clock[i] || (w->reader.read_two && w->expanded));
+}
+
+/* Whether any function can: the state is read in two doubles, or one is of t alone. */
+static bool
+can_any(const qdot_watch *w)
+{
+    bool any = w->reader.read_two && w->expanded;
+
+    for (size_t i = 0; i < w->m && !any; i++)
+        any = w->clock[i] && w->live[i];
+    return any && !w->accelerations;
+}
+
+/* The state at t within the step: w->state_two. */
+static qdot_status
+read_two(qdot_watch *w, double t)
+{
+    if (w->reader.read_two && w->expanded)
+        return w->reader.read_two(t, w->state_two, w->reader.user);
+    QDOT_TRY(w->reader.read(t, w->in, w->reader.user)); /* what is evaluated in two doubles is of t alone */
+    for (size_t k = 0; k < 2 * w->n; k++)
+        w->state_two[k] = (qdot_two){w->in[k], 0};
+    return QDOT_OK;
+}
+
+/* The largest |g_i| at the nodes. */
+static double
+sampled_size(const qdot_watch *w, size_t i, int nodes)
+{
+    double size = 0;
+
+    for (int j = 0; j < nodes; j++)
+        size = fmax(size, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
+    return size;
 }
 
 /* Make the tape of g in two doubles, if it is not there yet. */
@@ -86,7 +120,7 @@ qdot_status
 qdot_watch_value_two(qdot_watch *w, double t, double *g)
 {
     QDOT_TRY(make_two(w));
-    QDOT_TRY(w->reader.read_two(t, w->state_two, w->reader.user));
+    QDOT_TRY(read_two(w, t));
     QDOT_TRY(value_two(w, t, w->state_two, false, g));
     for (size_t i = 0; i < w->m; i++)
         if (w->now.offset[i] != 0 && is_of_two(w, i))
@@ -105,6 +139,30 @@ qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double
     return value_two(w, t, w->state_two, true, g);
 }
 
+qdot_status
+qdot_watch_value_at_begin(qdot_watch *w, const double *low)
+{
+    const bool all = w->reader.read_two && !w->accelerations;
+    double *g = all ? w->start.g0 : w->moved;
+    bool any = all;
+
+    for (size_t i = 0; i < w->m; i++) {
+        w->start.sharp[i] = all || (w->clock[i] && !w->accelerations);
+        any = any || w->start.sharp[i];
+    }
+    memcpy(w->in, w->y, 2 * w->n * sizeof *w->y);
+    if (!all)
+        QDOT_TRY(qdot_watch_value(w, w->t, w->start.g0));
+    if (any)
+        QDOT_TRY(qdot_watch_value_at_start(w, w->t, w->y, low, g));
+    for (size_t i = 0; i < w->m; i++) {
+        w->start.sharp[i] = w->start.sharp[i] && qdot_watch_has_two(w, i);
+        if (w->start.sharp[i])
+            w->start.g0[i] = g[i];
+    }
+    return QDOT_OK;
+}
+
 /* Whether what switches has the same sides at the ends of the part and between: w->steady. */
 static qdot_status
 find_sides(qdot_watch *w, const qdot_watch_part *p)
@@ -118,11 +176,32 @@ find_sides(qdot_watch *w, const qdot_watch_part *p)
         const double t = k == PLACES ? p->b : p->a + (p->b - p->a) * k / PLACES;
         uint64_t here;
 
-        QDOT_TRY(w->reader.read_two(t, w->state_two, w->reader.user));
+        QDOT_TRY(read_two(w, t));
         evaluate_two(w, t, w->state_two);
         here = qdot_tape_two_sides(w->two);
         w->steady = here != 0 && (k == 0 || here == sides);
         sides = here;
+    }
+    return QDOT_OK;
+}
+
+/* A polynomial through values in doubles does not show all of a function whose rounding is more than this part of its
+ * size. */
+static const double shown = 0x1p-44;
+
+/* Far from t = 0 rounding of the operations of a function of t alone is more than its polynomial bears. */
+static qdot_status
+find_far_clocks(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
+{
+    for (size_t i = 0; i < w->m; i++) {
+        double noise;
+
+        if (!w->live[i] || !w->clock[i] || w->wants[i] || w->now.blurred[i] || !qdot_watch_can_two(w, i))
+            continue;
+        QDOT_TRY(w->reader.read(p->b, w->in, w->reader.user));
+        QDOT_TRY(qdot_watch_operations(w, p->b, false, i, &noise));
+        w->wants[i] = noise > shown * sampled_size(w, i, nodes);
+        *any = *any || w->wants[i];
     }
     return QDOT_OK;
 }
@@ -133,7 +212,7 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *a
     bool sought = false;
 
     *any = false;
-    if (!qdot_watch_can_two(w))
+    if (!can_any(w))
         return QDOT_OK;
     for (int end = 0; end < 2; end++) { /* at a pole the terms are large */
         const double t = end == 0 ? p->a : p->b;
@@ -143,21 +222,35 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *a
         qdot_tape_eval(w->sizes, w->in, end == 0 ? w->g : w->moved, w->work);
     }
     for (size_t i = 0; i < w->m; i++) {
-        double size = 0;
-
         if (!w->live[i] || w->coordinate[i] != SIZE_MAX || w->now.blurred[i])
             continue;
         w->moved[i] = fmin(w->moved[i], w->g[i]);
-        for (int j = 0; j < nodes; j++)
-            size = fmax(size, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
-        w->wants[i] = w->now.on[i] || (w->moved[i] <= most_of_two && size < small * w->moved[i]);
+        w->wants[i] = w->now.on[i]
+                      || (w->moved[i] <= most_of_two && sampled_size(w, i, nodes) < small * w->moved[i]);
         if (w->wants[i] && !w->smooth[i] && !sought) {
             QDOT_TRY(find_sides(w, p));
             sought = true;
         }
-        w->wants[i] = w->wants[i] && qdot_watch_has_two(w, i);
+        w->wants[i] = w->wants[i] && qdot_watch_can_two(w, i);
         *any = *any || w->wants[i];
     }
+    return find_far_clocks(w, p, nodes, any);
+}
+
+qdot_status
+qdot_watch_sharpen_end(qdot_watch *w, qdot_watch_part *p, size_t i)
+{
+    const bool others = w->fine, wanted = w->wants[i];
+
+    if (!qdot_watch_can_two(w, i) || w->now.blurred[i] || qdot_watch_is_fine(w, i)
+        || fabs(p->at_end) >= small * sampled_size(w, i, p->n))
+        return QDOT_OK;
+    w->fine = w->wants[i] = true;
+    QDOT_TRY(qdot_watch_value_at(w, p->b, w->g));
+    w->fine = others;
+    w->wants[i] = wanted;
+    p->at_end = w->g[i];
+    p->sharp = true;
     return QDOT_OK;
 }
 

@@ -13,20 +13,27 @@
 
 /* --- their tapes --------------------------------------------------------------------- */
 
-/* Find which functions contain nothing that switches. */
+/* What a function of t alone does not contain. */
+enum {
+    OF_STATE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER
+};
+
+/* Find which functions contain nothing that switches, and which are of t alone. */
 static qdot_status
-find_smooth(qdot_watch *w, const qdot_expr *e)
+find_kinds(qdot_watch *w, const qdot_expr *e)
 {
     const qdot_plan *p = w->plan;
 
-    w->smooth = qdot_calloc(w->m + 1, sizeof *w->smooth);
+    w->smooth = qdot_calloc(2 * w->m + 1, sizeof *w->smooth);
     if (!w->smooth)
         return QDOT_ENOMEM;
+    w->clock = w->smooth + w->m;
     for (size_t i = 0; i < w->m; i++) {
         qdot_tape *one = NULL;
 
         QDOT_TRY(qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, 1, e + i, &one));
         w->smooth[i] = qdot_program_hindrance(one) == NULL;
+        w->clock[i] = (qdot_expr_node(p->pool, e[i])->holds & OF_STATE) == 0;
         qdot_tape_free(one);
     }
     return QDOT_OK;
@@ -50,7 +57,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, w->m, e, &tape);
     if (status == QDOT_OK)
-        status = find_smooth(w, e);
+        status = find_kinds(w, e);
     for (size_t i = 0; i < w->m && status == QDOT_OK; i++)
         e[i] = qdot_term_magnitude(p->pool, e[i]);
     if (status == QDOT_OK)

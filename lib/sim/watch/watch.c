@@ -76,7 +76,7 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
     const size_t before = w->roots.n;
     const int sign = w->now.sign[i];
     bool rough = qdot_watch_fit(w, p, i, nodes) == QDOT_PART_MORE_NODES;
-    const bool may_kink = !w->smooth[i] || !w->expanded,
+    const bool may_kink = !w->smooth[i] || !(w->expanded || w->clock[i]),
                off = may_kink && !w->now.on[i] && sign != 0 && qdot_watch_is_noisy(w, p, i);
 
     if (!good && !rough) {
@@ -134,12 +134,10 @@ sample_enough(qdot_watch *w, const qdot_watch_part *p, int nodes, const double *
 }
 
 /* A function that is 0 at the end of the part, but for rounding, is so from there on, until it is large
- * beside that. */
+ * beside that. `fine`: its value there is in two doubles. */
 static void
-keep_offset(qdot_watch *w, size_t i)
+keep_offset(qdot_watch *w, size_t i, bool fine)
 {
-    const bool fine = qdot_watch_is_fine(w, i);
-
     if (fine)
         w->now.g0[i] += w->now.offset[i];
     if (w->now.on[i])
@@ -196,8 +194,9 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
         if (!w->live[i])
             continue;
         p->at_end = at_end[i];
+        p->sharp = false;
         QDOT_TRY(roots_of(w, p, i, nodes, good));
-        keep_offset(w, i);
+        keep_offset(w, i, qdot_watch_is_fine(w, i) || p->sharp);
     }
     return QDOT_OK;
 }
@@ -397,6 +396,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
             w->now.offset[i] = 0;
         }
     sort_roots(w);
+    if (qdot_watch_join_instants(w))
+        sort_roots(w);
     if (w->least > 0)
         QDOT_TRY(qdot_watch_forget_start(w));
     *roots = w->roots.at;
@@ -468,40 +469,30 @@ is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, 
     return QDOT_OK;
 }
 
-/* Of |g| beside a root that was located: what is less is 0, for the place of the root is rounded. */
-static const double negligible = 0x1p-10;
-
 qdot_status
 qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
                  const qdot_watch_known *known, bool *on)
 {
-    const bool exact = reader->read_two && !w->accelerations;
-
     w->reader = *reader;
     w->least = known->least;
     w->largest = known->largest;
     w->begun = t;
     memcpy(w->y, y, 2 * w->n * sizeof *y);
     w->t = t;
-    memcpy(w->in, y, 2 * w->n * sizeof *y);
     memset(w->now.blurred, 0, w->m * sizeof *w->now.blurred);
-    if (exact)
-        QDOT_TRY(qdot_watch_value_at_start(w, t, y, known->low, w->start.g0));
-    else
-        QDOT_TRY(qdot_watch_value(w, t, w->start.g0));
+    QDOT_TRY(qdot_watch_value_at_begin(w, known->low));
     for (size_t i = 0; i < w->m; i++) {
         const double g = w->start.g0[i];
         const bool met = known->residual && known->residual[i] >= 0;
 
-        if (exact && qdot_watch_has_two(w, i) && met && i < known->left) {
-            w->start.on[i] = fabs(g) <= negligible * known->residual[i];
+        if (w->start.sharp[i] && met && i < known->left) {
+            w->start.on[i] = fabs(g) <= QDOT_WATCH_NEGLIGIBLE * known->residual[i];
         } else {
-            QDOT_TRY(is_rounding(w, t, y, known->least, exact && w->smooth[i], i, g, &w->start.on[i]));
+            QDOT_TRY(is_rounding(w, t, y, known->least, w->start.sharp[i] && w->smooth[i], i, g, &w->start.on[i]));
             w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
         }
         w->start.blurred[i] = false;
-        w->start.sharp[i] = exact && qdot_watch_has_two(w, i);
-        w->start.offset[i] = w->start.on[i] && exact && qdot_watch_has_two(w, i) ? g : 0;
+        w->start.offset[i] = w->start.on[i] && w->start.sharp[i] ? g : 0;
         w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
         on[i] = w->start.on[i];
         w->faded[i] = 0;

@@ -22,6 +22,9 @@
  * An extremum within rounding of 0, or within the tolerance of the run, is a root without
  * change of sign.
  *
+ * Of functions of t alone two crossings that only rounding of their operations sets apart have the same time
+ * (watch-instants.c).
+ *
  * A function may stay 0: its root is then where it becomes 0. Beside a jump or a kink no polynomial
  * represents it: there, in a part of a few thousand doubles of t, its values alone are looked at
  * (watch-rough.c).
