@@ -306,7 +306,8 @@ qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value, 
     qdot_status status;
 
     *yes = false;
-    if (r->s->coordinates.n != 1 || r->s->constraints.n > 0 || r->friction != QDOT_NIL || qdot_expr_count(pool, values) != 1)
+    if (r->s->coordinates.n != 1 || r->s->constraints.n > 0 || r->friction != QDOT_NIL ||
+        qdot_expr_count(pool, values) != 1)
         return QDOT_OK;
     q = r->s->coordinates.at[0];
     at = qdot_expr_arg(pool, qdot_expr_arg(pool, values, 0), 1);

@@ -85,6 +85,31 @@ qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e)
 }
 
 qdot_expr
+qdot_condition_of_logarithms(qdot_pool *pool, qdot_expr gap)
+{
+    const uint32_t n = gap != QDOT_NIL && qdot_expr_kind(pool, gap) == QDOT_SUM ? qdot_expr_count(pool, gap) : 0;
+    qdot_expr above = QDOT_ONE, below = QDOT_ONE, c = QDOT_NIL;
+    unsigned open = 0; /* arguments that are not known to be positive */
+
+    if (n < 5)
+        return QDOT_NIL;
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr log = qdot_expr_arg(pool, gap, i), k = qdot_expr_arg(pool, gap, i + 1), A,
+                  size = qdot_expr_is_negative(pool, k) ? qdot_neg(pool, k) : k;
+
+        if (!qdot_expr_is_function(pool, log, QDOT_LOG) || (c != QDOT_NIL && size != c))
+            return QDOT_NIL;
+        c = size;
+        A = qdot_expr_arg(pool, log, 0);
+        if ((qdot_expr_node(pool, A)->sign & QDOT_POS) != QDOT_POS && (size != k || open++ > 0))
+            return QDOT_NIL;
+        *(size == k ? &above : &below) = qdot_mul(pool, size == k ? above : below, A);
+    }
+    c = qdot_neg(pool, qdot_div(pool, qdot_expr_arg(pool, gap, 0), c));
+    return qdot_sub(pool, above, c == QDOT_ZERO ? below : qdot_mul(pool, below, qdot_fun1(pool, QDOT_EXP, c)));
+}
+
+qdot_expr
 qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict)
 {
     qdot_expr magnitude, v, rest, slope, zero = QDOT_ZERO, one = QDOT_ONE;

@@ -22,6 +22,12 @@ bool qdot_holds_root(qdot_pool *pool, qdot_expr e);
  * form. */
 qdot_expr qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict);
 
+/* A - B exp(r/c) for a gap c log(A) - c log(B) - r, c > 0, r a number, and alike for sums of several logarithms with
+ * coefficients c and -c: positive where the gap is, and not negative where the gap is not negative. One of the arguments
+ * before which c stands may be of any sign, for A > B > 0 says that it is positive. Nil: others are not known to be
+ * positive, or the gap has another form. */
+qdot_expr qdot_condition_of_logarithms(qdot_pool *pool, qdot_expr gap);
+
 /* s^2 - t^2 for a gap s - t with a square root in it, s and t nowhere negative; else nil. */
 qdot_expr qdot_condition_squared(qdot_pool *pool, qdot_expr gap);
 

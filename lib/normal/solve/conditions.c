@@ -239,7 +239,8 @@ condition_by_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_fac
 qdot_expr
 qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
-    qdot_expr plain = qdot_condition_without_magnitude(pool, gap, strict),
+    qdot_expr apart = qdot_condition_of_logarithms(pool, gap),
+              plain = apart != QDOT_NIL ? apart : qdot_condition_without_magnitude(pool, gap, strict),
               relation = condition_decide(pool, plain == QDOT_NIL ? gap : plain, strict, facts), by_squares;
 
     if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)

@@ -48,6 +48,27 @@ magnitude_beside_its_argument(void **state)
     }
 }
 
+/* p, k of any sign; p^2 + 1 and numbers are known to be positive. */
+static void
+logarithms_by_their_arguments(void **state)
+{
+    static const struct {
+        const char *gap, *by;
+    } rows[] = {
+        {"log(p) + log(2)", "2*p - 1"},
+        {"log(p) - log(k^2 + 1)", "p - k^2 - 1"},
+        {"3*log(p) - 3*log(k^2 + 1) - 6", "p - (k^2 + 1)*exp(2)"},
+        {"log(p) - log(k)", "nil"},      /* k < 0: neither is defined, p - k may be positive */
+        {"log(p) + log(k)", "nil"},      /* both negative: p k - 1 may be positive */
+        {"2*log(p) - log(k^2 + 1)", "nil"},
+        {"log(p) - k", "nil"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_string_equal(shown(qdot_condition_of_logarithms(pool, text_read(pool, rows[i].gap))), rows[i].by);
+}
+
 /* 0 < gap and 0 <= gap for all values of p, k. */
 static void
 conditions_of_such_gaps(void **state)
@@ -94,6 +115,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(zero_in_whole_regions, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(magnitude_beside_its_argument, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(logarithms_by_their_arguments, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(conditions_of_such_gaps, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(contradiction_behind_roots, open_pool, close_pool),
     };
