@@ -5,7 +5,7 @@
 #include "api/system.h"
 #include "base/memory.h"
 #include "expr/walk.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/expression.h"
 #include "lang/workbench/script.h"
 #include "lang/commands/handlers.h"
 #include "lang/language/read.h"
@@ -93,7 +93,7 @@ print_value(qdot_session *session, qdot_expr value, formula *f)
 
     for (uint32_t i = 0; i < n; i++) {
         qdot_text_add(&f->text, i > 0 ? "\n" : "");
-        QDOT_TRY(qdot_formula_print(session,
+        QDOT_TRY(qdot_expression_print(session,
                                     several ? qdot_expr_arg(session->pool, value, i) : value,
                                     f->style, &f->text));
     }

@@ -18,7 +18,4 @@ QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_
 QDOT_MUST_CHECK qdot_status qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in,
                                               qdot_style style, qdot_text *out);
 
-/* What MathML of a formula within a text begins with. */
-#define QDOT_PRINT_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
-
 #endif

@@ -1,6 +1,7 @@
 /* formula.c -- nodes of a formula and their lists of children. */
 #include "formula/formula.h"
 
+#include <ctype.h>
 #include <string.h>
 
 void
@@ -122,4 +123,120 @@ qdot_formula_unwrap(qdot_formula *f, qdot_formula_id id)
     if (child != 0 && f->nodes.at[id].kind == QDOT_FORMULA_SPAN && f->nodes.at[child].next == child &&
         f->nodes.at[child].kind != QDOT_FORMULA_SPAN)
         qdot_formula_share(f, id, child);
+}
+
+qdot_status
+qdot_formula_find_parts(const qdot_formula *f, qdot_formula_id id, qdot_formula_parts *parts)
+{
+    parts->todo.n = 0;
+    QDOT_TRY(qdot_vec_push(&parts->todo, id));
+    for (bool first = true; parts->todo.n > 0; first = false) {
+        const qdot_formula_id top = parts->todo.at[--parts->todo.n];
+        const qdot_formula_node *node = qdot_formula_at(f, top);
+        size_t from = parts->todo.n;
+
+        if (!first && (node->kind != QDOT_FORMULA_SPAN || (node->flags & QDOT_FORMULA_LABEL))) {
+            QDOT_TRY(qdot_vec_push(&parts->part, top));
+            continue;
+        }
+        for (qdot_formula_id c = 0; (c = qdot_formula_child(f, top, c)) != 0;)
+            QDOT_TRY(qdot_vec_push(&parts->todo, c));
+        for (size_t to = parts->todo.n; from + 1 < to; from++) { /* the first one is taken first */
+            const qdot_formula_id c = parts->todo.at[--to];
+
+            parts->todo.at[to] = parts->todo.at[from];
+            parts->todo.at[from] = c;
+        }
+    }
+    return QDOT_OK;
+}
+
+void
+qdot_formula_parts_clear(qdot_formula_parts *parts)
+{
+    qdot_free(parts->part.at);
+    qdot_free(parts->todo.at);
+    *parts = (qdot_formula_parts){0};
+}
+
+qdot_formula_duty
+qdot_formula_sign_duty(const qdot_formula_node *node)
+{
+    static const uint8_t duties[] = {
+#define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) QDOT_DUTY_##duty,
+#include "formula/sign.def"
+#undef QDOT_SIGN
+    };
+
+    return node->kind == QDOT_FORMULA_SIGN ? (qdot_formula_duty)duties[node->what] : QDOT_DUTY_NONE;
+}
+
+/* Brackets in LaTeX: braces, \left ... \right, \begin ... \end. */
+static int
+latex_depth(const char *at, size_t n)
+{
+    static const struct {
+        const char *begins;
+        int depth;
+    } brackets[] = {{"{", 1}, {"}", -1}, {"\\left", 1}, {"\\right", -1}, {"\\begin", 1}, {"\\end", -1}};
+
+    for (size_t i = 0; i < sizeof brackets / sizeof *brackets; i++) {
+        const size_t length = strlen(brackets[i].begins);
+
+        if (length <= n && memcmp(at, brackets[i].begins, length) == 0)
+            return brackets[i].depth;
+    }
+    return 0;
+}
+
+/* The length of the sign between two terms or sides that stands there; 0: none. */
+static size_t
+latex_sign(const char *at, size_t n, qdot_formula_sign *sign)
+{
+    static const struct {
+        const char *text;
+        qdot_formula_sign sign;
+    } rows[] = {
+#define QDOT_SIGN(name, plain, unicode, latex, mathml, duty)                                                           \
+    {QDOT_DUTY_##duty == QDOT_DUTY_RELATION || QDOT_DUTY_##duty == QDOT_DUTY_TERMS ? latex : NULL, QDOT_SIGN_##name},
+#include "formula/sign.def"
+#undef QDOT_SIGN
+    };
+
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const size_t length = rows[i].text != NULL ? strlen(rows[i].text) : 0;
+
+        if (length > 0 && length <= n && memcmp(at, rows[i].text, length) == 0) {
+            *sign = rows[i].sign;
+            return length;
+        }
+    }
+    return 0;
+}
+
+void
+qdot_formula_add_latex(qdot_formula *f, qdot_formula_id parent, const char *text, size_t n)
+{
+    size_t from = 0;
+    int depth = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_formula_sign sign;
+        size_t length = 0;
+
+        depth += latex_depth(text + i, n - i);
+        if (depth == 0)
+            length = latex_sign(text + i, n - i, &sign);
+        if (length > 0) {
+            if (i > from)
+                qdot_formula_add_text(f, parent, QDOT_TEXT_WORDS, text + from, i - from);
+            qdot_formula_add_sign(f, parent, sign);
+            from = i + length;
+            i = from - 1;
+        } else if (text[i] == '\\' && i + 1 < n && !isalpha((unsigned char)text[i + 1])) {
+            i++; /* \{ is no brace */
+        }
+    }
+    if (n > from)
+        qdot_formula_add_text(f, parent, QDOT_TEXT_WORDS, text + from, n - from);
 }

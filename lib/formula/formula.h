@@ -40,6 +40,7 @@ typedef enum {
     QDOT_FORMULA_PRIMES,   /* one child with n primes behind */
     QDOT_FORMULA_BRACKET,  /* all children in brackets of a shape */
     QDOT_FORMULA_TABLE,    /* cells, n in a row, in brackets */
+    QDOT_FORMULA_TENSOR,   /* base, indices above, indices below */
     QDOT_FORMULA_CASES,    /* value, condition, value, condition, ..., value otherwise */
     QDOT_FORMULA_APPLY     /* a function, its bracket */
 } qdot_formula_kind;
@@ -49,7 +50,8 @@ typedef enum {
     QDOT_TEXT_NAME,     /* a name; where formulas are drawn its letters for the eye, θ, its indices apart */
     QDOT_TEXT_NUMBER,   /* an integer or a decimal number without its sign */
     QDOT_TEXT_FUNCTION, /* the name of a function */
-    QDOT_TEXT_WORDS     /* a text for people */
+    QDOT_TEXT_LABEL,    /* what a thing is called, as it was typed */
+    QDOT_TEXT_WORDS     /* a text for people; in LaTeX what is LaTeX already */
 } qdot_formula_role;
 
 /* Of a BRACKET. */
@@ -60,9 +62,21 @@ typedef enum {
     QDOT_BRACKET_FLOOR
 } qdot_formula_shape;
 
+/* What a sign does in its row. */
+typedef enum {
+    QDOT_DUTY_NONE,
+    QDOT_DUTY_COLON,
+    QDOT_DUTY_RELATION,
+    QDOT_DUTY_TERMS, /* + - of two terms */
+    QDOT_DUTY_ERROR,
+    QDOT_DUTY_LOGIC, /* and, or */
+    QDOT_DUTY_TIMES,
+    QDOT_DUTY_COMMA
+} qdot_formula_duty;
+
 /* Signs and letters of the writers. */
 typedef enum {
-#define QDOT_SIGN(name, plain, unicode, latex, mathml) QDOT_SIGN_##name,
+#define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) QDOT_SIGN_##name,
 #include "formula/sign.def"
 #undef QDOT_SIGN
     QDOT_SIGNS
@@ -73,7 +87,9 @@ enum {
     QDOT_FORMULA_SLANTED = 1, /* FRACTION of numbers, an exponent: LaTeX writes it with a slash */
     QDOT_FORMULA_RAISED = 2,  /* POWER in a line: the exponent is an integer, written by superscripts */
     QDOT_FORMULA_BARE = 4,    /* ROOT in a line: √x, without brackets */
-    QDOT_FORMULA_FIXED = 8    /* BRACKET: in LaTeX of the height of a line */
+    QDOT_FORMULA_FIXED = 8,   /* BRACKET: in LaTeX of the height of a line */
+    QDOT_FORMULA_SMALL = 16,  /* FRACTION: in LaTeX of the height of a line */
+    QDOT_FORMULA_LABEL = 32   /* of any: what an answer is called, before its value */
 };
 
 typedef struct {
@@ -129,7 +145,34 @@ qdot_formula_at(const qdot_formula *f, qdot_formula_id id)
     return f->nodes.at + id;
 }
 
-/* Whether children hang at a node. */
+/* The child after `child`, 0: the first one; 0 behind the last. */
+static inline qdot_formula_id
+qdot_formula_child(const qdot_formula *f, qdot_formula_id parent, qdot_formula_id child)
+{
+    const qdot_formula_id last = qdot_formula_at(f, parent)->child;
+
+    return child == last ? 0 : qdot_formula_at(f, child != 0 ? child : last)->next;
+}
+
+/* What stands in a row, from left to right. */
+typedef struct {
+    qdot_vec(qdot_formula_id) part, todo; /* todo: work space */
+} qdot_formula_parts;
+
+/* Append the children of a node, those of SPANs in their place; a SPAN that is a label stays one part. Errors:
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_formula_find_parts(const qdot_formula *f, qdot_formula_id id,
+                                                    qdot_formula_parts *parts);
+void qdot_formula_parts_clear(qdot_formula_parts *parts);
+
+/* What a node does if it is a sign, else QDOT_DUTY_NONE. */
+qdot_formula_duty qdot_formula_sign_duty(const qdot_formula_node *node);
+
+/* Append a text in LaTeX: the signs between its terms and sides outside braces are nodes, what stands between them
+ * WORDS. */
+void qdot_formula_add_latex(qdot_formula *f, qdot_formula_id parent, const char *text, size_t n);
+
+/* Whether a node has no children. */
 static inline bool
 qdot_formula_is_leaf(const qdot_formula_node *node)
 {

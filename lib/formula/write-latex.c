@@ -7,7 +7,7 @@
 #include "formula/write.h"
 
 static const char *const signs[] = {
-#define QDOT_SIGN(name, plain, unicode, latex, mathml) latex,
+#define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) latex,
 #include "formula/sign.def"
 #undef QDOT_SIGN
 };
@@ -35,6 +35,17 @@ latex_add_function(qdot_text *out, const char *name, size_t n)
     qdot_text_char(out, '}');
 }
 
+static void
+latex_add_roman(qdot_text *out, const char *name, size_t n)
+{
+    qdot_text_add(out, "\\mathrm{");
+    for (size_t i = 0; i < n; i++) {
+        qdot_text_add(out, name[i] == '_' ? "\\" : "");
+        qdot_text_char(out, name[i]);
+    }
+    qdot_text_char(out, '}');
+}
+
 /* Greek letters as commands; several letters in roman type. */
 static void
 latex_add_name(qdot_text *out, const char *name, size_t n)
@@ -46,16 +57,10 @@ latex_add_name(qdot_text *out, const char *name, size_t n)
         }
         return;
     }
-    if (n == 1) {
+    if (n == 1)
         qdot_text_char(out, *name);
-        return;
-    }
-    qdot_text_add(out, "\\mathrm{");
-    for (size_t i = 0; i < n; i++) {
-        qdot_text_add(out, name[i] == '_' ? "\\" : "");
-        qdot_text_char(out, name[i]);
-    }
-    qdot_text_char(out, '}');
+    else
+        latex_add_roman(out, name, n);
 }
 
 static void
@@ -65,6 +70,8 @@ latex_add_text(qdot_text *out, const qdot_formula_node *node, const char *text)
         latex_add_name(out, text, node->n);
     else if (node->what == QDOT_TEXT_FUNCTION)
         latex_add_function(out, text, node->n);
+    else if (node->what == QDOT_TEXT_LABEL)
+        latex_add_roman(out, text, node->n);
     else
         qdot_text_add_n(out, text, node->n);
 }
@@ -82,7 +89,10 @@ latex_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     switch (node->kind) {
     case QDOT_FORMULA_TEXT: latex_add_text(out, node, walk->formula->text.at + node->child); break;
     case QDOT_FORMULA_SIGN: qdot_text_add(out, signs[node->what]); break;
-    case QDOT_FORMULA_FRACTION: qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : "\\frac{"); break;
+    case QDOT_FORMULA_FRACTION:
+        qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : node->flags & QDOT_FORMULA_SMALL ? "\\tfrac{"
+                                                                                                    : "\\frac{");
+        break;
     case QDOT_FORMULA_ROOT: qdot_text_add(out, "\\sqrt{"); break;
     case QDOT_FORMULA_ACCENT: qdot_text_add(out, node->n <= MOST_DOTS ? dots[node->n] : ""); break;
     case QDOT_FORMULA_BRACKET:
@@ -106,6 +116,7 @@ latex_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k
         break;
     case QDOT_FORMULA_POWER: qdot_text_add(out, "^{"); break;
     case QDOT_FORMULA_INDEX: qdot_text_add(out, "_{"); break;
+    case QDOT_FORMULA_TENSOR: qdot_text_add(out, k == 1 ? "^{" : "}{}_{"); break;
     case QDOT_FORMULA_TABLE: qdot_text_add(out, k % node->n ? " & " : " \\\\ "); break;
     case QDOT_FORMULA_CASES: qdot_text_add(out, k % 2 ? " & \\text{if } " : " \\\\ "); break;
     default: break;
@@ -141,7 +152,8 @@ latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION: qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : "}"); break;
     case QDOT_FORMULA_ROOT:
-    case QDOT_FORMULA_POWER: qdot_text_char(out, '}'); break;
+    case QDOT_FORMULA_POWER:
+    case QDOT_FORMULA_TENSOR: qdot_text_char(out, '}'); break;
     case QDOT_FORMULA_INDEX:
         qdot_text_char(out, '}');
         latex_add_order(out, qdot_formula_at(walk->formula, qdot_formula_at(walk->formula, node->child)->next));

@@ -8,7 +8,7 @@ static const struct {
     const char *text;
     size_t n;
 } signs[][2] = {
-#define QDOT_SIGN(name, plain, unicode, latex, mathml) {{plain, sizeof plain - 1}, {unicode, sizeof unicode - 1}},
+#define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) {{plain, sizeof plain - 1}, {unicode, sizeof unicode - 1}},
 #include "formula/sign.def"
 #undef QDOT_SIGN
 };

@@ -19,6 +19,16 @@ QDOT_MUST_CHECK qdot_status qdot_formula_write_latex(const qdot_formula *f, qdot
 /* The same in presentation MathML, the contents of <math>. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_mathml(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
 
+/* The same for a page: an index and a power stand one above the other, round brackets about one line do not stretch
+ * (browsers leave room for the widest form of one that does), and a thin space stands between a factor and a function
+ * of several letters, as in L cos u. before: what stands before the node, 0: nothing. */
+QDOT_MUST_CHECK qdot_status qdot_formula_write_page(const qdot_formula *f, qdot_formula_id id, qdot_formula_id before,
+                                                    qdot_text *out);
+
+/* What MathML begins with and ends with within a text. */
+#define QDOT_FORMULA_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
+#define QDOT_FORMULA_MATH_END "</math>"
+
 /* Append text that stands between tags, & and < as entities. */
 void qdot_formula_escape(const char *text, size_t n, qdot_text *out);
 

@@ -1,137 +1,30 @@
 /* formula-page.c -- lines of answers as blocks of aligned equations and paragraphs. */
 #include "show/formula-page.h"
-#include "show/formulas.h"
-#include "show/scripts.h"
 
 #include <ctype.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "base/memory.h"
+#include "formula/write.h"
+#include "show/formulas.h"
+#include "show/page.h"
 
 /* In units of about a letter: a line of a page of print. */
 enum { LINE = 76 };
 
-typedef enum { LATEX, MATHML } page_kind;
-typedef enum { LABEL, RELATION, SIGN } cut_kind;
-
-/* A place outside all brackets where a formula may be divided: the bytes of the sign there. */
-typedef struct {
-    cut_kind kind;
-    size_t at, n;
-} cut;
-
-typedef struct {
-    page_kind kind;
-    qdot_text *out;
-    bool block; /* a block of equations is open */
-    bool told;  /* ... and its last row is ended, by words */
-    const char *label; /* what names the next row, in LaTeX */
-    size_t label_n;
-    qdot_vec(cut) cuts; /* of the present formula */
-} page;
-
-static const char latex_begin[] = "\\(", latex_end[] = "\\)";
-static const char mathml_begin[] = "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">",
-                  mathml_end[] = "</math>";
-
-static const char *
-begin_mark(const page *p)
-{
-    return p->kind == LATEX ? latex_begin : mathml_begin;
-}
-
-static const char *
-end_mark(const page *p)
-{
-    return p->kind == LATEX ? latex_end : mathml_end;
-}
+typedef qdot_formula_page page;
 
 static bool
-line_begins(const char *text, const char *with)
+is_latex(const page *p)
 {
-    return strncmp(text, with, strlen(with)) == 0;
+    return p->kind == QDOT_PAGE_LATEX;
 }
 
-/* --- where a formula may be divided ----------------------------------------------------- */
-
-typedef struct {
-    cut_kind kind;
-    const char *sign;
-} sign_row;
-
-static qdot_status
-add_cut(page *p, const sign_row *rows, size_t n, const char *formula, size_t at)
+static void
+page_keep(page *p, qdot_status status)
 {
-    for (size_t i = 0; i < n; i++)
-        if (line_begins(formula + at, rows[i].sign))
-            return qdot_vec_push(&p->cuts,
-                                 ((cut){rows[i].kind, at, strlen(rows[i].sign)}));
-    return QDOT_OK;
-}
-
-/* Brackets in LaTeX: braces, \left ... \right, \begin ... \end. */
-static int
-latex_depth(const char *at)
-{
-    if (*at == '{' || line_begins(at, "\\left") || line_begins(at, "\\begin"))
-        return 1;
-    return *at == '}' || line_begins(at, "\\right") || line_begins(at, "\\end") ? -1 : 0;
-}
-
-static qdot_status
-latex_cuts(page *p, const char *formula, size_t n)
-{
-    static const sign_row rows[] = {
-        {LABEL, ": "},          {RELATION, " = "},     {RELATION, " < "},
-        {RELATION, " > "},      {RELATION, " \\le "},  {RELATION, " \\ge "},
-        {SIGN, " + "},          {SIGN, " - "},
-    };
-    int depth = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        depth += latex_depth(formula + i);
-        if (depth == 0)
-            QDOT_TRY(add_cut(p, rows, sizeof rows / sizeof *rows, formula, i));
-        if (formula[i] == '\\' && i + 1 < n && !isalpha((unsigned char)formula[i + 1]))
-            i++; /* \{ is no brace */
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-mathml_cuts(page *p, const char *formula, size_t n)
-{
-    static const sign_row rows[] = {
-        {LABEL, "<mo>:</mo>"},       {RELATION, "<mo>=</mo>"}, {RELATION, "<mo>&lt;</mo>"},
-        {RELATION, "<mo>&gt;</mo>"}, {RELATION, "<mo>≤</mo>"}, {RELATION, "<mo>≥</mo>"},
-        {SIGN, "<mo>+</mo>"},        {SIGN, "<mo>−</mo>"},
-    };
-    bool operand = false; /* a sign behind one joins two terms */
-    int depth = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        if (formula[i] != '<')
-            continue;
-        if (formula[i + 1] == '/') {
-            depth--;
-            continue;
-        }
-        if (depth == 0 && operand)
-            QDOT_TRY(add_cut(p, rows, sizeof rows / sizeof *rows, formula, i));
-        if (depth == 0)
-            operand = !line_begins(formula + i, "<mo>");
-        depth++;
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-find_cuts(page *p, const char *formula, size_t n)
-{
-    p->cuts.n = 0;
-    return p->kind == LATEX ? latex_cuts(p, formula, n)
-                                      : mathml_cuts(p, formula, n);
+    if (p->status == QDOT_OK)
+        p->status = status;
 }
 
 /* --- width ------------------------------------------------------------------------------ */
@@ -142,7 +35,7 @@ word_width(const char *word, size_t n)
 {
     static const char *const bare[] = {"left", "right",  "dot",          "ddot", "frac",
                                        "sqrt", "mathrm", "operatorname", "text"};
-    static const char *const spelled[] = {"sin", "cos", "tan", "sec",  "csc",  "cot",
+    static const char *const spelled[] = {"sin", "cos", "tan",  "sec",  "csc",  "cot",
                                           "log", "exp", "sinh", "cosh", "tanh", "arcsin"};
 
     for (size_t i = 0; i < sizeof bare / sizeof *bare; i++)
@@ -185,7 +78,7 @@ mathml_width(const char *at, size_t n)
             while (i < n && at[i] != '>')
                 i++;
         } else if (at[i] == '&') {
-            width += !line_begins(at + i, "&#x206");
+            width += strncmp(at + i, "&#x206", 6) != 0;
             while (i < n && at[i] != ';')
                 i++;
         } else {
@@ -195,20 +88,62 @@ mathml_width(const char *at, size_t n)
     return width;
 }
 
-static size_t
-formula_width(const page *p, const char *at, size_t n)
+/* --- the parts of a formula --------------------------------------------------------------- */
+
+/* Write the parts of a formula one behind the other, with how wide all before each are. */
+static qdot_status
+page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
-    return p->kind == LATEX ? latex_width(at, n) : mathml_width(at, n);
+    size_t width = 0;
+
+    qdot_text_truncate(&p->written, 0);
+    p->parts.part.n = p->cuts.n = 0;
+    QDOT_TRY(qdot_formula_find_parts(f, formula, &p->parts));
+    for (size_t i = 0; i < p->parts.part.n; i++) {
+        const qdot_formula_node *node = qdot_formula_at(f, p->parts.part.at[i]);
+        const bool label = (node->flags & QDOT_FORMULA_LABEL) && p->paint != NULL;
+        const size_t from = p->written.n;
+
+        QDOT_TRY(qdot_vec_push(
+            &p->cuts, ((qdot_page_cut){from, width, qdot_formula_sign_duty(node)})));
+        qdot_text_add(&p->written, label ? p->paint : "");
+        QDOT_TRY(is_latex(p)
+                     ? qdot_formula_write_latex(f, p->parts.part.at[i], &p->written)
+                     : qdot_formula_write_page(f, p->parts.part.at[i],
+                                               i > 0 ? p->parts.part.at[i - 1] : 0,
+                                               &p->written));
+        qdot_text_add(&p->written, label ? p->end : "");
+        QDOT_TRY(qdot_text_status(&p->written));
+        width += (is_latex(p) ? latex_width : mathml_width)(p->written.at + from,
+                                                            p->written.n - from);
+    }
+    return qdot_vec_push(&p->cuts,
+                         ((qdot_page_cut){p->written.n, width, QDOT_DUTY_NONE}));
+}
+
+/* Parts [from, to) of the formula. */
+static size_t
+width_of(const page *p, size_t from, size_t to)
+{
+    return p->cuts.at[to].width - p->cuts.at[from].width;
+}
+
+static void
+page_add_parts(page *p, size_t from, size_t to)
+{
+    qdot_text_add_n(&p->out, p->written.at + p->cuts.at[from].at,
+                    p->cuts.at[to].at - p->cuts.at[from].at);
 }
 
 /* --- rows of a block -------------------------------------------------------------------- */
 
-/* A row: what stands left of the aligned sign, the sign, what follows. */
+/* A row: parts left of the aligned sign, the sign, parts that follow; sign: none if no cut has it. */
 typedef struct {
-    const char *left, *sign, *right;
-    size_t left_n, sign_n, right_n;
+    size_t left, left_end, sign, right, right_end;
     bool indented;
 } row;
+
+static const size_t none = SIZE_MAX;
 
 /* The line of a heading goes on into the equations below it: a paragraph that ends there would be
  * followed by an empty line. */
@@ -217,9 +152,9 @@ join_heading(page *p)
 {
     static const char end[] = "}\\par\n";
 
-    if (qdot_ends_in(qdot_text_str(p->out), end)) {
-        qdot_text_truncate(p->out, p->out->n - strlen(end));
-        qdot_text_add(p->out, "}\n");
+    if (qdot_ends_in(qdot_text_str(&p->out), end)) {
+        qdot_text_truncate(&p->out, p->out.n - strlen(end));
+        qdot_text_add(&p->out, "}\n");
     }
 }
 
@@ -228,54 +163,57 @@ latex_row(page *p, const row *r)
 {
     if (!p->block)
         join_heading(p);
-    qdot_text_add(p->out, p->told    ? ""
-                          : p->block ? " \\\\\n    "
-                                     : "\\begin{align*}\n    ");
+    qdot_text_add(&p->out, p->told    ? ""
+                           : p->block ? " \\\\\n    "
+                                      : "\\begin{align*}\n    ");
     p->told = false;
-    if (p->label_n > 0) {
-        qdot_text_add(p->out, "% ");
-        qdot_text_add_n(p->out, p->label, p->label_n);
-        qdot_text_add(p->out, "\n    ");
-        p->label_n = 0;
+    if (p->label.n > 0) {
+        qdot_text_format(&p->out, "%% %s\n    ", qdot_text_str(&p->label));
+        qdot_text_truncate(&p->label, 0);
     }
-    qdot_text_add_n(p->out, r->left, r->left_n);
-    qdot_text_add(p->out, r->left_n > 0 ? " &" : "&");
+    page_add_parts(p, r->left, r->left_end);
+    qdot_text_add(&p->out, r->left < r->left_end ? " &" : "&");
     if (r->indented)
-        qdot_text_add(p->out, " \\quad {}");
-    if (r->sign_n > 0 && *r->sign == ' ' && r->indented)
-        qdot_text_add_n(p->out, r->sign + 1, r->sign_n - 1);
-    else
-        qdot_text_add_n(p->out, r->sign, r->sign_n);
-    qdot_text_add(p->out, r->sign_n == 0 ? " " : "");
-    qdot_text_add_n(p->out, r->right, r->right_n);
+        qdot_text_add(&p->out, " \\quad {}");
+    if (r->sign != none) {
+        const size_t at = p->cuts.at[r->sign].at, n = p->cuts.at[r->sign + 1].at - at;
+        const bool trimmed = r->indented && p->written.at[at] == ' ';
+
+        qdot_text_add_n(&p->out, p->written.at + at + trimmed, n - trimmed);
+    }
+    qdot_text_add(&p->out, r->sign == none ? " " : "");
+    page_add_parts(p, r->right, r->right_end);
 }
 
 /* A sign that begins a cell is still one between two terms. */
 static void
 mathml_row(page *p, const row *r)
 {
-    const char *const before = "<mtd class=\"right\">";
+    static const char tag[] = "<mo";
 
     if (!p->block)
-        qdot_text_add(p->out, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" "
-                              "display=\"block\"><mtable displaystyle=\"true\">\n");
-    qdot_text_add(p->out, "<mtr><mtd class=\"left\">");
-    qdot_page_add_mathml(p->out, r->left, r->left_n);
-    qdot_text_format(p->out, "</mtd>%s", before);
+        qdot_text_add(&p->out, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" "
+                               "display=\"block\"><mtable displaystyle=\"true\">\n");
+    qdot_text_add(&p->out, "<mtr><mtd class=\"left\">");
+    page_add_parts(p, r->left, r->left_end);
+    qdot_text_add(&p->out, "</mtd><mtd class=\"right\">");
     if (r->indented)
-        qdot_text_add(p->out, "<mspace width=\"2em\"/>");
-    if (r->sign_n > 0) {
-        qdot_text_add(p->out, "<mo form=\"infix\"");
-        qdot_text_add_n(p->out, r->sign + 3, r->sign_n - 3);
+        qdot_text_add(&p->out, "<mspace width=\"2em\"/>");
+    if (r->sign != none) {
+        const size_t at = p->cuts.at[r->sign].at + strlen(tag),
+                     end = p->cuts.at[r->sign + 1].at;
+
+        qdot_text_add(&p->out, "<mo form=\"infix\"");
+        qdot_text_add_n(&p->out, p->written.at + at, end - at);
     }
-    qdot_page_add_mathml(p->out, r->right, r->right_n);
-    qdot_text_add(p->out, "</mtd></mtr>\n");
+    page_add_parts(p, r->right, r->right_end);
+    qdot_text_add(&p->out, "</mtd></mtr>\n");
 }
 
 static void
 page_add_row(page *p, const row *r)
 {
-    if (p->kind == LATEX)
+    if (is_latex(p))
         latex_row(p, r);
     else
         mathml_row(p, r);
@@ -286,93 +224,92 @@ static void
 end_block(page *p)
 {
     if (p->block)
-        qdot_text_add(p->out, p->kind == LATEX ? "\n\\end{align*}\n"
-                                                         : "</mtable></math>\n");
+        qdot_text_add(&p->out, is_latex(p) ? "\n\\end{align*}\n" : "</mtable></math>\n");
     p->block = false;
 }
 
-/* Bytes from ... to of the formula behind r's sign, in lines that fit: cuts k on may be used. The
- * first line has the left side and sign of r. */
+/* Parts [from, to) behind r's sign, in lines that fit, divided before signs between terms. The first line has the left
+ * side and the sign of r. */
 static void
-add_lines(page *p, const char *formula, size_t from, size_t to, row r, size_t k)
+add_lines(page *p, size_t from, size_t to, row r)
 {
-    size_t taken = r.left_n > 0 ? formula_width(p, r.left, r.left_n) : 0;
+    size_t taken = width_of(p, r.left, r.left_end);
 
-    for (size_t best = SIZE_MAX; from < to; best = SIZE_MAX) {
-        size_t end = to;
+    for (size_t k = from;;) {
+        size_t best = none;
 
-        if (taken + formula_width(p, formula + from, to - from) > LINE) {
-            for (; k < p->cuts.n && p->cuts.at[k].at < to; k++) {
-                if (p->cuts.at[k].kind != SIGN || p->cuts.at[k].at <= from)
+        if (taken + width_of(p, from, to) > LINE)
+            for (; k < to; k++) {
+                if (p->cuts.at[k].duty != QDOT_DUTY_TERMS || k <= from)
                     continue;
-                if (best != SIZE_MAX &&
-                    taken + formula_width(p, formula + from, p->cuts.at[k].at - from) > LINE)
+                if (best != none && taken + width_of(p, from, k) > LINE)
                     break;
                 best = k;
             }
-            if (best != SIZE_MAX)
-                end = p->cuts.at[best].at;
-        }
-        r.right = formula + from;
-        r.right_n = end - from;
+        r.right = from;
+        r.right_end = best != none ? best : to;
         page_add_row(p, &r);
-        if (end == to)
+        if (best == none)
             return;
-        r = (row){.left = "",
-                  .sign = formula + p->cuts.at[best].at,
-                  .sign_n = p->cuts.at[best].n,
-                  .indented = true};
-        from = end + p->cuts.at[best].n;
-        k = best + 1;
+        r = (row){.sign = best, .indented = true};
+        from = best + 1;
+        k = from;
         taken = 3;
     }
 }
 
 /* The name before a colon: a comment before the next row; above the block in HTML. */
 static void
-add_label(page *p, const char *label, size_t n)
+add_label(page *p, size_t to)
 {
-    p->label = label;
-    p->label_n = n;
-    if (p->kind == LATEX)
+    if (is_latex(p)) {
+        qdot_text_truncate(&p->label, 0);
+        qdot_text_add_n(&p->label, p->written.at, p->cuts.at[to].at);
         return;
+    }
     end_block(p);
-    qdot_text_format(p->out, "<p class=\"label\">%s", mathml_begin);
-    qdot_text_add_n(p->out, label, n);
-    qdot_text_format(p->out, "%s</p>\n", mathml_end);
+    qdot_text_add(&p->out, "<p class=\"label\">" QDOT_FORMULA_MATH);
+    page_add_parts(p, 0, to);
+    qdot_text_add(&p->out, QDOT_FORMULA_MATH_END "</p>\n");
 }
 
-/* One formula as rows of the block: aligned at its relation; with a left side that is too wide, all
- * of it from the alignment on. */
-static qdot_status
-add_formula(page *p, const char *formula, size_t n)
+/* The first part from k on with one of two duties; the end if there is none. */
+static size_t
+find_duty(const page *p, size_t k, qdot_formula_duty one, qdot_formula_duty other)
 {
-    size_t k = 0, from = 0, relation;
-    row r = {.left = ""};
+    while (k + 1 < p->cuts.n && p->cuts.at[k].duty != one && p->cuts.at[k].duty != other)
+        k++;
+    return k;
+}
 
-    QDOT_TRY(find_cuts(p, formula, n));
-    if (p->cuts.n > 0 && p->cuts.at[0].kind == LABEL) {
-        add_label(p, formula, p->cuts.at[0].at);
-        from = p->cuts.at[0].at + p->cuts.at[0].n;
-        k = 1;
+/* Add one formula as rows of the block: aligned at its relation; with a left side that is too wide, all of it from the
+ * alignment on. */
+static qdot_status
+add_formula(page *p, const qdot_formula *f, qdot_formula_id formula)
+{
+    row r = {.sign = none};
+    size_t from = 0, end, relation;
+
+    QDOT_TRY(page_write_parts(p, f, formula));
+    end = p->cuts.n - 1;
+    relation = find_duty(p, 0, QDOT_DUTY_COLON, QDOT_DUTY_RELATION);
+    if (p->cuts.at[relation].duty == QDOT_DUTY_COLON) {
+        add_label(p, relation);
+        from = relation + 1;
+        relation = find_duty(p, from, QDOT_DUTY_RELATION, QDOT_DUTY_RELATION);
     }
-    for (relation = k; relation < p->cuts.n; relation++)
-        if (p->cuts.at[relation].kind == RELATION)
-            break;
-    if (relation == p->cuts.n) {
-        add_lines(p, formula, from, n, r, k);
+    if (relation == end) {
+        add_lines(p, from, end, r);
         return QDOT_OK;
     }
-    r.sign = formula + p->cuts.at[relation].at;
-    r.sign_n = p->cuts.at[relation].n;
-    if (formula_width(p, formula + from, p->cuts.at[relation].at - from) > LINE / 2) {
-        add_lines(p, formula, from, p->cuts.at[relation].at, (row){.left = ""}, k);
+    if (width_of(p, from, relation) > LINE / 2) {
+        add_lines(p, from, relation, r);
     } else {
-        r.left = formula + from;
-        r.left_n = p->cuts.at[relation].at - from;
+        r.left = from;
+        r.left_end = relation;
     }
-    add_lines(p, formula, p->cuts.at[relation].at + p->cuts.at[relation].n, n, r,
-              relation + 1);
+    r.sign = relation;
+    add_lines(p, relation + 1, end, r);
     return QDOT_OK;
 }
 
@@ -384,10 +321,18 @@ latex_escape(const char *text, size_t length, qdot_text *out)
     static const struct {
         char from;
         const char *to;
-    } rows[] = {{'\\', "\\textbackslash{}"}, {'{', "\\{"}, {'}', "\\}"},
-                {'$', "\\$"}, {'&', "\\&"}, {'#', "\\#"}, {'_', "\\_"}, {'%', "\\%"},
-                {'^', "\\textasciicircum{}"}, {'~', "\\textasciitilde{}"},
-                {'<', "\\textless{}"}, {'>', "\\textgreater{}"}};
+    } rows[] = {{'\\', "\\textbackslash{}"},
+                {'{', "\\{"},
+                {'}', "\\}"},
+                {'$', "\\$"},
+                {'&', "\\&"},
+                {'#', "\\#"},
+                {'_', "\\_"},
+                {'%', "\\%"},
+                {'^', "\\textasciicircum{}"},
+                {'~', "\\textasciitilde{}"},
+                {'<', "\\textless{}"},
+                {'>', "\\textgreater{}"}};
 
     for (size_t i = 0; i < length; i++) {
         size_t k = 0;
@@ -402,132 +347,175 @@ latex_escape(const char *text, size_t length, qdot_text *out)
 }
 
 static void
-escape(const page *p, const char *text, size_t n)
+escape(page *p, const char *text, size_t n)
 {
-    if (p->kind == LATEX)
-        latex_escape(text, n, p->out);
+    if (is_latex(p))
+        latex_escape(text, n, &p->out);
     else
-        qdot_text_html(p->out, text, n, false);
+        qdot_text_html(&p->out, text, n, false);
 }
 
-/* The formula that begins at or after `at`; *n its bytes with both marks; NULL: none. */
-static const char *
-next_formula(const page *p, const char *at, const char *end, size_t *n)
+/* The texts that a line begins with, before its first formula: in p->written. *formula: that formula, 0: none; *last:
+ * nothing stands behind it. */
+static qdot_status
+read_lead(page *p, const qdot_formula *f, qdot_formula_id line, qdot_formula_id *formula,
+          bool *last)
 {
-    const char *found = strstr(at, begin_mark(p)), *last;
+    qdot_formula_id c = 0;
 
-    if (found == NULL || found >= end)
-        return NULL;
-    last = strstr(found, end_mark(p));
-    if (last == NULL || last >= end)
-        return NULL;
-    *n = (size_t)(last - found) + strlen(end_mark(p));
-    return found;
+    qdot_text_truncate(&p->written, 0);
+    *formula = 0;
+    *last = false;
+    while ((c = qdot_formula_child(f, line, c)) != 0) {
+        const qdot_formula_node *node = qdot_formula_at(f, c);
+
+        if (node->kind != QDOT_FORMULA_TEXT) {
+            *formula = c;
+            *last = qdot_formula_child(f, line, c) == 0;
+            break;
+        }
+        qdot_text_add_n(&p->written, f->text.at + node->child, node->n);
+    }
+    return qdot_text_status(&p->written);
 }
 
-/* "3. Title": how many bytes the title begins behind; 0: it is none. */
-static size_t
-heading(const char *line, size_t n)
+/* A formula within a text. */
+static qdot_status
+add_within(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
-    size_t digits = strspn(line, "0123456789");
-
-    return digits > 0 && digits + 2 < n && line_begins(line + digits, ". ") ? digits + 2 : 0;
+    qdot_text_add(&p->out, is_latex(p) ? "\\(" : QDOT_FORMULA_MATH);
+    QDOT_TRY(is_latex(p) ? qdot_formula_write_latex(f, formula, &p->out)
+                         : qdot_formula_write_mathml(f, formula, &p->out));
+    qdot_text_add(&p->out, is_latex(p) ? "\\)" : QDOT_FORMULA_MATH_END);
+    return QDOT_OK;
 }
 
-static void
-page_add_text(page *p, const char *line, size_t n)
+static qdot_status
+page_add_text(page *p, const qdot_formula *f, qdot_formula_id line, const char *lead,
+              bool more)
 {
-    const char *const end = line + n;
-    const size_t blanks = strspn(line, " ");
-    bool title = heading(line, n) > 0, latex = p->kind == LATEX;
-    const char *formula;
-    size_t size;
+    const bool title = qdot_page_is_heading(lead, more), latex = is_latex(p);
+    size_t blanks = strspn(lead, " ");
+    qdot_formula_id c = 0;
 
     end_block(p);
-    line += blanks;
-    qdot_text_add(p->out, latex ? title ? "\\par\\medskip\\noindent\\textbf{" : "\\noindent "
-                          : title ? "<h2>"
-                                  : "<p>");
-    while ((formula = next_formula(p, line, end, &size)) != NULL) {
-        escape(p, line, (size_t)(formula - line));
-        qdot_text_add_n(p->out, formula, size);
-        line = formula + size;
+    qdot_text_add(&p->out,
+                  latex   ? title ? "\\par\\medskip\\noindent\\textbf{" : "\\noindent "
+                  : title ? "<h2>"
+                          : "<p>");
+    while ((c = qdot_formula_child(f, line, c)) != 0) {
+        const qdot_formula_node *node = qdot_formula_at(f, c);
+
+        if (node->kind != QDOT_FORMULA_TEXT) {
+            QDOT_TRY(add_within(p, f, c));
+            blanks = 0;
+        } else if (blanks < node->n) {
+            escape(p, f->text.at + node->child + blanks, node->n - blanks);
+            blanks = 0;
+        } else {
+            blanks -= node->n;
+        }
     }
-    escape(p, line, (size_t)(end - line));
-    qdot_text_add(p->out, latex ? title ? "}\\par\n" : "\\par\n"
-                          : title ? "</h2>\n"
-                                  : "</p>\n");
+    qdot_text_add(&p->out, latex   ? title ? "}\\par\n" : "\\par\n"
+                           : title ? "</h2>\n"
+                                   : "</p>\n");
+    return QDOT_OK;
 }
 
 /* The words before a colon and one formula, `    kinetic energy of bob: `. */
 static void
 add_words(page *p, const char *words, size_t n)
 {
-    const bool latex = p->kind == LATEX, open = p->block;
+    const bool latex = is_latex(p), open = p->block;
 
     if (latex && open) {
-        qdot_text_add(p->out, " \\\\\n    \\intertext{");
+        qdot_text_add(&p->out, " \\\\\n    \\intertext{");
     } else {
         end_block(p);
-        qdot_text_add(p->out, latex ? "\\noindent " : "<p class=\"label\">");
+        qdot_text_add(&p->out, latex ? "\\noindent " : "<p class=\"label\">");
     }
     escape(p, words, n);
-    qdot_text_add(p->out, latex ? open ? "}\n    " : "\n" : "</p>\n");
+    qdot_text_add(&p->out, latex ? open ? "}\n    " : "\n" : "</p>\n");
     p->told = latex && open;
 }
 
 static qdot_status
-page_add_line(page *p, const char *line, size_t n)
+page_add_line(page *p, const qdot_formula *f, qdot_formula_id line)
 {
-    const size_t blanks = strspn(line, " "), mark = strlen(begin_mark(p));
-    const char *formula;
-    size_t size;
+    qdot_formula_id formula;
+    size_t blanks, n;
+    const char *lead;
+    bool last;
 
-    formula = next_formula(p, line, line + n, &size);
-    if (formula == line + blanks && blanks + size == n)
-        return add_formula(p, formula + mark, size - mark - strlen(end_mark(p)));
-    if (formula != NULL && blanks > 0 && formula + size == line + n &&
-        line_begins(formula - 2, ": ")) {
-        add_words(p, line + blanks, (size_t)(formula - line) - blanks - 1);
-        return add_formula(p, formula + mark, size - mark - strlen(end_mark(p)));
+    if (p->kind == QDOT_PAGE_REPORT)
+        return qdot_page_line(&p->out, f, line);
+    QDOT_TRY(read_lead(p, f, line, &formula, &last));
+    lead = qdot_text_str(&p->written);
+    n = p->written.n;
+    blanks = strspn(lead, " ");
+    if (last && blanks == n)
+        return add_formula(p, f, formula);
+    if (last && blanks > 0 && qdot_ends_in(lead, ": ")) {
+        add_words(p, lead + blanks, n - blanks - 1);
+        return add_formula(p, f, formula);
     }
-    if (blanks < n)
-        page_add_text(p, line, n);
-    else
-        end_block(p);
+    if (formula != 0 || blanks < n)
+        return page_add_text(p, f, line, lead, formula != 0);
+    end_block(p);
     return QDOT_OK;
 }
 
-static qdot_status
-add_answers(page_kind kind, const char *answers, qdot_text *out)
+/* --- the page ----------------------------------------------------------------------------- */
+
+void
+qdot_formula_page_line(qdot_formula_page *p, const qdot_formula *f, qdot_formula_id line)
 {
-    page p = {.kind = kind, .out = out};
-    qdot_status status = QDOT_OK;
+    if (p->status == QDOT_OK)
+        page_keep(p, page_add_line(p, f, line));
+}
 
-    while (*answers != '\0' && status == QDOT_OK) {
-        size_t n = strcspn(answers, "\n");
+void
+qdot_formula_page_text(qdot_formula_page *p, const char *lines, size_t n)
+{
+    qdot_formula f = {0};
 
-        status = page_add_line(&p, answers, n);
-        answers += n + (answers[n] == '\n');
+    for (const char *const end = lines + n; lines < end && p->status == QDOT_OK;) {
+        const char *stop = memchr(lines, '\n', (size_t)(end - lines));
+        qdot_formula_id line;
+
+        stop = stop != NULL ? stop : end;
+        qdot_formula_empty(&f);
+        line = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
+        qdot_formula_add_text(&f, line, QDOT_TEXT_WORDS, lines, (size_t)(stop - lines));
+        page_keep(p, qdot_formula_status(&f));
+        qdot_formula_page_line(p, &f, line);
+        lines = stop + 1;
     }
-    end_block(&p);
-    qdot_free(p.cuts.at);
-    return status == QDOT_OK ? qdot_text_status(out) : status;
+    qdot_formula_clear(&f);
 }
 
 qdot_status
-qdot_page_latex(const char *answers, qdot_text *out)
+qdot_formula_page_end(qdot_formula_page *p, qdot_text *out)
 {
-    return add_answers(LATEX, answers, out);
+    end_block(p);
+    page_keep(p, qdot_text_status(&p->out));
+    if (p->status == QDOT_OK)
+        qdot_text_add_n(out, qdot_text_str(&p->out), p->out.n);
+    return p->status == QDOT_OK ? qdot_text_status(out) : p->status;
 }
 
-qdot_status
-qdot_page_mathml(const char *answers, qdot_text *out)
+void
+qdot_formula_page_clear(qdot_formula_page *p)
 {
-    return add_answers(MATHML, answers, out);
+    qdot_text_clear(&p->out);
+    qdot_text_clear(&p->label);
+    qdot_text_clear(&p->written);
+    qdot_formula_parts_clear(&p->parts);
+    qdot_free(p->cuts.at);
+    *p = (qdot_formula_page){0};
 }
 
-const char qdot_page_css[] =
+static const char css[] =
     "mtd.left { text-align: right; padding: 0.35em 0; }\n"
     "mtd.right { text-align: left; padding: 0.35em 0; }\n"
     "math { font-family: 'Latin Modern Math', 'STIX Two Math', math; }\n"
@@ -537,18 +525,19 @@ const char qdot_page_css[] =
     "h2 { font-size: 1.1em; margin: 1.4em 0 0.4em; }\n";
 
 qdot_status
-qdot_page_html(const char *title, const char *answers, qdot_text *out)
+qdot_formula_page_html(qdot_formula_page *p, const char *title, qdot_text *out)
 {
-    qdot_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n"
-                       "<meta charset=\"utf-8\">\n"
-                       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>");
+    qdot_text_add(out,
+                  "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n"
+                  "<meta charset=\"utf-8\">\n"
+                  "<meta name=\"viewport\" content=\"width=device-width\">\n<title>");
     qdot_text_html(out, title, strlen(title), false);
     qdot_text_format(out,
                      "</title>\n<style>\n"
                      "body { font-family: serif; margin: 2em auto; max-width: 60em; "
                      "padding: 0 1em; }\n%s</style>\n</head>\n<body>\n",
-                     qdot_page_css);
-    QDOT_TRY(qdot_page_mathml(answers, out));
+                     css);
+    QDOT_TRY(qdot_formula_page_end(p, out));
     qdot_formulas_foot(out);
     qdot_text_add(out, "</body>\n</html>\n");
     return qdot_text_status(out);

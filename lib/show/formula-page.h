@@ -1,12 +1,12 @@
-/* formula-page.h -- answers as a LaTeX fragment or as an HTML page with MathML.
+/* formula-page.h -- lines of answers as a LaTeX fragment, as an HTML page with MathML, as a part of a report.
  *
- * The answers are lines of text in which formulas are marked: \( ... \) in LaTeX, <math> ... </math>
- * in MathML. Lines that are one formula each form a block, aligned at their first = sign; what is
- * wider than a line of print is broken before + and - signs outside brackets. A name before a colon
- * (`eom[theta]: `) becomes a comment in LaTeX, a label beside the equation in HTML. All other lines
- * are text with formulas in it; a line "3. Title" is a heading.
+ * A line is a node whose children are texts (WORDS, as they were typed) and formulas (SPAN). Lines that are one formula
+ * each form a block, aligned at their first = sign; what is wider than a line of print is broken before + and - signs
+ * outside brackets. A name before a colon (`eom[theta]: `) becomes a comment in LaTeX, a label beside the equation in
+ * HTML. All other lines are text with formulas in it; a line "3. Title" is a heading.
  *
- * The LaTeX is a fragment to be included (\input), which needs the package amsmath.
+ * The LaTeX is a fragment to be included (\input), which needs the package amsmath. A report (show/page.h) has a
+ * paragraph for each line.
  *
  * Tests  tests/show/test_formula-page.c, tests/script/files/formula-file.sh
  */
@@ -14,18 +14,41 @@
 #define QDOT_SHOW_FORMULA_PAGE_H
 
 #include "base/text.h"
+#include "formula/formula.h"
 
-/* Append the fragment. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_page_latex(const char *answers, qdot_text *out);
+typedef enum { QDOT_PAGE_LATEX, QDOT_PAGE_MATHML, QDOT_PAGE_REPORT } qdot_page_kind;
 
-/* Append the body of a page: blocks and paragraphs. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_page_mathml(const char *answers, qdot_text *out);
+/* A part of a formula: where it begins, how wide all before it are, what it does. */
+typedef struct {
+    size_t at, width;
+    qdot_formula_duty duty;
+} qdot_page_cut;
 
-/* The rules of CSS that the body needs, without <style>. */
-extern const char qdot_page_css[];
+/* Start with `qdot_formula_page p = {.kind = ...};`, free with qdot_formula_page_clear. */
+typedef struct qdot_formula_page {
+    qdot_page_kind kind;
+    const char *paint, *end; /* codes of colour round the names of answers; NULL: none */
+    qdot_text out;
+    qdot_status status; /* the first failure; what comes behind it is left out */
+    bool block;         /* a block of equations is open */
+    bool told;          /* ... and its last row is ended, by words */
+    qdot_text label;    /* what names the next row, in LaTeX */
+    qdot_text written;  /* work space: the present formula, its parts */
+    qdot_formula_parts parts;
+    qdot_vec(qdot_page_cut) cuts; /* of each part; last, of the end */
+} qdot_formula_page;
 
-/* Append a whole page: head with the title, style, body. Errors: QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_page_html(const char *title, const char *answers,
-                                           qdot_text *out);
+void qdot_formula_page_clear(qdot_formula_page *page);
+
+/* Append a line; its formulas QDOT_NOTATION_DRAWN. */
+void qdot_formula_page_line(qdot_formula_page *page, const qdot_formula *f, qdot_formula_id line);
+/* Append lines without formulas. */
+void qdot_formula_page_text(qdot_formula_page *page, const char *lines, size_t n);
+
+/* Append to `out` what the page holds: a fragment, the body of a page. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_formula_page_end(qdot_formula_page *page, qdot_text *out);
+
+/* The same as a whole page of HTML: head with the title, style, body. */
+QDOT_MUST_CHECK qdot_status qdot_formula_page_html(qdot_formula_page *page, const char *title, qdot_text *out);
 
 #endif

@@ -1,12 +1,11 @@
 /* page.c -- answers as parts of a page: headings and formulas. */
 #include "show/page.h"
-#include "show/formulas.h"
-#include "show/scripts.h"
 
-#include <ctype.h>
 #include <string.h>
 
+#include "formula/write.h"
 #include "show/animation.h"
+#include "show/formulas.h"
 
 static const char style[] = {
 #include "show/page-css.inc"
@@ -38,7 +37,7 @@ qdot_page_end(qdot_text *out)
     qdot_text_add(out, "</body>\n</html>\n");
 }
 
-/* --- formulas ----------------------------------------------------------------------- */
+/* --- lines --------------------------------------------------------------------------- */
 
 static void
 escape_n(qdot_text *out, const char *text, size_t n)
@@ -51,122 +50,112 @@ escape_n(qdot_text *out, const char *text, size_t n)
     }
 }
 
+/* Whether a line may be broken before a sign that is not the first of its formula. */
 static bool
-text_begins(const char *text, const char *with)
+is_break(const qdot_formula_node *node)
 {
-    return strncmp(text, with, strlen(with)) == 0;
+    return node->kind == QDOT_FORMULA_SIGN &&
+           (node->what == QDOT_SIGN_EQUALS || node->what == QDOT_SIGN_PLUS ||
+            node->what == QDOT_SIGN_MINUS);
 }
 
-/* The operator before which a formula may be divided; its length, 0: none. */
-static size_t
-break_before(const char *at)
+static qdot_status
+write_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_parts *parts)
 {
-    static const char *const operators[] = {"<mo>=</mo>", "<mo>+</mo>",
-                                            "<mo>\u2212</mo>"};
+    static const char tag[] = "<mo>";
 
-    for (size_t i = 0; i < sizeof operators / sizeof *operators; i++)
-        if (text_begins(at, operators[i]))
-            return strlen(operators[i]);
-    return 0;
-}
-
-/* What stands between <math ...> and </math>, [n]. */
-static void
-add_formula(qdot_text *out, const char *at, size_t n)
-{
-    qdot_text formula = {0};
-    const char *end;
-    bool operand = false; /* something stands before that an operator may follow */
-    int depth = 0;
-
-    qdot_page_add_mathml(&formula, at, n);
-    at = qdot_text_str(&formula);
-    end = at + formula.n;
     qdot_text_add(out, "<math>");
-    while (at < end) {
-        const char *close = memchr(at, '>', (size_t)(end - at));
-        size_t mark = depth == 0 && operand ? break_before(at) : 0;
+    for (size_t i = 0; i < parts->part.n; i++) {
+        const bool apart = i > 0 && is_break(qdot_formula_at(f, parts->part.at[i]));
+        qdot_text sign = {0};
 
-        if (mark > 0) {
-            /* the blank is the room before it */
-            qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
-            qdot_text_add_n(out, at + 4, mark - 4);
-            at += mark;
-            operand = false;
+        if (!apart) {
+            QDOT_TRY(qdot_formula_write_page(f, parts->part.at[i],
+                                             i > 0 ? parts->part.at[i - 1] : 0, out));
             continue;
         }
-        if (*at != '<' || close == NULL) {
-            qdot_text_char(out, *at++);
-            continue;
-        }
-        depth += at[1] == '/' ? -1 : close[-1] == '/' ? 0 : 1;
-        qdot_text_add_n(out, at, (size_t)(close + 1 - at));
-        operand = operand || depth == 0;
-        at = close + 1;
+        /* the blank is the room before it */
+        qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
+        if (qdot_formula_write_page(f, parts->part.at[i], 0, &sign) == QDOT_OK)
+            qdot_text_add(out, qdot_text_str(&sign) + strlen(tag));
+        out->failed = out->failed || sign.failed;
+        qdot_text_clear(&sign);
     }
     qdot_text_add(out, "</math>");
-    out->failed = out->failed || formula.failed;
-    qdot_text_clear(&formula);
+    return qdot_text_status(out);
 }
 
-/* A text in which MathML may stand. */
+static qdot_status
+add_formula(qdot_text *out, const qdot_formula *f, qdot_formula_id formula)
+{
+    qdot_formula_parts parts = {0};
+    qdot_status status = qdot_formula_find_parts(f, formula, &parts);
+
+    if (status == QDOT_OK)
+        status = write_parts(out, f, &parts);
+    qdot_formula_parts_clear(&parts);
+    return status;
+}
+
+bool
+qdot_page_is_heading(const char *text, bool more)
+{
+    const size_t digits = strspn(text, "0123456789");
+
+    return digits > 0 && strncmp(text + digits, ". ", 2) == 0 &&
+           (text[digits + 2] != '\0' || more);
+}
+
+/* The texts before the first formula; *more: there is one. */
 static void
-add_mixed(qdot_text *out, const char *at, const char *end)
+read_lead(const qdot_formula *f, qdot_formula_id line, qdot_text *lead, bool *more)
 {
-    static const char close[] = "</math>";
+    *more = false;
+    for (qdot_formula_id c = 0; !*more && (c = qdot_formula_child(f, line, c)) != 0;) {
+        const qdot_formula_node *node = qdot_formula_at(f, c);
 
-    while (at < end) {
-        const char *open = strstr(at, "<math"), *inside, *behind;
-
-        if (open == NULL || open >= end) {
-            escape_n(out, at, (size_t)(end - at));
-            return;
-        }
-        escape_n(out, at, (size_t)(open - at));
-        inside = memchr(open, '>', (size_t)(end - open));
-        behind = inside != NULL ? strstr(inside, close) : NULL;
-        if (behind == NULL || behind >= end) {
-            escape_n(out, open, (size_t)(end - open));
-            return;
-        }
-        add_formula(out, inside + 1, (size_t)(behind - inside - 1));
-        at = behind + sizeof close - 1;
+        *more = node->kind != QDOT_FORMULA_TEXT;
+        if (!*more)
+            qdot_text_add_n(lead, f->text.at + node->child, node->n);
     }
 }
 
-/* `12. Title` */
-static bool
-is_heading(const char *at, const char *end)
+qdot_status
+qdot_page_line(qdot_text *out, const qdot_formula *f, qdot_formula_id line)
 {
-    const char *c = at;
+    qdot_text lead = {0};
+    bool more;
+    size_t blanks;
+    const char *tag, *text;
 
-    while (c < end && isdigit((unsigned char)*c))
-        c++;
-    return c > at && end - c > 2 && c[0] == '.' && c[1] == ' ';
-}
-
-void
-qdot_page_lines(qdot_text *out, const char *lines)
-{
-    while (*lines != '\0') {
-        const char *end = strchr(lines, '\n'), *at = lines, *tag;
-        bool set_in = *lines == ' ';
-
-        if (end == NULL)
-            end = lines + strlen(lines);
-        lines = *end == '\n' ? end + 1 : end;
-        while (at < end && *at == ' ')
-            at++;
-        if (at == end)
-            continue;
-        tag = is_heading(at, end)    ? "h3>"
-              : set_in || *at == '<' ? "p class=\"formula\">"
-                                     : "p>";
-        qdot_text_char(out, '<');
-        qdot_text_add(out, tag);
-        add_mixed(out, at, end);
-        qdot_text_add(out, tag[0] == 'h' ? "</h3>\n" : "</p>\n");
+    read_lead(f, line, &lead, &more);
+    text = qdot_text_str(&lead);
+    blanks = strspn(text, " ");
+    if (text[blanks] == '\0' && !more) {
+        qdot_text_clear(&lead);
+        return QDOT_OK;
     }
+    tag = qdot_page_is_heading(text + blanks, more) ? "h3>"
+          : blanks > 0 || text[0] == '\0'           ? "p class=\"formula\">"
+                                                    : "p>";
+    out->failed = out->failed || lead.failed;
+    qdot_text_clear(&lead);
+    qdot_text_char(out, '<');
+    qdot_text_add(out, tag);
+    for (qdot_formula_id c = 0; (c = qdot_formula_child(f, line, c)) != 0;) {
+        const qdot_formula_node *node = qdot_formula_at(f, c);
+        const size_t skipped =
+            node->kind == QDOT_FORMULA_TEXT && blanks < node->n ? blanks : node->n;
+
+        if (node->kind != QDOT_FORMULA_TEXT)
+            QDOT_TRY(add_formula(out, f, c));
+        else
+            escape_n(out, f->text.at + node->child + skipped, node->n - skipped);
+        blanks -=
+            node->kind == QDOT_FORMULA_TEXT ? skipped < blanks ? skipped : blanks : 0;
+    }
+    qdot_text_add(out, tag[0] == 'h' ? "</h3>\n" : "</p>\n");
+    return qdot_text_status(out);
 }
 
 void

@@ -6,15 +6,19 @@
 #define QDOT_SHOW_PAGE_H
 
 #include "base/text.h"
+#include "formula/formula.h"
 
 /* Append what stands before the first section, with the style of the page; title: text. */
 void qdot_page_begin(qdot_text *out, const char *title);
 void qdot_page_end(qdot_text *out);
 
-/* Append lines of an answer in the style mathml. `12. Title` is a heading, a line set in by
- * blanks a formula, another line a paragraph. Within them MathML stays MathML; the rest is text.
- * A formula is divided at the top level before +, - and =, so that a browser breaks its line there. */
-void qdot_page_lines(qdot_text *out, const char *lines);
+/* Append a line of an answer, as show/formula-page.h has it. `12. Title` is a heading; a line set in by blanks, or that
+ * begins with a formula, is a formula; another line is a paragraph. A formula is divided before +, - and = outside
+ * brackets, so that a browser may break its line there. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_page_line(qdot_text *out, const qdot_formula *f, qdot_formula_id line);
+
+/* Whether a line that begins with this text is `12. Title`; more: something follows the text. */
+bool qdot_page_is_heading(const char *text, bool more);
 
 /* Append text as it stands, in equally wide letters. */
 void qdot_page_verbatim(qdot_text *out, const char *text);

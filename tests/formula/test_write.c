@@ -123,6 +123,78 @@ a_line_has_slashes_and_superscripts(void **state)
 }
 
 static void
+is_on_a_page(qdot_formula_id id, const char *mathml)
+{
+    qdot_text out = {0};
+
+    assert_int_equal(qdot_formula_status(&f), QDOT_OK);
+    assert_int_equal(qdot_formula_write_page(&f, id, 0, &out), QDOT_OK);
+    assert_string_equal(qdot_text_str(&out), mathml);
+    qdot_text_clear(&out);
+}
+
+/* An index and a power are set at one place, also where the power holds another. */
+static void
+index_and_power_are_one_above_the_other_on_pages(void **state)
+{
+    (void)state;
+    is_on_a_page(POWER(ROW(INDEX(NAME("L"), NUMBER("1"))), ROW(NUMBER("2"))),
+                 "<msubsup><mi>L</mi><mn>1</mn><mrow><mn>2</mn></mrow></msubsup>");
+    is_on_a_page(POWER(ROW(SPAN(INDEX(NAME("a"), NUMBER("1")))), ROW(POWER(ROW(NAME("b")), NUMBER("2")))),
+                 "<msubsup><mi>a</mi><mn>1</mn><mrow><msup><mrow><mi>b</mi></mrow><mn>2</mn></msup></mrow></msubsup>");
+    is_on_a_page(POWER(INDEX(NAME("v"), NAME("a")), NUMBER("2")), "<msubsup><mi>v</mi><mi>a</mi><mn>2</mn></msubsup>");
+    is_on_a_page(POWER(ROW(NAME("b")), NUMBER("2")), "<msup><mrow><mi>b</mi></mrow><mn>2</mn></msup>");
+    is_on_a_page(POWER(ROW(INDEX(NAME("a"), NUMBER("1")), NAME("b")), NUMBER("2")),
+                 "<msup><mrow><msub><mi>a</mi><mn>1</mn></msub><mi>b</mi></mrow><mn>2</mn></msup>");
+    is_on_a_page(PRIMES(1, INDEX(NAME("f"), NUMBER("1"))), "<msubsup><mi>f</mi><mn>1</mn><mo>′</mo></msubsup>");
+    is_on_a_page(POWER(NAME("a"), INDEX(NAME("b"), NUMBER("1"))),
+                 "<msup><mi>a</mi><msub><mi>b</mi><mn>1</mn></msub></msup>");
+}
+
+#define FLAT(x) "<mrow><mo stretchy=\"false\">(</mo>" x "<mo stretchy=\"false\">)</mo></mrow>"
+
+/* Brackets about one line do not stretch; those about a fraction do, and they may hold others. */
+static void
+flat_brackets_do_not_stretch_on_pages(void **state)
+{
+    (void)state;
+    is_on_a_page(ROUND(NAME("a")), FLAT("<mi>a</mi>"));
+    is_on_a_page(ROUND(OVER(NAME("a"), ROUND(NAME("b")))),
+                 "<mrow><mo>(</mo><mfrac><mi>a</mi>" FLAT("<mi>b</mi>") "</mfrac><mo>)</mo></mrow>");
+    is_on_a_page(SQUARE(NAME("a")), "<mrow><mo>[</mo><mi>a</mi><mo>]</mo></mrow>");
+}
+
+/* A thin space before sin x and sin^2 x behind a factor; not before a letter. */
+static void
+functions_stand_apart_on_pages(void **state)
+{
+#define FACTOR "<mi>L</mi><mo>&#x2062;</mo>"
+#define SPACE "<mspace width=\"0.17em\"></mspace>"
+    const qdot_formula_sign times = QDOT_SIGN_TIMES;
+
+    (void)state;
+    is_on_a_page(SPAN(NAME("L"), sign(times), SPAN(APPLY(FUNCTION("sin"), NAME("u")))),
+                 FACTOR SPACE "<mi>sin</mi><mo>&#x2061;</mo><mi>u</mi>");
+    is_on_a_page(SPAN(NAME("L"), sign(times), APPLY(POWER(ROW(FUNCTION("sin")), NUMBER("2")), NAME("u"))),
+                 FACTOR SPACE "<msup><mrow><mi>sin</mi></mrow><mn>2</mn></msup><mo>&#x2061;</mo><mi>u</mi>");
+    is_on_a_page(SPAN(NAME("L"), sign(times), APPLY(NAME("f"), NAME("u"))),
+                 FACTOR "<mi>f</mi><mo>&#x2061;</mo><mi>u</mi>");
+    is_on_a_page(SPAN(NAME("L"), sign(times), NAME("mass")), FACTOR "<mi>mass</mi>");
+}
+
+/* Above before below in LaTeX, below before above in MathML. */
+static void
+tensors_have_their_indices(void **state)
+{
+    (void)state;
+    says(node(QDOT_FORMULA_TENSOR, 0, 0, NAME("Γ"), ROW(NAME("r")), ROW(NAME("θ"), sign(QDOT_SIGN_BLANK), NAME("θ")), END),
+         "\\Gamma^{r}{}_{\\theta \\theta}",
+         "<msubsup><mi>Γ</mi><mrow><mi>θ</mi><mi>θ</mi></mrow><mrow><mi>r</mi></mrow></msubsup>");
+    says(INDEX(NAME("T"), text(QDOT_TEXT_LABEL, "bob_1")), "T_{\\mathrm{bob\\_1}}",
+         "<msub><mi>T</mi><mtext>bob_1</mtext></msub>");
+}
+
+static void
 memory_that_runs_out_is_told(void **state)
 {
     const qdot_formula_id id = OVER(ROOT(NAME("θ")), INDEX(NAME("x"), ROW(NUMBER("1"))));
@@ -157,6 +229,10 @@ main(void)
         TEST(brackets_have_shapes_and_sizes),
         TEST(tables_and_cases_have_cells),
         TEST(a_line_has_slashes_and_superscripts),
+        TEST(index_and_power_are_one_above_the_other_on_pages),
+        TEST(flat_brackets_do_not_stretch_on_pages),
+        TEST(functions_stand_apart_on_pages),
+        TEST(tensors_have_their_indices),
         TEST(memory_that_runs_out_is_told),
     };
 

@@ -11,7 +11,7 @@
 #include "base/terminal.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/expression.h"
 #include "lang/answer/sheet.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -32,14 +32,6 @@ end_line(qdot_session *session, qdot_status status, qdot_text *line)
         status = qdot_write(session, session->out, line);
     qdot_text_clear(line);
     return status;
-}
-
-/* Likewise of a formula in a sheet, which qdot_formula_bracket began. */
-static qdot_status
-end_formula(qdot_session *session, const qdot_sheet *s, qdot_status status, qdot_text *line)
-{
-    qdot_formula_bracket(session, false, line);
-    return qdot_sheet_end(session, s, "", status, line);
 }
 
 /* --- expressions -------------------------------------------------------------------- */
@@ -67,16 +59,6 @@ same_but_spaces(const char *a, const char *b)
     }
 }
 
-/* The name of an answer, in colour where it is not laid out (which colours it then). */
-static qdot_status
-answer_add_name(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *line)
-{
-    qdot_text_add(line, s->laid_out ? "" : paint(session, QDOT_NAME_COLOUR));
-    QDOT_TRY(qdot_formula_name(session, name, line));
-    qdot_text_add(line, s->laid_out ? "" : paint(session, QDOT_COLOUR_END));
-    return QDOT_OK;
-}
-
 /* Whether a value is printed as its name is. One of more operations than the name has characters is not. */
 static qdot_status
 says_the_same(qdot_session *session, const char *name, qdot_expr value, bool *same)
@@ -87,7 +69,7 @@ says_the_same(qdot_session *session, const char *name, qdot_expr value, bool *sa
     *same = false;
     if (qdot_expr_size(session->pool, value) > strlen(name))
         return QDOT_OK;
-    status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
+    status = qdot_expression_print(session, value, QDOT_PLAIN, &plain);
     if (status == QDOT_OK)
         status = qdot_text_status(&plain);
     *same = status == QDOT_OK && same_but_spaces(name, qdot_text_str(&plain));
@@ -104,22 +86,19 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
     bool bare = name == NULL || strlen(name) > 200 ||
                 (relation && strpbrk(name, "=<>") != NULL);
     qdot_status status = QDOT_OK;
-    qdot_text line = {0};
 
     s.operations = qdot_expr_size(session->pool, value);
     if (!bare)
         status = says_the_same(session, name, value, &bare);
-    qdot_formula_bracket(session, true, &line);
+    qdot_sheet_open(&s);
     if (status == QDOT_OK && !bare) {
-        status = answer_add_name(session, &s, name, &line);
-        if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
-            qdot_text_add(&line, qdot_formula_equals(session));
-        else
-            qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>:</mo>" : ": ");
+        status = qdot_sheet_name(&s, name, QDOT_FORMULA_LABEL);
+        qdot_sheet_sign(&s, !relation && value != QDOT_TRUE && value != QDOT_FALSE ? QDOT_SIGN_EQUALS
+                                                                                 : QDOT_SIGN_COLON);
     }
     if (status == QDOT_OK)
-        status = qdot_formula_print(session, value, session->style, &line);
-    return end_formula(session, &s, status, &line);
+        status = qdot_sheet_expr(&s, value);
+    return qdot_sheet_end(&s, "", status);
 }
 
 static qdot_status
@@ -129,11 +108,11 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
     qdot_status status;
 
     qdot_write_field(&line, "{\"kind\":\"expr\",\"name\":", name == NULL ? "" : name);
-    status = qdot_formula_print(session, value, QDOT_PLAIN, &part);
+    status = qdot_expression_print(session, value, QDOT_PLAIN, &part);
     qdot_write_field(&line, ",\"plain\":", qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
-        status = qdot_formula_print(session, value, QDOT_LATEX, &part);
+        status = qdot_expression_print(session, value, QDOT_LATEX, &part);
     qdot_write_field(&line, ",\"latex\":", qdot_text_str(&part));
     qdot_text_format(&line, ",\"ops\":%" PRIu64 "}\n",
                      qdot_expr_size(session->pool, value));
@@ -147,14 +126,14 @@ qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
 {
     if (qdot_expr_is_class(session->pool, value, QDOT_WORDS)) {
         const char *words = qdot_expr_symbol(session->pool, value)->name;
-        qdot_text line = {0};
+        qdot_sheet s;
 
-        if (!session->marked || session->style != QDOT_LATEX)
+        if (session->page == NULL || session->style != QDOT_LATEX)
             return qdot_answer_text(session, name, words);
-        qdot_formula_bracket(session, true, &line); /* of latex(...) */
-        qdot_text_add(&line, words);
-        qdot_formula_bracket(session, false, &line);
-        return qdot_answer_written(session, name, QDOT_OK, &line);
+        s = qdot_sheet_begin(session);
+        qdot_sheet_open(&s); /* of latex(...) */
+        qdot_formula_add_latex(&s.formula, s.at, words, strlen(words));
+        return qdot_sheet_end(&s, name, QDOT_OK);
     }
     return session->json ? expr_json(session, name, value)
                          : expr_text(session, name, value);
@@ -164,59 +143,76 @@ qdot_status
 qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
                    qdot_expr value)
 {
-    qdot_text line = {0};
+    qdot_formula_id all;
     qdot_status status;
     qdot_sheet s;
 
     if (session->json)
         return expr_json(session, name, value);
     s = qdot_sheet_begin(session);
-    qdot_formula_bracket(session, true, &line);
-    qdot_text_add(&line, s.laid_out ? "<mrow class=\"name\">" : paint(session, QDOT_NAME_COLOUR));
-    status = qdot_print(session->pool, symbol, session->style, &line);
-    qdot_text_add(&line, s.laid_out ? "</mrow>" : paint(session, QDOT_COLOUR_END));
-    qdot_text_add(&line, qdot_formula_equals(session));
+    qdot_sheet_open(&s);
+    all = s.at;
+    s.at = qdot_formula_add(&s.formula, all, QDOT_FORMULA_SPAN, 0, QDOT_FORMULA_LABEL);
+    status = qdot_sheet_expr(&s, symbol);
+    s.at = all;
+    qdot_sheet_sign(&s, QDOT_SIGN_EQUALS);
     if (status == QDOT_OK)
-        status = qdot_formula_print(session, value, session->style, &line);
-    return end_formula(session, &s, status, &line);
+        status = qdot_sheet_expr(&s, value);
+    return qdot_sheet_end(&s, "", status);
 }
 
-/* 1.25 ± 3e-13, marked up where the style is. */
+/* Append the text as a part of the formula, and clear it. */
 static void
-measured(const qdot_session *session, double value, double error, qdot_text *line)
+add_part(qdot_sheet *s, qdot_formula_role role, qdot_text *text)
 {
-    bool tags = session->style == QDOT_MATHML;
+    qdot_formula_add_text(&s->formula, s->at, role, qdot_text_str(text), text->n);
+    s->formula.failed = s->formula.failed || text->failed;
+    qdot_text_clear(text);
+}
 
-    qdot_text_add(line, tags ? "<mn>" : "");
-    qdot_number_text_known(line, value, error);
-    qdot_text_add(line, tags ? "</mn>" : "");
+/* 1.25 ± 3e-13 */
+static void
+measured(qdot_sheet *s, double value, double error)
+{
+    qdot_text number = {0};
+
+    qdot_number_text_known(&number, value, error);
+    add_part(s, QDOT_TEXT_NUMBER, &number);
     if (isnan(error)) {
-        qdot_text_add(line,
-                      tags ? "<mtext> (error unknown)</mtext>" : " (error unknown)");
+        qdot_text_add(&number, " (error unknown)");
+        add_part(s, QDOT_TEXT_WORDS, &number);
     } else if (error > 0) {
-        qdot_text_add(line, tags ? "<mo>±</mo><mn>" : " ± ");
-        qdot_number_text_bound(line, error);
-        qdot_text_add(line, tags ? "</mn>" : "");
+        qdot_sheet_sign(s, QDOT_SIGN_PLUS_MINUS);
+        qdot_number_text_bound(&number, error);
+        add_part(s, QDOT_TEXT_NUMBER, &number);
     }
+}
+
+/* A formula that begins with `name = `. */
+static qdot_status
+open_named(qdot_sheet *s, const char *name)
+{
+    qdot_status status;
+
+    qdot_sheet_open(s);
+    status = qdot_sheet_name(s, name, QDOT_FORMULA_LABEL);
+    qdot_sheet_sign(s, QDOT_SIGN_EQUALS);
+    return status;
 }
 
 static qdot_status
 numbers_text(qdot_session *session, const char *name, size_t n, const double *values,
              const double *errors)
 {
-    const qdot_sheet s = qdot_sheet_begin(session);
-    qdot_text line = {0};
-    qdot_status status;
+    qdot_sheet s = qdot_sheet_begin(session);
+    const qdot_status status = open_named(&s, name);
 
-    qdot_formula_bracket(session, true, &line);
-    status = answer_add_name(session, &s, name, &line);
-    qdot_text_add(&line, qdot_formula_equals(session));
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
-            qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>,</mo>" : ", ");
-        measured(session, values[i], errors[i], &line);
+            qdot_sheet_sign(&s, QDOT_SIGN_COMMA);
+        measured(&s, values[i], errors[i]);
     }
-    return end_formula(session, &s, status, &line);
+    return qdot_sheet_end(&s, "", status);
 }
 
 /* {"kind":"number"}, {"kind":"numbers"} of JSON values and errors with their commas. */
@@ -273,22 +269,15 @@ qdot_status
 qdot_answer_numerals(qdot_session *session, const char *name, bool several,
                      const qdot_text *values, const qdot_text *errors)
 {
-    qdot_text line = {0};
     qdot_status status;
     qdot_sheet s;
 
     if (session->json)
         return numbers_json(session, name, several, values, errors);
     s = qdot_sheet_begin(session);
-    qdot_formula_bracket(session, true, &line);
-    status = answer_add_name(session, &s, name, &line);
-    qdot_text_add(&line, qdot_formula_equals(session));
-    if (s.laid_out)
-        qdot_sheet_words(qdot_text_str(values), values->n, &line);
-    else
-        qdot_text_format(&line, session->style == QDOT_MATHML ? "<mtext>%s</mtext>" : "%s",
-                         qdot_text_str(values));
-    return end_formula(session, &s, status, &line);
+    status = open_named(&s, name);
+    qdot_sheet_words(&s, qdot_text_str(values));
+    return qdot_sheet_end(&s, "", status);
 }
 
 /* --- checks ------------------------------------------------------------------------- */
@@ -299,45 +288,48 @@ static const char *const verdicts[] = {
 static const char *const verdict_colours[] = {
     [QDOT_PROVED] = QDOT_GREEN, [QDOT_REFUTED] = QDOT_RED, [QDOT_UNDECIDED] = QDOT_YELLOW};
 
+/* ` at x = 1, y = 2: left = 3, right = 4`, where the sides differ. */
+static qdot_status
+check_add_place(qdot_sheet *s, const qdot_decision *decision)
+{
+    const qdot_pool *pool = s->session->pool;
+    const uint32_t n = decision->at == QDOT_NIL ? 0 : qdot_expr_count(pool, decision->at);
+    double apart;
+    int digits;
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_sheet_words(s, i == 0 ? " at " : ", ");
+        QDOT_TRY(qdot_sheet_formula(s, qdot_expr_arg(pool, decision->at, i)));
+    }
+    if (!isfinite(decision->left) || !isfinite(decision->right))
+        return QDOT_OK;
+    apart = fabs(decision->left - decision->right);
+    digits = apart == 0 || apart > 1e-11 * fabs(decision->left) ? 12 : 17;
+    qdot_sheet_words(s, ": left = ");
+    qdot_sheet_double(s, decision->left, digits);
+    qdot_sheet_words(s, ", right = ");
+    qdot_sheet_double(s, decision->right, digits);
+    return QDOT_OK;
+}
+
 static qdot_status
 check_text(qdot_session *session, const qdot_decision *decision)
 {
-    qdot_pool *pool = session->pool;
-    qdot_text line = {0};
+    qdot_sheet s = qdot_sheet_begin_words(session);
     qdot_status status = QDOT_OK;
 
-    qdot_text_format(&line, "%s%s%s", paint(session, verdict_colours[decision->verdict]),
-                     verdicts[decision->verdict], paint(session, QDOT_COLOUR_END));
-    if (decision->verdict == QDOT_REFUTED) {
-        uint32_t n = decision->at == QDOT_NIL ? 0 : qdot_expr_count(pool, decision->at);
-
-        for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
-            qdot_text_add(&line, i == 0 ? " at " : ", ");
-            status =
-                qdot_formula_marked(session, qdot_expr_arg(pool, decision->at, i), &line);
-        }
-        if (isfinite(decision->left) && isfinite(decision->right)) {
-            double apart = fabs(decision->left - decision->right);
-            int digits = apart == 0 || apart > 1e-11 * fabs(decision->left) ? 12 : 17;
-
-            qdot_text_add(&line, ": left = ");
-            qdot_text_double(&line, decision->left, digits);
-            qdot_text_add(&line, ", right = ");
-            qdot_text_double(&line, decision->right, digits);
-        }
-    } else if (decision->verdict == QDOT_UNDECIDED) {
-        if (decision->points > 0 && decision->digits > 0)
-            qdot_text_format(&line,
-                             ": equal at %d random points to %d digits, but not proved",
-                             decision->points, decision->digits);
-        else if (decision->points > 0)
-            qdot_text_format(&line, ": true at %d random points, but not proved",
-                             decision->points);
-        else
-            qdot_text_add(&line, ": neither proved nor refuted");
-    }
-    qdot_text_char(&line, '\n');
-    return end_line(session, status, &line);
+    qdot_sheet_format(&s, "%s%s%s", paint(session, verdict_colours[decision->verdict]),
+                      verdicts[decision->verdict], paint(session, QDOT_COLOUR_END));
+    if (decision->verdict == QDOT_REFUTED)
+        status = check_add_place(&s, decision);
+    else if (decision->verdict == QDOT_UNDECIDED && decision->points > 0 && decision->digits > 0)
+        qdot_sheet_format(&s, ": equal at %d random points to %d digits, but not proved", decision->points,
+                          decision->digits);
+    else if (decision->verdict == QDOT_UNDECIDED && decision->points > 0)
+        qdot_sheet_format(&s, ": true at %d random points, but not proved", decision->points);
+    else if (decision->verdict == QDOT_UNDECIDED)
+        qdot_sheet_words(&s, ": neither proved nor refuted");
+    return qdot_sheet_end(&s, "check", status);
 }
 
 /* {"x":1.5,...} from a LIST of equations symbol = number. */
@@ -381,7 +373,7 @@ print_side(qdot_session *session, qdot_expr side, qdot_text *out)
         qdot_text_double(out, number, 17);
         return QDOT_OK;
     }
-    if (size <= QDOT_FORMULA_OPERATIONS)
+    if (size <= QDOT_EXPRESSION_OPERATIONS)
         return qdot_print(session->pool, side, QDOT_PLAIN, out);
     qdot_text_format(out, "(%" PRIu64 " operations)", size);
     return QDOT_OK;

@@ -4,154 +4,216 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "formula/write.h"
+
 typedef struct {
-    const char *plain, *unicode, *latex, *mathml;
+    qdot_formula *f;
+    qdot_notation_kind notation;
+} writer;
+
+typedef struct {
+    const char *plain;
+    qdot_formula_sign sign;
 } spelling;
 
-static const spelling words[] = {
-    {"sum", "Σ", "\\sum", "<mo>∑</mo>"},
-    {"lambda", "λ", "\\lambda ", "<mi>λ</mi>"},
-    {"omega", "ω", "\\omega ", "<mi>ω</mi>"},
-    {"delta", "δ", "\\delta ", "<mi>δ</mi>"},
-    {"left", "left", "\\text{left}", "<mtext>left</mtext>"},
-    {"right", "right", "\\text{right}", "<mtext>right</mtext>"},
-    {"1/2", "½", "\\tfrac{1}{2}", "<mfrac><mn>1</mn><mn>2</mn></mfrac>"},
-    {"0", "0", "0", "<mn>0</mn>"},
+static const spelling signs[] = {
+    {" = ", QDOT_SIGN_EQUALS}, {" + ", QDOT_SIGN_PLUS}, {" - ", QDOT_SIGN_MINUS},
+    {"-", QDOT_SIGN_NEGATIVE}, {".", QDOT_SIGN_POINT},  {", ", QDOT_SIGN_COMMA},
+    {" ", QDOT_SIGN_BESIDE},
 };
 
-static const spelling signs[] = {
-    {" = ", " = ", " = ", "<mo>=</mo>"},  {" + ", " + ", " + ", "<mo>+</mo>"},
-    {" - ", " − ", " - ", "<mo>−</mo>"},  {"-", "−", "-", "<mo>−</mo>"},
-    {".", "·", " \\cdot ", "<mo>·</mo>"}, {", ", ", ", ", ", "<mo>,</mo>"},
-    {"(", "(", "(", "<mo>(</mo>"},        {")", ")", ")", "<mo>)</mo>"},
-    {" ", " ", " ", "<mo>&#x2062;</mo>"}};
+static const spelling words[] = {{"sum", QDOT_SIGN_SUM},
+                                 {"delta", QDOT_SIGN_DELTA},
+                                 {"left", QDOT_SIGN_LEFT},
+                                 {"right", QDOT_SIGN_RIGHT}};
 
-static const char *
-in_style(const spelling *s, qdot_style style)
+static const struct {
+    const char *plain, *letter;
+} greek[] = {{"lambda", "λ"}, {"omega", "ω"}};
+
+#define COUNT(table) (sizeof(table) / sizeof *(table))
+
+static bool
+is_at(const char *at, const char *word)
 {
-    return style == QDOT_LATEX ? s->latex : style == QDOT_MATHML ? s->mathml : s->unicode;
+    return strncmp(at, word, strlen(word)) == 0;
 }
 
 static const spelling *
 spelling_find(const spelling *table, size_t count, const char *at)
 {
     for (size_t i = 0; i < count; i++)
-        if (strncmp(at, table[i].plain, strlen(table[i].plain)) == 0)
+        if (is_at(at, table[i].plain))
             return &table[i];
     return NULL;
 }
 
-/* A letter with dots above, or a word of the table; returns what follows. */
-static const char *
-add_base(const char *at, qdot_style style, qdot_text *out)
+static void
+add_name(const writer *w, qdot_formula_id parent, const char *name)
 {
-    static const char *const dots[][3] = {{"\u0307", "\\dot{", "˙"},
-                                          {"\u0308", "\\ddot{", "¨"}};
-    const spelling *word = spelling_find(words, sizeof words / sizeof *words, at);
-    const char letter = *at;
+    qdot_formula_add_text(w->f, parent, QDOT_TEXT_NAME, name, strlen(name));
+}
+
+static void
+notation_add_number(const writer *w, qdot_formula_id parent, const char *number)
+{
+    qdot_formula_add_text(w->f, parent, QDOT_TEXT_NUMBER, number, strlen(number));
+}
+
+static void
+notation_add_half(const writer *w, qdot_formula_id parent)
+{
+    if (w->notation != QDOT_NOTATION_DRAWN) {
+        notation_add_number(w, parent, "½");
+        return;
+    }
+    parent = qdot_formula_add(w->f, parent, QDOT_FORMULA_FRACTION, 0, QDOT_FORMULA_SMALL);
+    notation_add_number(w, parent, "1");
+    notation_add_number(w, parent, "2");
+}
+
+/* A letter with dots above. */
+static void
+add_letter(const writer *w, qdot_formula_id parent, char letter, size_t dots)
+{
+    static const char *const marks[] = {"", "\u0307", "\u0308"};
+    char name[8] = {letter};
+
+    if (w->notation != QDOT_NOTATION_DRAWN) {
+        strcat(name, marks[dots]);
+    } else if (dots > 0) {
+        parent = qdot_formula_add(w->f, parent, QDOT_FORMULA_ACCENT, 0, 0);
+        qdot_formula_count(w->f, parent, (uint32_t)dots);
+    }
+    add_name(w, parent, name);
+}
+
+/* A letter or a word; returns what follows. */
+static const char *
+add_base(const writer *w, qdot_formula_id parent, const char *at)
+{
+    const spelling *word = spelling_find(words, COUNT(words), at);
     size_t primes;
 
-    if (word) {
-        qdot_text_add(out, in_style(word, style));
+    if (word != NULL) {
+        qdot_formula_add_sign(w->f, parent, word->sign);
         return at + strlen(word->plain);
     }
-    primes = strspn(++at, "'");
-    if (primes == 0 || primes > 2) {
-        qdot_text_format(out, style == QDOT_MATHML ? "<mi>%c</mi>" : "%c", letter);
-    } else if (style == QDOT_MATHML) {
-        qdot_text_format(out, "<mover><mi>%c</mi><mo>%s</mo></mover>", letter,
-                         dots[primes - 1][2]);
-    } else if (style == QDOT_LATEX) {
-        qdot_text_format(out, "%s%c}", dots[primes - 1][1], letter);
-    } else {
-        qdot_text_format(out, "%c%s", letter, dots[primes - 1][0]);
+    if (is_at(at, "1/2")) {
+        notation_add_half(w, parent);
+        return at + 3;
     }
-    return at + primes;
+    if (*at == '0') {
+        notation_add_number(w, parent, "0");
+        return at + 1;
+    }
+    for (size_t i = 0; i < COUNT(greek); i++)
+        if (is_at(at, greek[i].plain)) {
+            add_name(w, parent, greek[i].letter);
+            qdot_formula_add_sign(w->f, parent, QDOT_SIGN_BLANK);
+            return at + strlen(greek[i].plain);
+        }
+    primes = strspn(at + 1, "'");
+    add_letter(w, parent, *at, primes <= 2 ? primes : 0);
+    return at + 1 + primes;
 }
 
 /* A base and its square. */
 static const char *
-add_atom(const char *at, qdot_style style, qdot_text *out)
+add_atom(const writer *w, qdot_formula_id parent, const char *at)
 {
-    const size_t from = out->n;
-    qdot_text base = {0};
+    const qdot_formula_id base = qdot_formula_new(w->f, QDOT_FORMULA_SPAN, 0, 0);
 
-    at = add_base(at, style, &base);
-    if (strncmp(at, "^2", 2) != 0) {
-        qdot_text_add(out, qdot_text_str(&base));
-    } else {
-        qdot_text_format(out,
-                         style == QDOT_MATHML  ? "<msup>%s<mn>2</mn></msup>"
-                         : style == QDOT_LATEX ? "%s^{2}"
-                                               : "%s²",
-                         qdot_text_str(&base));
-        at += 2;
+    at = add_base(w, base, at);
+    if (!is_at(at, "^2")) {
+        qdot_formula_append(w->f, parent, base);
+        return at;
     }
-    out->failed = out->failed || base.failed || out->n < from;
-    qdot_text_clear(&base);
-    return at;
+    parent =
+        qdot_formula_add(w->f, parent, QDOT_FORMULA_POWER, 0,
+                         w->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_RAISED : 0);
+    qdot_formula_append(w->f, parent, base);
+    notation_add_number(w, parent, "2");
+    return at + 2;
 }
 
-void
-qdot_notation_over(const char *up, const char *down, qdot_style style, qdot_text *out)
+/* Above or below the bar of a derivative: the letter d, before a base. */
+static qdot_formula_id
+add_side(const writer *w, qdot_formula_id fraction, bool whole)
 {
-    qdot_text_format(out,
-                     style == QDOT_MATHML
-                         ? "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>"
-                     : style == QDOT_LATEX ? "\\frac{%s}{%s}"
-                                           : "%s/%s",
-                     up, down);
+    const qdot_formula_id row = qdot_formula_add(w->f, fraction, QDOT_FORMULA_ROW, 0, 0);
+
+    if (whole) {
+        add_name(w, row, "d");
+    } else {
+        qdot_formula_add_sign(w->f, row, QDOT_SIGN_PARTIAL);
+        qdot_formula_add_sign(w->f, row, QDOT_SIGN_BLANK);
+    }
+    return row;
 }
 
 /* d/dt, dV/dq, dT/dq': partial but for the first. */
 static const char *
-add_slope(const char *at, qdot_style style, qdot_text *out)
+add_slope(const writer *w, qdot_formula_id parent, const char *at)
 {
+    const qdot_formula_id fraction =
+        qdot_formula_add(w->f, parent, QDOT_FORMULA_FRACTION, 0, 0);
     const bool whole = at[1] == '/';
-    const char *const d = style == QDOT_MATHML  ? whole ? "<mi>d</mi>" : "<mo>∂</mo>"
-                          : style == QDOT_LATEX ? whole ? "d" : "\\partial "
-                          : whole               ? "d"
-                                                : "∂";
-    qdot_text up = {0}, down = {0};
+    const qdot_formula_id up = add_side(w, fraction, whole);
 
-    qdot_text_add(&up, d);
     if (!whole)
-        (void)add_base(at + 1, style, &up);
-    qdot_text_add(&down, d);
-    at = add_base(at + (whole ? 3 : 4), style, &down);
-    qdot_notation_over(qdot_text_str(&up), qdot_text_str(&down), style, out);
-    out->failed = out->failed || up.failed || down.failed;
-    qdot_text_clear(&up);
-    qdot_text_clear(&down);
-    return at;
+        (void)add_base(w, up, at + 1);
+    return add_base(w, add_side(w, fraction, whole), at + (whole ? 3 : 4));
 }
 
 /* Whether `dX/dY` or `d/dt` stands there. */
 static bool
 is_slope(const char *at)
 {
-    return at[0] == 'd' &&
-           (strncmp(at + 1, "/d", 2) == 0 ||
-            (isalpha((unsigned char)at[1]) && strncmp(at + 2, "/d", 2) == 0));
+    return at[0] == 'd' && (is_at(at + 1, "/d") ||
+                            (isalpha((unsigned char)at[1]) && is_at(at + 2, "/d")));
 }
 
 void
-qdot_notation(const char *formula, qdot_style style, qdot_text *out)
+qdot_notation_add(qdot_formula *f, qdot_formula_id parent, const char *formula,
+                  qdot_notation_kind notation)
 {
-    if (style == QDOT_PLAIN) {
-        qdot_text_add(out, formula);
+    const qdot_formula_id all = parent;
+    const writer w = {f, notation};
+
+    if (notation == QDOT_NOTATION_SCRIPT) {
+        add_name(&w, parent, formula);
         return;
     }
     while (*formula != '\0') {
-        const spelling *sign = spelling_find(signs, sizeof signs / sizeof *signs, formula);
+        const spelling *sign = spelling_find(signs, COUNT(signs), formula);
 
-        if (sign) {
-            qdot_text_add(out, in_style(sign, style));
+        if (*formula == '(') {
+            parent = qdot_formula_add(f, all, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND,
+                                      QDOT_FORMULA_FIXED);
+            formula++;
+        } else if (*formula == ')') {
+            parent = all;
+            formula++;
+        } else if (sign != NULL) {
+            qdot_formula_add_sign(f, parent, sign->sign);
             formula += strlen(sign->plain);
-        } else if (is_slope(formula)) {
-            formula = add_slope(formula, style, out);
         } else {
-            formula = add_atom(formula, style, out);
+            formula = is_slope(formula) ? add_slope(&w, parent, formula)
+                                        : add_atom(&w, parent, formula);
         }
     }
+}
+
+void
+qdot_notation_print(const char *formula, qdot_notation_kind notation, qdot_text *out)
+{
+    qdot_formula f = {0};
+    const qdot_formula_id all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
+
+    qdot_notation_add(&f, all, formula, notation);
+    if (qdot_formula_status(&f) != QDOT_OK ||
+        qdot_formula_write_line(&f, all, notation, out) != QDOT_OK)
+        out->failed = true;
+    qdot_formula_clear(&f);
 }

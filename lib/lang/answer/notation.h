@@ -1,7 +1,7 @@
-/* notation.h -- formulas of books in words of answers: "Q = sum F.dr/dq - dV/dq" in a style.
+/* notation.h -- formulas of books in words of answers, as formulas: "Q = sum F.dr/dq - dV/dq".
  *
  *   sum  1/2  lambda  omega  deltaW     Σ ½ λ ω δW
- *   dV/dq  d/dt  dT/dq'                 ∂V/∂q d/dt ∂T/∂q̇, fractions in LaTeX and MathML
+ *   dV/dq  d/dt  dT/dq'                 ∂V/∂q d/dt ∂T/∂q̇, fractions where they are drawn
  *   q''  v^2  .  -                      q̈ v² · −
  *
  * Tests  tests/lang/answer/test_notation.c
@@ -9,14 +9,12 @@
 #ifndef QDOT_LANG_NOTATION_H
 #define QDOT_LANG_NOTATION_H
 
-#include "expr/print-name.h"
+#include "formula/formula.h"
 
-/* Append the formula; plain: as it stands. Of a page without its marks. */
-void qdot_notation(const char *formula, qdot_style style, qdot_text *out);
+/* Append the formula; in a script as it stands. */
+void qdot_notation_add(qdot_formula *f, qdot_formula_id parent, const char *formula, qdot_notation_kind notation);
 
-/* Append numerator over denominator, each written in the style already: as a fraction in LaTeX and
- * MathML, else with a slash. */
-void qdot_notation_over(const char *up, const char *down, qdot_style style,
-                        qdot_text *out);
+/* Append the formula in a line, for a script (as it stands) or for the eye. */
+void qdot_notation_print(const char *formula, qdot_notation_kind notation, qdot_text *out);
 
 #endif

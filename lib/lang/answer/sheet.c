@@ -2,134 +2,320 @@
 #include "lang/answer/sheet.h"
 
 #include <inttypes.h>
+#include <stdarg.h>
 #include <string.h>
 
+#include "base/number-text.h"
 #include "base/terminal.h"
 #include "base/utf8.h"
 #include "base/wrap.h"
+#include "expr/print-formula.h"
+#include "formula/layout.h"
 #include "formula/write.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/expression.h"
+#include "lang/answer/typed-name.h"
 #include "lang/answer/write.h"
 #include "show/formula-page.h"
-#include "show/layout.h"
 
-/* Whether answers are blocks of aligned equations that are not a file's. */
-static bool
-makes_blocks(const qdot_session *session)
+/* --- what it is to be --------------------------------------------------------------------- */
+
+static void
+begin_line(qdot_sheet *s)
 {
-    return !session->json && !session->marked && !session->flat &&
-           (session->style == QDOT_LATEX || session->style == QDOT_MATHML);
+    s->at = s->line = qdot_formula_add(&s->formula, s->lines, QDOT_FORMULA_SPAN, 0, 0);
+}
+
+static qdot_sheet
+sheet_begin(qdot_session *session, qdot_sheet_form form, qdot_style style)
+{
+    qdot_sheet s = {
+        .session = session, .form = form, .style = style, .page = session->page};
+
+    s.notation =
+        form == QDOT_SHEET_DRAWN ? QDOT_NOTATION_DRAWN : qdot_print_notation(style);
+    s.lines = qdot_formula_new(&s.formula, QDOT_FORMULA_SPAN, 0, 0);
+    begin_line(&s);
+    return s;
 }
 
 qdot_sheet
 qdot_sheet_begin(qdot_session *session)
 {
-    qdot_sheet s = {.style = session->style, .marked = session->marked};
+    const bool equations =
+        !session->json && !session->flat &&
+        (session->style == QDOT_LATEX || session->style == QDOT_MATHML);
+    qdot_sheet_form form =
+        session->page != NULL || equations ? QDOT_SHEET_PAGE : QDOT_SHEET_LINES;
+    size_t columns = 0, rows = 0;
+    qdot_sheet s;
 
-    s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
-                 qdot_terminal_size(qdot_write_stream(session),
-                                    &s.columns, &s.rows);
-    session->marked = session->marked || makes_blocks(session);
-    if (s.laid_out)
-        session->style = QDOT_MATHML;
+    if (session->style == QDOT_UNICODE && !session->flat && !session->json &&
+        qdot_terminal_size(qdot_write_stream(session), &columns, &rows))
+        form = QDOT_SHEET_DRAWN;
+    s = sheet_begin(session, form, session->style);
+    s.broken = !session->flat;
+    s.columns = columns;
+    s.rows = rows;
     return s;
 }
 
-/* --- on a terminal --------------------------------------------------------------------- */
+qdot_sheet
+qdot_sheet_begin_words(qdot_session *session)
+{
+    qdot_sheet s =
+        sheet_begin(session, session->page != NULL ? QDOT_SHEET_PAGE : QDOT_SHEET_LINES,
+                    session->style);
 
-/* A line may end behind each word. */
+    s.broken = true;
+    return s;
+}
+
+qdot_sheet
+qdot_sheet_begin_text(qdot_session *session, qdot_style style)
+{
+    return sheet_begin(session, QDOT_SHEET_LINES, style);
+}
+
 void
-qdot_sheet_words(const char *text, size_t n, qdot_text *out)
+qdot_sheet_clear(qdot_sheet *s)
+{
+    qdot_formula_clear(&s->formula);
+}
+
+/* --- what stands in it -------------------------------------------------------------------- */
+
+/* Text within a line; a drawn one may end behind each word. */
+static void
+sheet_add_words(qdot_sheet *s, const char *text, size_t n)
 {
     while (n > 0) {
-        const size_t blanks = strspn(text, " ");
-        size_t word = blanks + strcspn(text + blanks, " ");
+        size_t word = n;
 
-        word = word < n ? word + 1 : n; /* with the blank behind it */
-        qdot_text_add(out, "<mtext>");
-        qdot_formula_escape(text, word, out);
-        qdot_text_add(out, "</mtext>");
+        if (s->form == QDOT_SHEET_DRAWN) {
+            word = strspn(text, " ");
+            word += strcspn(text + word, " \n");
+            word = word < n ? word + 1 : n; /* with the blank behind it */
+        }
+        qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_WORDS, text, word);
         text += word;
         n -= word;
     }
 }
 
-/* One line as one formula; false: there is none in it. */
-static bool
-as_formula(const char *line, size_t n, qdot_text *out)
+void
+qdot_sheet_words(qdot_sheet *s, const char *text)
 {
-    static const char begin[] = QDOT_PRINT_MATH, end[] = "</math>";
-    const char *const stop = line + n;
-    bool any = false;
+    for (;;) {
+        const size_t n = strcspn(text, "\n");
 
-    while (line < stop) {
-        const char *open = memmem(line, (size_t)(stop - line), begin, sizeof begin - 1);
-        const char *close = NULL;
-
-        if (open != NULL)
-            close = memmem(open, (size_t)(stop - open), end, sizeof end - 1);
-        if (close == NULL) {
-            qdot_sheet_words(line, (size_t)(stop - line), out);
-            return any;
-        }
-        qdot_sheet_words(line, (size_t)(open - line), out);
-        qdot_text_add_n(out, open + sizeof begin - 1,
-                        (size_t)(close - open) - (sizeof begin - 1));
-        line = close + sizeof end - 1;
-        any = true;
+        sheet_add_words(s, text, n);
+        if (text[n] == '\0')
+            return;
+        begin_line(s);
+        text += n + 1;
     }
-    return any;
 }
 
-/* The contents of a line that is one formula and no more, which is ended there; NULL: it is not. */
-static char *
-only_formula(char *line, size_t n)
+void
+qdot_sheet_format(qdot_sheet *s, const char *format, ...)
 {
-    static const char begin[] = QDOT_PRINT_MATH, end[] = "</math>";
-    const size_t first = sizeof begin - 1, last = sizeof end - 1;
-    char *const inside = line + first;
+    char few[512], *many = NULL;
+    va_list ap, again;
+    int n;
 
-    if (n < first + last || memcmp(line, begin, first) != 0 ||
-        memmem(inside, n - first, end, last) != line + n - last)
-        return NULL;
-    line[n - last] = '\0';
-    return inside;
+    va_start(ap, format);
+    va_copy(again, ap);
+    n = vsnprintf(few, sizeof few, format, ap);
+    va_end(ap);
+    if (n >= (int)sizeof few && (many = qdot_malloc((size_t)n + 1)) != NULL)
+        vsnprintf(many, (size_t)n + 1, format, again);
+    va_end(again);
+    s->formula.failed =
+        s->formula.failed || n < 0 || (n >= (int)sizeof few && many == NULL);
+    if (n >= 0)
+        qdot_sheet_words(s, many != NULL ? many : few);
+    qdot_free(many);
 }
 
-/* The lines, which are written over. */
+/* Append the text, which is cleared. */
+static void
+sheet_add_text(qdot_sheet *s, qdot_text *text)
+{
+    qdot_sheet_words(s, qdot_text_str(text));
+    s->formula.failed = s->formula.failed || text->failed;
+    qdot_text_clear(text);
+}
+
+void
+qdot_sheet_double(qdot_sheet *s, double x, int digits)
+{
+    qdot_text number = {0};
+
+    qdot_text_double(&number, x, digits);
+    sheet_add_text(s, &number);
+}
+
+void
+qdot_sheet_known(qdot_sheet *s, double x, double error)
+{
+    qdot_text number = {0};
+
+    qdot_number_text_known(&number, x, error);
+    sheet_add_text(s, &number);
+}
+
+void
+qdot_sheet_open(qdot_sheet *s)
+{
+    s->at = qdot_formula_add(&s->formula, s->line, QDOT_FORMULA_SPAN, 0, 0);
+}
+
+void
+qdot_sheet_close(qdot_sheet *s)
+{
+    s->at = s->line;
+}
+
+void
+qdot_sheet_sign(qdot_sheet *s, qdot_formula_sign sign)
+{
+    qdot_formula_add_sign(&s->formula, s->at, sign);
+}
+
+qdot_status
+qdot_sheet_expr(qdot_sheet *s, qdot_expr e)
+{
+    return qdot_expression_add(s->session, e, s->notation, &s->formula, s->at);
+}
+
+qdot_status
+qdot_sheet_name(qdot_sheet *s, const char *name, unsigned flags)
+{
+    return qdot_typed_name_add(s->session, name, s->style, &s->formula, s->at, flags);
+}
+
+qdot_status
+qdot_sheet_formula(qdot_sheet *s, qdot_expr e)
+{
+    qdot_sheet_open(s);
+    QDOT_TRY(qdot_sheet_expr(s, e));
+    qdot_sheet_close(s);
+    return QDOT_OK;
+}
+
+bool
+qdot_sheet_at_begin(const qdot_sheet *s)
+{
+    return qdot_formula_child(&s->formula, s->line, 0) == 0;
+}
+
+bool
+qdot_sheet_is_empty(const qdot_sheet *s)
+{
+    return qdot_sheet_at_begin(s) &&
+           qdot_formula_child(&s->formula, s->lines, 0) == s->line;
+}
+
+/* --- lines of text ------------------------------------------------------------------------- */
+
+/* A formula within a text; its name in colour. */
 static qdot_status
-lay_out(const qdot_session *session, const qdot_sheet *s, char *at, qdot_text *out,
-        qdot_layout_size *size)
+write_formula(const qdot_sheet *s, qdot_formula_id formula, bool colours, qdot_text *out)
 {
-    const bool colours = qdot_write_colours(session);
+    const qdot_formula *f = &s->formula;
+
+    qdot_text_add(out, s->style == QDOT_MATHML ? QDOT_FORMULA_MATH : "");
+    for (qdot_formula_id c = 0; (c = qdot_formula_child(f, formula, c)) != 0;) {
+        const bool painted =
+            colours && (qdot_formula_at(f, c)->flags & QDOT_FORMULA_LABEL);
+
+        qdot_text_add(out, painted ? QDOT_NAME_COLOUR : "");
+        QDOT_TRY(qdot_print_written(f, c, s->style, out));
+        qdot_text_add(out, painted ? QDOT_COLOUR_END : "");
+    }
+    qdot_text_add(out, s->style == QDOT_MATHML ? QDOT_FORMULA_MATH_END : "");
+    return qdot_text_status(out);
+}
+
+static qdot_status
+write_line(const qdot_sheet *s, qdot_formula_id line, bool colours, qdot_text *out)
+{
+    const qdot_formula *f = &s->formula;
+
+    for (qdot_formula_id c = 0; (c = qdot_formula_child(f, line, c)) != 0;) {
+        const qdot_formula_node *node = qdot_formula_at(f, c);
+
+        if (node->kind == QDOT_FORMULA_TEXT)
+            qdot_text_add_n(out, f->text.at + node->child, node->n);
+        else
+            QDOT_TRY(write_formula(s, c, colours, out));
+    }
+    return qdot_text_status(out);
+}
+
+static qdot_status
+write_lines(const qdot_sheet *s, bool colours, qdot_text *out)
+{
+    bool first = true;
+
+    QDOT_TRY(qdot_formula_status(&s->formula));
+    for (qdot_formula_id line = 0;
+         (line = qdot_formula_child(&s->formula, s->lines, line)) != 0; first = false) {
+        qdot_text_add(out, first ? "" : "\n");
+        QDOT_TRY(write_line(s, line, colours, out));
+    }
+    return qdot_text_status(out);
+}
+
+/* Whether a line is only the end of the one before it. */
+static bool
+is_last_end(const qdot_sheet *s, qdot_formula_id line)
+{
+    return line == s->line && qdot_sheet_at_begin(s);
+}
+
+/* --- on a terminal --------------------------------------------------------------------------- */
+
+static bool
+has_formula(const qdot_formula *f, qdot_formula_id line)
+{
+    for (qdot_formula_id c = 0; (c = qdot_formula_child(f, line, c)) != 0;)
+        if (qdot_formula_at(f, c)->kind != QDOT_FORMULA_TEXT)
+            return true;
+    return false;
+}
+
+static qdot_status
+lay_out(const qdot_sheet *s, qdot_text *out, qdot_layout_size *size)
+{
+    const bool colours = qdot_write_colours(s->session);
     const qdot_layout_request request = {.width = s->columns,
                                          .shown = s->whole ? SIZE_MAX : s->rows,
                                          .paint = colours ? QDOT_NAME_COLOUR : NULL,
                                          .end = QDOT_COLOUR_END};
-    qdot_text formula = {0};
-    qdot_status status = QDOT_OK;
+    const qdot_formula *f = &s->formula;
 
-    while (*at != '\0' && status == QDOT_OK) {
-        const size_t n = strcspn(at, "\n");
-        const bool more = at[n] == '\n';
-        const char *const only = only_formula(at, n);
+    QDOT_TRY(qdot_formula_status(f));
+    for (qdot_formula_id line = 0; (line = qdot_formula_child(f, s->lines, line)) != 0;) {
+        const size_t from = out->n;
 
-        qdot_text_truncate(&formula, 0);
-        if (only != NULL) {
-            status = qdot_layout_part(only, &request, out, size);
-        } else if (as_formula(at, n, &formula) || qdot_utf8_columns(at, n) > s->columns) {
-            status = qdot_text_status(&formula);
-            if (status == QDOT_OK)
-                status = qdot_layout_part(formula.at, &request, out, size);
+        if (is_last_end(s, line))
+            break;
+        if (has_formula(f, line)) {
+            QDOT_TRY(qdot_layout_part(f, line, &request, out, size));
+            continue;
+        }
+        QDOT_TRY(write_line(s, line, false, out));
+        if (out->n > from &&
+            qdot_utf8_columns(out->at + from, out->n - from) > s->columns) {
+            qdot_text_truncate(out, from);
+            QDOT_TRY(qdot_layout_part(f, line, &request, out, size));
         } else {
-            qdot_text_add_n(out, at, n);
             qdot_text_char(out, '\n');
             size->lines++;
         }
-        at += n + more;
     }
-    qdot_text_clear(&formula);
-    return status;
+    return qdot_text_status(out);
 }
 
 /* What is higher than the terminal: its first half, how much it is, and how all of it is seen. */
@@ -148,7 +334,8 @@ sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
     qdot_text_format(&last, "... %zu of %zu lines", shown, size->lines);
     if (s->operations > 0)
         qdot_text_format(&last, ", %" PRIu64 " operations", s->operations);
-    qdot_text_add(&last, "; `% to \"all.txt\"` writes all of it, `style flat` shows it\n");
+    qdot_text_add(&last,
+                  "; `% to \"all.txt\"` writes all of it, `style flat` shows it\n");
     qdot_wrap(qdot_text_str(&last), s->columns, text);
     text->failed = text->failed || last.failed;
     qdot_text_clear(&last);
@@ -157,55 +344,92 @@ sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 /* --- the end --------------------------------------------------------------------------- */
 
 static qdot_status
-sheet_draw(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *lines)
+sheet_draw(const qdot_sheet *s, const char *name)
 {
     qdot_layout_size size = {0};
     qdot_text drawn = {0};
-    qdot_status status =
-        lines->n > 0 ? lay_out(session, s, lines->at, &drawn, &size) : QDOT_OK;
+    const qdot_status status = lay_out(s, &drawn, &size);
 
     if (status == QDOT_OK)
         sheet_cut(s, &size, &drawn);
-    return qdot_answer_drawn(session, name, status, &drawn);
+    return qdot_answer_drawn(s->session, name, status, &drawn);
+}
+
+/* The equations of the present statement, begun if there are none. */
+static qdot_formula_page *
+find_block(qdot_session *session)
+{
+    if (session->block == NULL) {
+        session->block = qdot_calloc(1, sizeof *session->block);
+        if (session->block == NULL)
+            return NULL;
+        session->block->kind =
+            session->style == QDOT_LATEX ? QDOT_PAGE_LATEX : QDOT_PAGE_MATHML;
+        session->block->paint = qdot_write_colours(session) ? QDOT_NAME_COLOUR : NULL;
+        session->block->end = QDOT_COLOUR_END;
+    }
+    return session->block;
+}
+
+static qdot_status
+sheet_add_to_page(const qdot_sheet *s)
+{
+    qdot_formula_page *page = s->page != NULL ? s->page : find_block(s->session);
+
+    if (page == NULL)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_formula_status(&s->formula));
+    for (qdot_formula_id line = 0;
+         (line = qdot_formula_child(&s->formula, s->lines, line)) != 0;)
+        if (!is_last_end(s, line))
+            qdot_formula_page_line(page, &s->formula, line);
+    return page->status;
 }
 
 qdot_status
-qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name,
-               qdot_status status, qdot_text *lines)
+qdot_sheet_text(qdot_sheet *s, qdot_status status, qdot_text *out)
 {
-    const bool block = session->marked && !s->marked;
-
-    session->style = s->style;
-    session->marked = s->marked;
     if (status == QDOT_OK)
-        status = qdot_text_status(lines);
-    if (status == QDOT_OK && block) {
-        qdot_text_add(&session->block, qdot_text_str(lines));
-        if (lines->n > 0 && lines->at[lines->n - 1] != '\n')
-            qdot_text_char(&session->block, '\n');
-        status = qdot_text_status(&session->block);
-    } else if (status == QDOT_OK && s->laid_out) {
-        status = sheet_draw(session, s, name, lines);
-    } else {
-        return (session->flat ? qdot_answer_drawn : qdot_answer_written)(session, name, status,
-                                                                         lines);
-    }
-    qdot_text_clear(lines);
+        status = write_lines(s, false, out);
+    qdot_sheet_clear(s);
     return status;
+}
+
+qdot_status
+qdot_sheet_end(qdot_sheet *s, const char *name, qdot_status status)
+{
+    qdot_text lines = {0};
+
+    if (status == QDOT_OK && s->form == QDOT_SHEET_PAGE)
+        status = sheet_add_to_page(s);
+    else if (status == QDOT_OK && s->form == QDOT_SHEET_DRAWN)
+        status = sheet_draw(s, name);
+    else if (status == QDOT_OK)
+        status = (s->broken ? qdot_answer_written : qdot_answer_drawn)(
+            s->session, name, write_lines(s, qdot_write_colours(s->session), &lines),
+            &lines);
+    qdot_sheet_clear(s);
+    return status;
+}
+
+void
+qdot_sheet_forget(qdot_session *session)
+{
+    if (session->block != NULL)
+        qdot_formula_page_clear(session->block);
+    qdot_free(session->block);
+    session->block = NULL;
 }
 
 qdot_status
 qdot_sheet_flush(qdot_session *session)
 {
-    qdot_text lines = session->block, page = {0};
+    qdot_text page = {0};
     qdot_status status;
 
-    if (lines.n == 0)
+    if (session->block == NULL)
         return QDOT_OK;
-    session->block = (qdot_text){0};
-    status = session->style == QDOT_LATEX
-                 ? qdot_page_latex(qdot_text_str(&lines), &page)
-                 : qdot_page_mathml(qdot_text_str(&lines), &page);
-    qdot_text_clear(&lines);
+    status = qdot_formula_page_end(session->block, &page);
+    qdot_sheet_forget(session);
     return qdot_answer_drawn(session, "formulas", status, &page);
 }

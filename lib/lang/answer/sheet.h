@@ -1,38 +1,88 @@
-/* sheet.h -- answers in which formulas stand: laid out on a terminal, as aligned equations in LaTeX
- * and MathML, else in lines as they are.
+/* sheet.h -- an answer in which formulas stand: lines of words and formulas, as data.
  *
- *     const qdot_sheet s = qdot_sheet_begin(session);
- *     ... text: lines with formulas in session->style, each between qdot_formula_bracket
- *     return qdot_sheet_end(session, &s, name, status, &text);
+ *     qdot_sheet s = qdot_sheet_begin(session);
+ *     qdot_sheet_words(&s, "the force is ");
+ *     status = qdot_sheet_formula(&s, force);
+ *     return qdot_sheet_end(&s, name, status);
+ *
+ * At its end a sheet is drawn on a terminal, becomes equations of a page (LaTeX, MathML), or lines of text.
+ *
+ * A formula stands between qdot_sheet_open and qdot_sheet_close. Where memory runs out the sheet is marked as failed,
+ * which qdot_sheet_end tells.
  *
  * Tests  tests/script/geometry/styles.lag, tests/script/derive/derive.lag, tests/src/test_screen.c
  */
 #ifndef QDOT_LANG_SHEET_H
 #define QDOT_LANG_SHEET_H
 
+#include "formula/formula.h"
 #include "lang/session/session.h"
 
+typedef enum {
+    QDOT_SHEET_LINES, /* of text */
+    QDOT_SHEET_DRAWN, /* on a terminal */
+    QDOT_SHEET_PAGE   /* of a page */
+} qdot_sheet_form;
+
 typedef struct {
-    bool laid_out;        /* on a terminal, from MathML */
-    bool marked;          /* of the session before */
-    size_t columns, rows; /* of the terminal */
-    qdot_style style;     /* of the session before */
-    bool whole;           /* never cut where it is higher than the terminal */
-    uint64_t operations;  /* of the one formula in it; 0: not said where it is cut */
+    qdot_session *session;
+    qdot_sheet_form form;
+    qdot_style style; /* of its formulas, where they become text */
+    qdot_notation_kind notation;
+    struct qdot_formula_page *page; /* that its lines are of; NULL: a page of equations of the present statement */
+    qdot_formula formula;
+    qdot_formula_id lines, line, at; /* all lines, children of one node; the present one; where parts are appended */
+    size_t columns, rows;            /* of the terminal */
+    bool broken;                     /* its lines of text are broken to the width of a terminal */
+    bool whole;                      /* never cut where it is higher than the terminal */
+    uint64_t operations;             /* of the one formula in it; 0: not said where it is cut */
 } qdot_sheet;
 
-/* From here to the end the session has the style and the marks that the lines are to be in. */
+/* An answer. */
 qdot_sheet qdot_sheet_begin(qdot_session *session);
+/* The same, never drawn, and no equation but on a page that is a file: a line with formulas in it. */
+qdot_sheet qdot_sheet_begin_words(qdot_session *session);
+/* What becomes a text of this style (qdot_sheet_text), formulas without marks. */
+qdot_sheet qdot_sheet_begin_text(qdot_session *session, qdot_style style);
 
-/* Append text, as MathML for a sheet that is laid out, word by word. */
-void qdot_sheet_words(const char *text, size_t n, qdot_text *out);
+/* Append text, in which lines end with \n. */
+void qdot_sheet_words(qdot_sheet *sheet, const char *text);
+void qdot_sheet_format(qdot_sheet *sheet, const char *format, ...) QDOT_PRINTF(2, 3);
 
-/* The lines are answered if the status is good; they are cleared. With --json as the text `name`. */
-QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_session *session, const qdot_sheet *sheet,
-                                           const char *name, qdot_status status,
-                                           qdot_text *lines);
+/* Append a number to `digits` digits. */
+void qdot_sheet_double(qdot_sheet *sheet, double x, int digits);
 
-/* Equations of the present statement that are collected for one block are written. */
+/* Append a number with an error: the digits that this leaves. */
+void qdot_sheet_known(qdot_sheet *sheet, double x, double error);
+
+/* A formula begins, ends. */
+void qdot_sheet_open(qdot_sheet *sheet);
+void qdot_sheet_close(qdot_sheet *sheet);
+
+/* Append to the open formula: a sign, an expression, the name of an answer as it was typed. Errors: those of
+ * lang/answer/expression.h. */
+void qdot_sheet_sign(qdot_sheet *sheet, qdot_formula_sign sign);
+QDOT_MUST_CHECK qdot_status qdot_sheet_expr(qdot_sheet *sheet, qdot_expr e);
+QDOT_MUST_CHECK qdot_status qdot_sheet_name(qdot_sheet *sheet, const char *name, unsigned flags);
+
+/* Append e as a formula. */
+QDOT_MUST_CHECK qdot_status qdot_sheet_formula(qdot_sheet *sheet, qdot_expr e);
+
+/* Whether nothing stands in the present line, in any line. */
+bool qdot_sheet_at_begin(const qdot_sheet *sheet);
+bool qdot_sheet_is_empty(const qdot_sheet *sheet);
+
+/* The lines are answered if the status is good; the sheet is cleared. With --json as the text `name`. */
+QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_sheet *sheet, const char *name, qdot_status status);
+
+/* Likewise append the lines to a text. */
+QDOT_MUST_CHECK qdot_status qdot_sheet_text(qdot_sheet *sheet, qdot_status status, qdot_text *out);
+
+/* The sheet is cleared, and nothing is answered. */
+void qdot_sheet_clear(qdot_sheet *sheet);
+
+/* Equations of the present statement that are collected for one block are written, or forgotten. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_flush(qdot_session *session);
+void qdot_sheet_forget(qdot_session *session);
 
 #endif

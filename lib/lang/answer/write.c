@@ -5,14 +5,22 @@
 
 #include "base/progress.h"
 #include "base/wrap.h"
+#include "show/formula-page.h"
 
-/* Write a finished text as it is and clear it. */
+/* Write a finished text as it is, or add it to the page that answers go to, and clear it. */
 static qdot_status
-write_out(FILE *file, qdot_text *text)
+write_out(const qdot_session *session, FILE *file, qdot_text *text)
 {
+    const bool paged = session->page != NULL && file == session->out;
     qdot_status status = qdot_text_status(text);
 
     qdot_progress_clear();
+    if (status == QDOT_OK && paged) {
+        qdot_formula_page_text(session->page, qdot_text_str(text), text->n);
+        status = session->page->status;
+        qdot_text_clear(text);
+        return status;
+    }
     if (status == QDOT_OK && fwrite(qdot_text_str(text), 1, text->n, file) != text->n)
         status = qdot_fail(QDOT_EIO, "standard output cannot be written");
     if (status == QDOT_OK && fflush(file) != 0)
@@ -45,7 +53,7 @@ qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
         qdot_text_clear(text);
         *text = wrapped;
     }
-    return write_out(file, text);
+    return write_out(session, file, text);
 }
 
 FILE *
@@ -86,7 +94,7 @@ write_answer(qdot_session *session, const char *name, const char *text, bool dra
         if (n == 0 || text[n - 1] != '\n')
             qdot_text_char(&line, '\n');
     }
-    return drawn ? write_out(session->out, &line) : qdot_write(session, session->out, &line);
+    return drawn ? write_out(session, session->out, &line) : qdot_write(session, session->out, &line);
 }
 
 qdot_status

@@ -8,7 +8,6 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/components.h"
 #include "lang/commands/statement.h"
@@ -90,16 +89,15 @@ is_one_equilibrium(const char *name)
 static qdot_status
 answer_joined(qdot_session *session, const char *name, qdot_expr list)
 {
-    const qdot_sheet sheet = qdot_sheet_begin(session);
-    qdot_text text = {0};
+    qdot_sheet sheet = qdot_sheet_begin(session);
     qdot_status status = QDOT_OK;
 
-    qdot_text_format(&text, "%s: ", name);
+    qdot_sheet_format(&sheet, "%s: ", name);
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i > 0 ? ", " : "");
-        status = qdot_formula_marked(session, qdot_expr_arg(session->pool, list, i), &text);
+        qdot_sheet_words(&sheet, i > 0 ? ", " : "");
+        status = qdot_sheet_formula(&sheet, qdot_expr_arg(session->pool, list, i));
     }
-    return qdot_sheet_end(session, &sheet, name, status, &text);
+    return qdot_sheet_end(&sheet, name, status);
 }
 
 qdot_status
@@ -176,27 +174,28 @@ answer_mixed(qdot_session *session, const char *name, qdot_expr list)
 }
 
 qdot_status
-qdot_ask_print_point(qdot_session *session, qdot_expr equations, qdot_text *line)
+qdot_ask_print_point(qdot_sheet *sheet, qdot_expr equations)
 {
+    qdot_session *session = sheet->session;
     qdot_pool *pool = session->pool;
 
-    qdot_text_add(line, "[");
+    qdot_sheet_words(sheet, "[");
     for (uint32_t i = 0; i < qdot_expr_count(pool, equations); i++) {
         qdot_expr one = qdot_expr_arg(pool, equations, i), value = qdot_expr_arg(pool, one, 1);
         double x, error;
 
-        qdot_text_add(line, i > 0 ? ", " : "");
+        qdot_sheet_words(sheet, i > 0 ? ", " : "");
         if (!qdot_measured_occurs(session, value)) {
-            QDOT_TRY(qdot_formula_marked(session, one, line));
+            QDOT_TRY(qdot_sheet_formula(sheet, one));
             continue;
         }
-        QDOT_TRY(qdot_formula_marked(session, qdot_expr_arg(pool, one, 0), line));
+        QDOT_TRY(qdot_sheet_formula(sheet, qdot_expr_arg(pool, one, 0)));
         QDOT_TRY(qdot_session_number(session, value, &x, &error));
-        qdot_text_add(line, " = ");
-        qdot_number_text_known(line, x, error);
+        qdot_sheet_words(sheet, " = ");
+        qdot_sheet_known(sheet, x, error);
     }
-    qdot_text_add(line, "]");
-    return qdot_text_status(line);
+    qdot_sheet_words(sheet, "]");
+    return QDOT_OK;
 }
 
 /* Whether e is a LIST of points, each a LIST of equations, as qdot_solve_system has them. */
@@ -213,8 +212,10 @@ is_points(const qdot_pool *pool, qdot_expr e)
 static qdot_status
 answer_point(qdot_session *session, const char *name, qdot_expr equations)
 {
+    qdot_sheet sheet =
+        qdot_sheet_begin_text(session, session->style == QDOT_MATHML ? QDOT_UNICODE : session->style);
     qdot_text text = {0}, errors = {0};
-    qdot_status status = qdot_ask_print_point(session, equations, &text);
+    qdot_status status = qdot_sheet_text(&sheet, qdot_ask_print_point(&sheet, equations), &text);
 
     if (status == QDOT_OK)
         status = session->json ? qdot_answer_text(session, name, qdot_text_str(&text))

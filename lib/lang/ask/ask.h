@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_ASK_H
 #define QDOT_LANG_ASK_H
 
-#include "lang/session/session.h"
+#include "lang/answer/sheet.h"
 
 /* `name = value`; of a list each member, `eom[theta]`, `solve(...)[1]`; a tensor by its components; numbers
  * of runs with their errors. over: the LIST of coordinates its entries go by, or nil. */
@@ -10,8 +10,7 @@ QDOT_MUST_CHECK qdot_status qdot_ask_answer(qdot_session *session, const char *n
                                             qdot_expr value, qdot_expr over);
 
 /* Append [x = 1.25 ± 3e-17, y = 2], numbers of runs with their errors. */
-QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_session *session, qdot_expr equations,
-                                                 qdot_text *line);
+QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_sheet *sheet, qdot_expr equations);
 
 /* Each member of a LIST, as above. */
 QDOT_MUST_CHECK qdot_status qdot_ask_list(qdot_session *session, const char *name, qdot_expr list,

@@ -8,7 +8,7 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
 #include "lang/commands/handlers.h"
 #include "lang/declare/assumed.h"
 #include "lang/declare/constraints.h"
@@ -67,6 +67,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
     bool may_vanish = false;
     qdot_text text = {0};
     qdot_status status;
+    qdot_sheet sheet;
 
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_expr_node(pool, left)->op != QDOT_EQ ||
@@ -75,7 +76,8 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
     QDOT_TRY(qdot_decide_proportional(pool, a, b, known, decision, &factor, &may_vanish));
     if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
         return QDOT_OK;
-    status = qdot_formula_marked(session, factor, &text);
+    sheet = qdot_sheet_begin_text(session, session->style);
+    status = qdot_sheet_text(&sheet, qdot_sheet_formula(&sheet, factor), &text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session,
                                     "the equations differ by the factor %s: where it is "

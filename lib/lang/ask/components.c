@@ -5,20 +5,17 @@
 
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 
 enum { MOST_RANK = 4 };
 
 /* What a function's tensor is called in books. */
 typedef struct {
-    const char *call, *letter, *latex;
-    uint32_t upper; /* indices above */
+    const char *call, *letter;
+    uint32_t upper; /* indices above, 0 or 1 */
 } letter;
 
-static const letter letters[] = {{"christoffel(", "Γ", "\\Gamma", 1},
-                                 {"riemann(", "R", "R", 1},
-                                 {"ricci(", "R", "R", 0}};
+static const letter letters[] = {{"christoffel(", "Γ", 1}, {"riemann(", "R", 1}, {"ricci(", "R", 0}};
 
 typedef struct {
     qdot_session *session;
@@ -29,8 +26,14 @@ typedef struct {
     uint32_t rank, n;
     int mirror; /* of the last two indices exchanged: 1 the same, -1 the opposite, 0 neither */
     bool zeros; /* not all components are listed */
-    qdot_text text;
+    qdot_sheet sheet;
 } tensor;
+
+/* An index of a component: a coordinate, or (nil) a letter. */
+typedef struct {
+    qdot_expr coordinate;
+    char letter;
+} place;
 
 static uint32_t
 rank_of(const qdot_pool *pool, qdot_expr value)
@@ -111,172 +114,162 @@ mirror_of(const tensor *t)
     return same ? 1 : opposite ? -1 : 0;
 }
 
-/* Γ[r; θ, θ] */
-static void
-add_linear(const tensor *t, qdot_text *out, const qdot_text *indices)
+/* The index as text of a style. */
+static qdot_status
+print_index(const tensor *t, const place *p, qdot_style style, qdot_text *out)
 {
-    qdot_text_add(out, t->letter->letter);
-    qdot_text_char(out, '[');
-    for (uint32_t k = 0; k < t->rank; k++) {
-        qdot_text_add(out, k == 0 ? "" : k == t->letter->upper ? "; " : ", ");
-        qdot_text_add(out, qdot_text_str(&indices[k]));
+    if (p->coordinate != QDOT_NIL)
+        return qdot_print(t->session->pool, p->coordinate, style, out);
+    qdot_text_char(out, p->letter);
+    return QDOT_OK;
+}
+
+/* Γ[r; θ, θ] */
+static qdot_status
+add_linear(tensor *t, const place *indices)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    qdot_text_add(&text, t->letter->letter);
+    for (uint32_t k = 0; k < t->rank && status == QDOT_OK; k++) {
+        qdot_text_add(&text, k == 0 ? "[" : k == t->letter->upper ? "; " : ", ");
+        status = print_index(t, &indices[k], QDOT_UNICODE, &text);
     }
-    qdot_text_char(out, ']');
+    qdot_text_char(&text, ']');
+    if (status == QDOT_OK)
+        qdot_formula_add_text(&t->sheet.formula, t->sheet.at, QDOT_TEXT_WORDS, qdot_text_str(&text), text.n);
+    t->sheet.formula.failed = t->sheet.formula.failed || text.failed;
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* Indices [from, to) in a row of the parent. */
+static qdot_status
+add_indices(tensor *t, qdot_formula_id parent, const place *indices, uint32_t from, uint32_t to)
+{
+    const qdot_formula_id outer = t->sheet.at;
+
+    t->sheet.at = qdot_formula_add(&t->sheet.formula, parent, QDOT_FORMULA_ROW, 0, 0);
+    for (uint32_t k = from; k < to; k++) {
+        if (k > from)
+            qdot_sheet_sign(&t->sheet, QDOT_SIGN_BLANK);
+        if (indices[k].coordinate != QDOT_NIL)
+            QDOT_TRY(qdot_sheet_expr(&t->sheet, indices[k].coordinate));
+        else
+            qdot_formula_add_text(&t->sheet.formula, t->sheet.at, QDOT_TEXT_NAME, &indices[k].letter, 1);
+    }
+    t->sheet.at = outer;
+    return QDOT_OK;
 }
 
 /* The letter with its indices above and below. */
-static void
-add_raised(const tensor *t, qdot_text *out, const qdot_text *indices)
+static qdot_status
+add_raised(tensor *t, const place *indices)
 {
-    const bool latex = t->session->style == QDOT_LATEX;
     const uint32_t upper = t->letter->upper;
+    const qdot_formula_id node = qdot_formula_add(&t->sheet.formula, t->sheet.at,
+                                                  upper > 0 ? QDOT_FORMULA_TENSOR : QDOT_FORMULA_INDEX, 0, 0);
 
-    qdot_text_format(out,
-                     latex   ? "%s"
-                     : upper ? "<msubsup><mi>%s</mi><mrow>"
-                             : "<msub><mi>%s</mi><mrow>",
-                     latex ? t->letter->latex : t->letter->letter);
-    if (latex && upper)
-        qdot_text_format(out, "^{%s}{}", qdot_text_str(&indices[0]));
-    qdot_text_add(out, latex ? "_{" : "");
-    for (uint32_t k = upper; k < t->rank; k++) {
-        qdot_text_add(out, latex && k > upper ? " " : "");
-        qdot_text_add(out, qdot_text_str(&indices[k]));
-    }
-    qdot_text_add(out, latex ? "}" : "</mrow>");
-    if (!latex && upper)
-        qdot_text_format(out, "<mrow>%s</mrow>", qdot_text_str(&indices[0]));
-    qdot_text_add(out, latex ? "" : upper ? "</msubsup>" : "</msub>");
+    qdot_formula_add_text(&t->sheet.formula, node, QDOT_TEXT_NAME, t->letter->letter, strlen(t->letter->letter));
+    if (upper > 0)
+        QDOT_TRY(add_indices(t, node, indices, 0, upper));
+    return add_indices(t, node, indices, upper, t->rank);
 }
 
 /* The name that was typed, with the indices: christoffel(R)[r, theta, theta]. */
 static qdot_status
-add_typed(const tensor *t, qdot_text *out, const qdot_text *indices)
+add_typed(tensor *t, const place *indices)
 {
     qdot_text typed = {0};
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
     qdot_text_add(&typed, t->name);
-    for (uint32_t k = 0; k < t->rank; k++)
-        qdot_text_format(&typed, "%s%s", k == 0 ? "[" : ", ", qdot_text_str(&indices[k]));
+    for (uint32_t k = 0; k < t->rank && status == QDOT_OK; k++) {
+        qdot_text_add(&typed, k == 0 ? "[" : ", ");
+        status = print_index(t, &indices[k], QDOT_PLAIN, &typed);
+    }
     qdot_text_char(&typed, ']');
-    status = qdot_text_status(&typed);
     if (status == QDOT_OK)
-        status = qdot_formula_name(t->session, qdot_text_str(&typed), out);
+        status = qdot_text_status(&typed);
+    if (status == QDOT_OK)
+        status = qdot_sheet_name(&t->sheet, qdot_text_str(&typed), 0);
     qdot_text_clear(&typed);
     return status;
 }
 
-/* A component's name; indices [rank] as they are written in it. */
+/* A component's name. */
 static qdot_status
-component_add_name(const tensor *t, qdot_text *out, const qdot_text *indices)
+component_add_name(tensor *t, const place *indices)
 {
-    const bool tags = t->session->style == QDOT_MATHML;
-
-    if (t->letter == NULL)
-        return add_typed(t, out, indices);
-    if (!t->linear) {
-        add_raised(t, out, indices);
-        return QDOT_OK;
-    }
-    qdot_text_add(out, tags ? "<mtext>" : "");
-    add_linear(t, out, indices);
-    qdot_text_add(out, tags ? "</mtext>" : "");
-    return QDOT_OK;
-}
-
-/* The coordinates at these indices, in the style of the name that they stand in. */
-static qdot_status
-print_indices(const tensor *t, const uint32_t *at, qdot_text *indices)
-{
-    const qdot_style style = t->letter == NULL ? QDOT_PLAIN
-                             : t->linear && t->session->style == QDOT_MATHML
-                                 ? QDOT_UNICODE
-                                 : t->session->style;
-
-    for (uint32_t k = 0; k < t->rank; k++) {
-        qdot_text_truncate(&indices[k], 0);
-        QDOT_TRY(qdot_print(t->session->pool,
-                            qdot_expr_arg(t->session->pool, t->over, at[k]), style,
-                            &indices[k]));
-        QDOT_TRY(qdot_text_status(&indices[k]));
-    }
-    return QDOT_OK;
+    return t->letter == NULL ? add_typed(t, indices) : t->linear ? add_linear(t, indices) : add_raised(t, indices);
 }
 
 static qdot_status
-add_component(tensor *t, const uint32_t *at, qdot_expr value, qdot_text *indices)
+add_component(tensor *t, const uint32_t *at, qdot_expr value)
 {
-    qdot_session *s = t->session;
+    place indices[MOST_RANK] = {0};
 
-    QDOT_TRY(print_indices(t, at, indices));
-    qdot_formula_bracket(s, true, &t->text);
-    QDOT_TRY(component_add_name(t, &t->text, indices));
-    qdot_text_add(&t->text, qdot_formula_equals(s));
-    QDOT_TRY(qdot_formula_print(s, value, s->style, &t->text));
-    qdot_formula_bracket(s, false, &t->text);
-    qdot_text_char(&t->text, '\n');
-    return qdot_text_status(&t->text);
+    for (uint32_t k = 0; k < t->rank; k++)
+        indices[k].coordinate = qdot_expr_arg(t->session->pool, t->over, at[k]);
+    qdot_sheet_open(&t->sheet);
+    QDOT_TRY(component_add_name(t, indices));
+    qdot_sheet_sign(&t->sheet, QDOT_SIGN_EQUALS);
+    QDOT_TRY(qdot_sheet_expr(&t->sheet, value));
+    qdot_sheet_close(&t->sheet);
+    qdot_sheet_words(&t->sheet, "\n");
+    return QDOT_OK;
 }
 
 /* `Γ[i; k, j] = Γ[i; j, k]`, by letters for the indices. */
 static qdot_status
-add_mirror(tensor *t, qdot_text *indices)
+add_mirror(tensor *t)
 {
     const char *const words = "ijkl";
-    const bool tags = t->session->style == QDOT_MATHML && t->letter != NULL && !t->linear;
-    qdot_text *out = &t->text;
 
-    qdot_formula_bracket(t->session, true, out);
+    qdot_sheet_open(&t->sheet);
     for (int side = 0; side < 2; side++) {
-        for (uint32_t k = 0; k < t->rank; k++) {
-            const uint32_t turned =
-                side == 0 && k + 2 >= t->rank ? 2 * t->rank - 3 - k : k;
+        place indices[MOST_RANK] = {0};
 
-            qdot_text_truncate(&indices[k], 0);
-            qdot_text_format(&indices[k], tags ? "<mi>%c</mi>" : "%c", words[turned]);
-        }
-        if (side == 1) {
-            qdot_text_add(out, qdot_formula_equals(t->session));
-            qdot_text_add(out, t->mirror > 0                       ? ""
-                               : t->session->style == QDOT_MATHML  ? "<mo>−</mo>"
-                               : t->session->style == QDOT_UNICODE ? "−"
-                                                                   : "-");
-        }
-        QDOT_TRY(component_add_name(t, out, indices));
+        for (uint32_t k = 0; k < t->rank; k++)
+            indices[k].letter = words[side == 0 && k + 2 >= t->rank ? 2 * t->rank - 3 - k : k];
+        if (side == 1)
+            qdot_sheet_sign(&t->sheet, QDOT_SIGN_EQUALS);
+        if (side == 1 && t->mirror < 0)
+            qdot_sheet_sign(&t->sheet, QDOT_SIGN_NEGATIVE);
+        QDOT_TRY(component_add_name(t, indices));
     }
-    qdot_formula_bracket(t->session, false, out);
+    qdot_sheet_close(&t->sheet);
     return QDOT_OK;
 }
 
 /* What the lines above leave out. */
 static qdot_status
-add_rest(tensor *t, bool none, qdot_text *indices)
+add_rest(tensor *t, bool none)
 {
+    qdot_sheet *s = &t->sheet;
     const bool comment = t->session->style == QDOT_PLAIN || t->session->flat;
 
     if (!none && !t->zeros && t->mirror == 0)
         return QDOT_OK;
-    qdot_text_add(&t->text, comment ? "# " : "");
+    qdot_sheet_words(s, comment ? "# " : "");
     if (none) {
-        qdot_formula_bracket(t->session, true, &t->text);
-        QDOT_TRY(qdot_formula_name(t->session, t->name, &t->text));
-        qdot_formula_bracket(t->session, false, &t->text);
-        qdot_text_add(&t->text, ": all components are 0\n");
+        qdot_sheet_open(s);
+        QDOT_TRY(qdot_sheet_name(s, t->name, 0));
+        qdot_sheet_close(s);
+        qdot_sheet_words(s, ": all components are 0\n");
         return QDOT_OK;
     }
     if (t->mirror != 0 && t->letter == NULL)
-        qdot_text_format(&t->text, "%s in the last two indices",
-                         t->mirror > 0 ? "symmetric" : "antisymmetric");
+        qdot_sheet_format(s, "%s in the last two indices", t->mirror > 0 ? "symmetric" : "antisymmetric");
     else if (t->mirror != 0)
-        QDOT_TRY(add_mirror(t, indices));
-    qdot_text_format(&t->text, "%s%s\n", t->mirror != 0 && t->zeros ? "; " : "",
-                     t->zeros ? "all others are 0" : "");
-    return qdot_text_status(&t->text);
+        QDOT_TRY(add_mirror(t));
+    qdot_sheet_format(s, "%s%s\n", t->mirror != 0 && t->zeros ? "; " : "", t->zeros ? "all others are 0" : "");
+    return QDOT_OK;
 }
 
 static qdot_status
-add_all(tensor *t, qdot_text *indices)
+add_all(tensor *t)
 {
     uint32_t at[MOST_RANK] = {0};
     bool none = true;
@@ -291,10 +284,10 @@ add_all(tensor *t, qdot_text *indices)
             continue;
         }
         none = false;
-        QDOT_TRY(add_component(t, at, value, indices));
+        QDOT_TRY(add_component(t, at, value));
     } while (indices_step(t, at));
     QDOT_TRY(qdot_pool_check(t->session->pool));
-    return add_rest(t, none, indices);
+    return add_rest(t, none);
 }
 
 qdot_status
@@ -302,13 +295,12 @@ qdot_components_answer(qdot_session *session, const char *name, qdot_expr value,
                        qdot_expr over)
 {
     const bool typed = session->style == QDOT_PLAIN || session->flat;
-    const qdot_sheet sheet = qdot_sheet_begin(session);
-    qdot_text indices[MOST_RANK] = {{0}};
     qdot_status status;
     tensor t = {.session = session,
                 .name = name,
                 .letter = typed ? NULL : letter_of(name),
-                .linear = sheet.laid_out || session->style == QDOT_UNICODE,
+                .sheet = qdot_sheet_begin(session),
+                .linear = session->style == QDOT_UNICODE,
                 .value = value,
                 .over = over,
                 .rank = rank_of(session->pool, value),
@@ -317,8 +309,6 @@ qdot_components_answer(qdot_session *session, const char *name, qdot_expr value,
     t.mirror = mirror_of(&t);
     status = qdot_pool_check(session->pool);
     if (status == QDOT_OK)
-        status = add_all(&t, indices);
-    for (uint32_t k = 0; k < MOST_RANK; k++)
-        qdot_text_clear(&indices[k]);
-    return qdot_sheet_end(session, &sheet, name, status, &t.text);
+        status = add_all(&t);
+    return qdot_sheet_end(&t.sheet, name, status);
 }

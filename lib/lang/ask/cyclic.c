@@ -1,6 +1,5 @@
 /* cyclic.c -- `cyclic`: the coordinates absent from L, each with its momentum. */
 #include "lang/answer/answer.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/syntax/record.h"
 
@@ -18,25 +17,25 @@ QDOT_STATEMENT(cyclic) = {
 
 /* `theta: p[theta] = ... is conserved`, or with its rate. */
 static qdot_status
-print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
+print_cyclic(qdot_sheet *sheet, const qdot_cyclic *one)
 {
-    qdot_pool *pool = session->pool;
+    qdot_pool *pool = sheet->session->pool;
     qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
 
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_formula_marked(session, one->coordinate, text));
-    qdot_text_add(text, ": ");
-    qdot_formula_bracket(session, true, text);
-    QDOT_TRY(qdot_print(pool, p, session->style, text));
-    qdot_text_add(text, qdot_formula_equals(session));
-    QDOT_TRY(qdot_formula_print(session, one->momentum, session->style, text));
-    qdot_formula_bracket(session, false, text);
+    QDOT_TRY(qdot_sheet_formula(sheet, one->coordinate));
+    qdot_sheet_words(sheet, ": ");
+    qdot_sheet_open(sheet);
+    QDOT_TRY(qdot_sheet_expr(sheet, p));
+    qdot_sheet_sign(sheet, QDOT_SIGN_EQUALS);
+    QDOT_TRY(qdot_sheet_expr(sheet, one->momentum));
+    qdot_sheet_close(sheet);
     if (one->rate == QDOT_NIL) {
-        qdot_text_add(text, " is conserved");
+        qdot_sheet_words(sheet, " is conserved");
         return QDOT_OK;
     }
-    qdot_text_add(text, " changes at the rate ");
-    return qdot_formula_marked(session, one->rate, text);
+    qdot_sheet_words(sheet, " changes at the rate ");
+    return qdot_sheet_formula(sheet, one->rate);
 }
 
 /* With --json the momenta are values too: `p[theta] = ...` by the name of
@@ -64,7 +63,6 @@ cyclic_list(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_status status = QDOT_OK;
-    qdot_text text = {0};
     qdot_cyclic *list;
     qdot_sheet sheet;
     size_t n;
@@ -72,13 +70,13 @@ cyclic_list(qdot_record *r)
     QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
     sheet = qdot_sheet_begin(session);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i > 0 ? "\n" : "");
-        status = print_cyclic(session, &list[i], &text);
+        qdot_sheet_words(&sheet, i > 0 ? "\n" : "");
+        status = print_cyclic(&sheet, &list[i]);
         if (status == QDOT_OK && session->json)
             status = answer_cyclic(session, &list[i]);
     }
     if (n == 0)
-        qdot_text_add(&text, "no coordinate is cyclic");
+        qdot_sheet_words(&sheet, "no coordinate is cyclic");
     qdot_free(list);
-    return qdot_sheet_end(session, &sheet, "cyclic", status, &text);
+    return qdot_sheet_end(&sheet, "cyclic", status);
 }

@@ -4,7 +4,7 @@
 #include <inttypes.h>
 
 #include "expr/walk.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/expression.h"
 #include "lang/language/function.h"
 
 /* The value that `set` or `param` gave a symbol; nil: none. */
@@ -23,7 +23,7 @@ print_value(qdot_session *session, qdot_expr value, qdot_text *out)
 {
     uint64_t size = qdot_expr_size(session->pool, value);
 
-    if (size <= QDOT_FORMULA_OPERATIONS)
+    if (size <= QDOT_EXPRESSION_OPERATIONS)
         return qdot_print(session->pool, value, QDOT_PLAIN, out);
     qdot_text_format(out, "... # %" PRIu64 " operations", size);
     return QDOT_OK;

@@ -4,7 +4,6 @@
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/notation.h"
 #include "lang/answer/sheet.h"
 #include "lang/syntax/record.h"
@@ -27,32 +26,43 @@ QDOT_STATEMENT(derive) = {
 typedef struct {
     qdot_session *session;
     qdot_sheet sheet;
-    qdot_text text;
     int step;
 } derivation;
 
-/* The style of headings and words: on a terminal formulas stand in their line. */
-static qdot_style
-words_style(const derivation *d)
+/* Whether formulas of words stand in their line. */
+static bool
+derivation_is_linear(const derivation *d)
 {
-    return d->sheet.laid_out ? QDOT_UNICODE : d->session->style;
+    return d->sheet.form == QDOT_SHEET_DRAWN || d->sheet.notation != QDOT_NOTATION_DRAWN;
 }
 
-/* `3. Title: formula`, the formula as qdot_notation reads it; NULL: none. */
+/* How they are written there. */
+static qdot_notation_kind
+line_notation(const derivation *d)
+{
+    return d->sheet.notation == QDOT_NOTATION_SCRIPT ? QDOT_NOTATION_SCRIPT : QDOT_NOTATION_LINE;
+}
+
+/* `3. Title: formula`, the formula as qdot_notation_add reads it; NULL: none. */
 static void
 heading(derivation *d, const char *title, const char *formula)
 {
-    qdot_text_format(&d->text, "%s%d. %s", d->step > 0 ? "\n" : "", d->step + 1, title);
+    qdot_sheet *s = &d->sheet;
+    qdot_text line = {0};
+
+    qdot_sheet_format(s, "%s%d. %s%s", d->step > 0 ? "\n" : "", d->step + 1, title, formula != NULL ? ": " : "");
     d->step++;
-    if (formula != NULL) {
-        qdot_text_add(&d->text, ": ");
-        if (!d->sheet.laid_out)
-            qdot_formula_bracket(d->session, true, &d->text);
-        qdot_notation(formula, words_style(d), &d->text);
-        if (!d->sheet.laid_out)
-            qdot_formula_bracket(d->session, false, &d->text);
+    if (formula != NULL && derivation_is_linear(d)) {
+        qdot_notation_print(formula, line_notation(d), &line);
+        qdot_sheet_words(s, qdot_text_str(&line));
+    } else if (formula != NULL) {
+        qdot_sheet_open(s);
+        qdot_notation_add(&s->formula, s->at, formula, QDOT_NOTATION_DRAWN);
+        qdot_sheet_close(s);
     }
-    qdot_text_char(&d->text, '\n');
+    qdot_sheet_words(s, "\n");
+    s->formula.failed = s->formula.failed || line.failed;
+    qdot_text_clear(&line);
 }
 
 /* What a line is of, before its formula: `    potential energy of gravity on bob: `; the last two
@@ -60,95 +70,88 @@ heading(derivation *d, const char *title, const char *formula)
 static void
 derivation_label(derivation *d, const char *what, const char *of, const char *joined, const char *name)
 {
-    qdot_text_format(&d->text, "    %s%s%s%s%s: ", what, of != NULL ? " of " : "",
-                     of != NULL ? of : "", name != NULL ? joined : "", name != NULL ? name : "");
+    qdot_sheet_format(&d->sheet, "    %s%s%s%s%s: ", what, of != NULL ? " of " : "", of != NULL ? of : "",
+                      name != NULL ? joined : "", name != NULL ? name : "");
 }
 
 /* ` = value`, the end of a formula and of its line. */
 static qdot_status
 equals(derivation *d, qdot_expr value)
 {
-    qdot_text_add(&d->text, qdot_formula_equals(d->session));
-    QDOT_TRY(qdot_formula_print(d->session, value, d->session->style, &d->text));
-    qdot_formula_bracket(d->session, false, &d->text);
-    qdot_text_char(&d->text, '\n');
+    qdot_sheet_sign(&d->sheet, QDOT_SIGN_EQUALS);
+    QDOT_TRY(qdot_sheet_expr(&d->sheet, value));
+    qdot_sheet_close(&d->sheet);
+    qdot_sheet_words(&d->sheet, "\n");
     return QDOT_OK;
 }
 
-/* A symbol of books with what it is of: r[bob], in LaTeX and on a page r with a subscript. */
+/* A symbol of books with what it is of: r[bob], drawn r with a subscript. */
 typedef struct {
-    const char *plain, *letter; /* the letter as qdot_notation reads it */
-    const char *of;             /* a label or the name of a coordinate; NULL */
-    qdot_expr coordinate;       /* nil: `of` is a label */
+    const char *letter;   /* as qdot_notation_add reads it */
+    const char *of;       /* a label or the name of a coordinate; NULL */
+    qdot_expr coordinate; /* nil: `of` is a label */
     bool square;
 } symbol;
 
+/* In a line: letter, index in brackets, square. */
 static qdot_status
-add_index(derivation *d, const symbol *x, qdot_style style, qdot_text *out)
+add_linear(derivation *d, const symbol *x)
 {
-    if (x->coordinate != QDOT_NIL)
-        return qdot_print(d->session->pool, x->coordinate, style, out);
-    qdot_text_add(out, style == QDOT_LATEX    ? "\\mathrm{"
-                       : style == QDOT_MATHML ? "<mtext>"
-                                              : "");
-    for (const char *c = x->of; *c != '\0'; c++) {
-        qdot_text_add(out, style == QDOT_LATEX && *c == '_' ? "\\" : "");
-        qdot_text_char(out, *c);
+    const bool script = line_notation(d) == QDOT_NOTATION_SCRIPT;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    qdot_notation_print(x->letter, line_notation(d), &text);
+    if (x->of != NULL) {
+        qdot_text_char(&text, '[');
+        if (x->coordinate != QDOT_NIL)
+            status = qdot_print(d->session->pool, x->coordinate, script ? QDOT_PLAIN : QDOT_UNICODE, &text);
+        else
+            qdot_text_add(&text, x->of);
+        qdot_text_char(&text, ']');
     }
-    qdot_text_add(out, style == QDOT_LATEX ? "}" : style == QDOT_MATHML ? "</mtext>" : "");
-    return QDOT_OK;
+    qdot_text_add(&text, !x->square ? "" : script ? "^2" : "²");
+    if (status == QDOT_OK)
+        qdot_formula_add_text(&d->sheet.formula, d->sheet.at, QDOT_TEXT_WORDS, qdot_text_str(&text), text.n);
+    d->sheet.formula.failed = d->sheet.formula.failed || text.failed;
+    qdot_text_clear(&text);
+    return status;
 }
 
-/* On a terminal and in a line: letter, index in brackets, square. */
+/* With the index below and the square above. */
 static qdot_status
-add_linear(derivation *d, const symbol *x, qdot_text *out)
+add_drawn(derivation *d, const symbol *x)
 {
-    const qdot_style style = words_style(d);
+    qdot_formula *f = &d->sheet.formula;
+    const qdot_formula_id outer = d->sheet.at,
+                          power = x->square ? qdot_formula_add(f, outer, QDOT_FORMULA_POWER, 0, 0) : outer;
+    qdot_formula_id index, row;
+    qdot_status status = QDOT_OK;
 
-    if (style == QDOT_PLAIN)
-        qdot_text_add(out, x->plain);
-    else
-        qdot_notation(x->letter, style, out);
-    if (x->of != NULL) {
-        qdot_text_char(out, '[');
-        QDOT_TRY(add_index(d, x, style, out));
-        qdot_text_char(out, ']');
-    }
-    qdot_text_add(out, !x->square ? "" : style == QDOT_PLAIN ? "^2" : "²");
-    return QDOT_OK;
-}
-
-static qdot_status
-add_symbol(derivation *d, const symbol *x, qdot_text *out)
-{
-    const bool latex = d->session->style == QDOT_LATEX;
-    const qdot_style style = d->session->style;
-
-    if (d->sheet.laid_out || (!latex && style != QDOT_MATHML)) {
-        qdot_text_add(out, d->sheet.laid_out ? "<mtext>" : "");
-        QDOT_TRY(add_linear(d, x, out));
-        qdot_text_add(out, d->sheet.laid_out ? "</mtext>" : "");
-        return QDOT_OK;
-    }
-    qdot_text_add(out, !latex && x->square ? "<msup>" : "");
-    qdot_text_add(out, !latex && x->of != NULL ? "<msub><mrow>" : "");
-    qdot_notation(x->letter, style, out);
-    if (x->of != NULL) {
-        qdot_text_add(out, latex ? "_{" : "</mrow><mrow>");
-        QDOT_TRY(add_index(d, x, style, out));
-        qdot_text_add(out, latex ? "}" : "</mrow></msub>");
+    if (x->of == NULL) {
+        qdot_notation_add(f, power, x->letter, QDOT_NOTATION_DRAWN);
+    } else {
+        index = qdot_formula_add(f, power, QDOT_FORMULA_INDEX, 0, 0);
+        row = qdot_formula_add(f, index, QDOT_FORMULA_ROW, 0, 0);
+        qdot_notation_add(f, row, x->letter, QDOT_NOTATION_DRAWN);
+        d->sheet.at = qdot_formula_add(f, index, QDOT_FORMULA_ROW, 0, 0);
+        if (x->coordinate != QDOT_NIL)
+            status = qdot_sheet_expr(&d->sheet, x->coordinate);
+        else
+            qdot_formula_add_text(f, d->sheet.at, QDOT_TEXT_LABEL, x->of, strlen(x->of));
     }
     if (x->square)
-        qdot_text_add(out, latex ? "^{2}" : "<mn>2</mn></msup>");
-    return QDOT_OK;
+        qdot_formula_add_text(f, power, QDOT_TEXT_NUMBER, "2", 1);
+    d->sheet.at = outer;
+    return status;
 }
 
 /* What is not behind a label stands behind four blanks. */
 static void
 indent(derivation *d)
 {
-    if (d->text.n == 0 || d->text.at[d->text.n - 1] == '\n')
-        qdot_text_add(&d->text, "    ");
+    if (qdot_sheet_at_begin(&d->sheet))
+        qdot_sheet_words(&d->sheet, "    ");
 }
 
 /* `symbol = value`. */
@@ -157,46 +160,46 @@ is(derivation *d, symbol x, qdot_expr value)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
     indent(d);
-    qdot_formula_bracket(d->session, true, &d->text);
-    QDOT_TRY(add_symbol(d, &x, &d->text));
+    qdot_sheet_open(&d->sheet);
+    QDOT_TRY(derivation_is_linear(d) ? add_linear(d, &x) : add_drawn(d, &x));
     return equals(d, value);
 }
 
 static symbol
 bare(const char *letter)
 {
-    return (symbol){.plain = letter, .letter = letter};
+    return (symbol){.letter = letter};
 }
 
-/* d/dt dF/dq' (total), dF/dq' or, not `fast`, dF/dq, as a fraction where the style draws. */
+/* d/dt dF/dq' (total), dF/dq' or, not `fast`, dF/dq, as a fraction where that is drawn. */
 static qdot_status
 slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
 {
     qdot_session *s = d->session;
-    const qdot_style style = s->style;
+    qdot_sheet *sheet = &d->sheet;
+    qdot_formula *f = &sheet->formula;
     qdot_expr q = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i], fast);
-    const char *const partial = style == QDOT_PLAIN    ? "d"
-                                : style == QDOT_LATEX  ? "\\partial "
-                                : style == QDOT_MATHML ? "<mo>∂</mo>"
-                                                       : "∂";
-    qdot_text up = {0}, down = {0};
-    qdot_status status;
+    qdot_formula_id outer, fraction;
 
     QDOT_TRY(qdot_pool_check(s->pool));
-    qdot_text_add(&d->text, "    ");
-    qdot_formula_bracket(s, true, &d->text);
+    qdot_sheet_words(sheet, "    ");
+    qdot_sheet_open(sheet);
+    outer = sheet->at;
     if (total) {
-        qdot_notation("d/dt", style, &d->text);
-        qdot_text_add(&d->text, style == QDOT_MATHML ? "<mo>&#x2062;</mo>" : " ");
+        qdot_notation_add(f, outer, "d/dt", sheet->notation);
+        qdot_sheet_sign(sheet, QDOT_SIGN_BESIDE);
     }
-    qdot_text_format(&up, style == QDOT_MATHML ? "%s<mi>%c</mi>" : "%s%c", partial, F);
-    qdot_text_add(&down, partial);
-    status = qdot_print(s->pool, q, style, &down);
-    qdot_notation_over(qdot_text_str(&up), qdot_text_str(&down), style, &d->text);
-    d->text.failed = d->text.failed || up.failed || down.failed;
-    qdot_text_clear(&up);
-    qdot_text_clear(&down);
-    QDOT_TRY(status);
+    fraction = qdot_formula_add(f, outer, QDOT_FORMULA_FRACTION, 0, 0);
+    for (int side = 0; side < 2; side++) {
+        sheet->at = qdot_formula_add(f, fraction, QDOT_FORMULA_ROW, 0, 0);
+        qdot_sheet_sign(sheet, QDOT_SIGN_PARTIAL);
+        qdot_sheet_sign(sheet, QDOT_SIGN_BLANK);
+        if (side == 0)
+            qdot_formula_add_text(f, sheet->at, QDOT_TEXT_NAME, &F, 1);
+        else
+            QDOT_TRY(qdot_sheet_expr(sheet, q));
+    }
+    sheet->at = outer;
     return equals(d, value);
 }
 
@@ -206,8 +209,8 @@ relation(derivation *d, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
     indent(d);
-    QDOT_TRY(qdot_formula_marked(d->session, e, &d->text));
-    qdot_text_char(&d->text, '\n');
+    QDOT_TRY(qdot_sheet_formula(&d->sheet, e));
+    qdot_sheet_words(&d->sheet, "\n");
     return QDOT_OK;
 }
 
@@ -228,7 +231,7 @@ static qdot_status
 spin(derivation *d, const qdot_body *b)
 {
     qdot_scene *s = d->session->scene;
-    const symbol omega = {.plain = "omega", .letter = "omega", .of = b->name};
+    const symbol omega = {.letter = "omega", .of = b->name};
     qdot_expr w = qdot_scene_spin(s, b->name);
 
     if (b->angle != QDOT_NIL)
@@ -246,8 +249,8 @@ derivation_turning(derivation *d, const qdot_body *b)
     if (b->angle == QDOT_NIL || qdot_expr_kind(d->session->pool, b->angle) == QDOT_NUM)
         return QDOT_OK;
     derivation_label(d, "angle", b->name, NULL, NULL);
-    QDOT_TRY(qdot_formula_marked(d->session, b->angle, &d->text));
-    qdot_text_char(&d->text, '\n');
+    QDOT_TRY(qdot_sheet_formula(&d->sheet, b->angle));
+    qdot_sheet_words(&d->sheet, "\n");
     return QDOT_OK;
 }
 
@@ -281,10 +284,7 @@ kinematics(derivation *d)
             const qdot_body *b = particle ? NULL : &s->bodies.at[i - s->particles.n];
             const char *name = particle ? s->particles.at[i].name : b->name;
             qdot_expr r = particle ? s->particles.at[i].position : b->position;
-            symbol x = {.plain = step == 0 ? "r" : "v",
-                        .letter = step == 0 ? "r" : "v",
-                        .of = name,
-                        .square = step == 2};
+            symbol x = {.letter = step == 0 ? "r" : "v", .of = name, .square = step == 2};
 
             QDOT_TRY(is(d, x,
                         step == 0   ? r
@@ -316,7 +316,7 @@ kinetic(derivation *d)
             : plane        ? "T = 1/2 sum m v^2 + 1/2 sum I omega^2"
                            : "T = 1/2 sum m v^2");
     for (size_t k = 0; n > 1 && qdot_mech_kinetic_part(s, k, &part); k++) {
-        const symbol T = {.plain = "T", .letter = "T", .of = part.name};
+        const symbol T = {.letter = "T", .of = part.name};
 
         derivation_label(d, part.kind, part.name, NULL, NULL);
         QDOT_TRY(is(d, T, part.value));
@@ -350,7 +350,7 @@ potential(derivation *d)
         else
             derivation_label(d, "potential energy", part.kind,
                              strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
-        QDOT_TRY(is(d, (symbol){.plain = "V", .letter = "V", .of = number}, part.value));
+        QDOT_TRY(is(d, (symbol){.letter = "V", .of = number}, part.value));
     }
     if (several)
         derivation_label(d, "together", NULL, NULL, NULL);
@@ -375,8 +375,7 @@ energies(derivation *d)
 static symbol
 of_coordinate(const derivation *d, const char *letter, qdot_expr q)
 {
-    return (symbol){.plain = letter,
-                    .letter = letter,
+    return (symbol){.letter = letter,
                     .of = qdot_expr_symbol(d->session->pool, q)->name,
                     .coordinate = q};
 }
@@ -561,7 +560,7 @@ right_sides(derivation *d)
         QDOT_TRY(virtual_work(d));
         QDOT_TRY(forces_heading(d));
         if (no_forces(s))
-            qdot_text_add(&d->text, "    none\n");
+            qdot_sheet_words(&d->sheet, "    none\n");
         for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++) {
             qdot_expr q = s->coordinates.at[i];
 
@@ -603,7 +602,7 @@ equations(derivation *d)
     for (size_t i = 0; i < s->coordinates.n; i++)
         QDOT_TRY(relation(d, qdot_mech_equation(s, s->coordinates.at[i])));
     if (s->constraints.n > 0)
-        qdot_text_format(&d->text,
+        qdot_sheet_format(&d->sheet,
                          "    with the constraints %zu equations for %zu coordinate%s and "
                          "%zu multiplier%s\n",
                          s->coordinates.n + s->constraints.n, s->coordinates.n,
@@ -659,5 +658,5 @@ derive_print(qdot_record *r)
         status = equations(&d);
     if (status == QDOT_OK)
         status = conserved_momenta(&d);
-    return qdot_sheet_end(session, &d.sheet, "derive", status, &d.text);
+    return qdot_sheet_end(&d.sheet, "derive", status);
 }

@@ -5,7 +5,6 @@
 #include "base/number-text.h"
 #include "expr/calculus.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
@@ -46,24 +45,13 @@ as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
     return qdot_rel(pool, op, qdot_fun1(pool, QDOT_ABS, b), sum);
 }
 
-static const char *
-greater(qdot_style style, bool or_equal)
+/* The sign of a bound, < or <=, the other way where it is turned. */
+static qdot_formula_sign
+bound_sign(const qdot_pool *pool, qdot_expr relation, bool turned)
 {
-    if (style == QDOT_MATHML)
-        return or_equal ? "<mo>&#8805;</mo>" : "<mo>&gt;</mo>";
-    if (!or_equal)
-        return " > ";
-    return style == QDOT_LATEX ? " \\ge " : style == QDOT_UNICODE ? " ≥ " : " >= ";
-}
+    const bool or_equal = qdot_expr_node(pool, relation)->op == QDOT_LE;
 
-static const char *
-less(qdot_style style, bool or_equal)
-{
-    if (style == QDOT_MATHML)
-        return or_equal ? "<mo>&#8804;</mo>" : "<mo>&lt;</mo>";
-    if (!or_equal)
-        return " < ";
-    return style == QDOT_LATEX ? " \\le " : style == QDOT_UNICODE ? " ≤ " : " <= ";
+    return turned ? or_equal ? QDOT_SIGN_AT_LEAST : QDOT_SIGN_GREATER : or_equal ? QDOT_SIGN_AT_MOST : QDOT_SIGN_LESS;
 }
 
 static bool
@@ -80,10 +68,9 @@ is_coordinate(const qdot_pool *pool, qdot_expr e)
 
 /* lo < u < hi of lo < u and u < hi (other: nil where there is one end alone), u a coordinate; false: it is none. */
 static bool
-print_interval(qdot_session *session, qdot_expr one, qdot_expr other, bool *both, qdot_text *out,
-               qdot_status *status)
+print_interval(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qdot_status *status)
 {
-    qdot_pool *pool = session->pool;
+    qdot_pool *pool = sheet->session->pool;
     qdot_expr left, right;
 
     *both = false;
@@ -98,26 +85,26 @@ print_interval(qdot_session *session, qdot_expr one, qdot_expr other, bool *both
             !is_coordinate(pool, qdot_expr_arg(pool, other, 1));
     if (!*both && is_coordinate(pool, right)) /* u > lo */
         return false;
-    qdot_formula_bracket(session, true, out);
-    *status = qdot_print(pool, left, session->style, out);
+    qdot_sheet_open(sheet);
+    *status = qdot_sheet_expr(sheet, left);
     if (*both && *status == QDOT_OK) {
-        qdot_text_add(out, less(session->style, qdot_expr_node(pool, one)->op == QDOT_LE));
-        *status = qdot_print(pool, right, session->style, out);
+        qdot_sheet_sign(sheet, bound_sign(pool, one, false));
+        *status = qdot_sheet_expr(sheet, right);
         one = other;
         right = qdot_expr_arg(pool, one, 1);
     }
-    qdot_text_add(out, less(session->style, qdot_expr_node(pool, one)->op == QDOT_LE));
+    qdot_sheet_sign(sheet, bound_sign(pool, one, false));
     if (*status == QDOT_OK)
-        *status = qdot_print(pool, right, session->style, out);
-    qdot_formula_bracket(session, false, out);
+        *status = qdot_sheet_expr(sheet, right);
+    qdot_sheet_close(sheet);
     return true;
 }
 
 /* `a > b and c > d`; a relation reads with > as people say it, `g < 0`, and a range of a coordinate as one. */
 static qdot_status
-print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
+print_conditions(qdot_sheet *sheet, qdot_expr list)
 {
-    qdot_pool *pool = session->pool;
+    qdot_pool *pool = sheet->session->pool;
     uint32_t n = qdot_expr_count(pool, list);
 
     for (uint32_t i = 0; i < n; i++) {
@@ -126,8 +113,8 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
         qdot_status status = QDOT_OK;
         bool both;
 
-        qdot_text_add(out, i == 0 ? "" : " and ");
-        if (print_interval(session, one, next, &both, out, &status)) {
+        qdot_sheet_words(sheet, i == 0 ? "" : " and ");
+        if (print_interval(sheet, one, next, &both, &status)) {
             QDOT_TRY(status);
             i += both;
             continue;
@@ -140,20 +127,20 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
         }
         if (!is_bound(pool, one) ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
-            QDOT_TRY(qdot_formula_marked(session, one, out));
+            QDOT_TRY(qdot_sheet_formula(sheet, one));
             continue;
         }
-        qdot_formula_bracket(session, true, out);
-        QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 1), session->style, out));
-        qdot_text_add(out, greater(session->style, qdot_expr_node(pool, one)->op == QDOT_LE));
-        QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 0), session->style, out));
-        qdot_formula_bracket(session, false, out);
+        qdot_sheet_open(sheet);
+        QDOT_TRY(qdot_sheet_expr(sheet, qdot_expr_arg(pool, one, 1)));
+        qdot_sheet_sign(sheet, bound_sign(pool, one, true));
+        QDOT_TRY(qdot_sheet_expr(sheet, qdot_expr_arg(pool, one, 0)));
+        qdot_sheet_close(sheet);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out)
+print_stability(qdot_sheet *sheet, const qdot_equilibrium *e)
 {
     static const char *const words[] = {
         [QDOT_STABLE] = "stable",
@@ -163,36 +150,40 @@ print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out
     };
 
     if (e->numeric || e->numeric_range)
-        qdot_text_add(out, "numeric, ");
+        qdot_sheet_words(sheet, "numeric, ");
     if (e->exists != QDOT_NIL) {
-        qdot_text_add(out, "exists when ");
-        QDOT_TRY(print_conditions(session, e->exists, out));
-        qdot_text_add(out, ", ");
+        qdot_sheet_words(sheet, "exists when ");
+        QDOT_TRY(print_conditions(sheet, e->exists));
+        qdot_sheet_words(sheet, ", ");
     }
-    qdot_text_add(out, words[e->stability]);
+    qdot_sheet_words(sheet, words[e->stability]);
     if (e->stable_when != QDOT_NIL) {
-        qdot_text_add(out, " when ");
-        QDOT_TRY(print_conditions(session, e->stable_when, out));
+        qdot_sheet_words(sheet, " when ");
+        QDOT_TRY(print_conditions(sheet, e->stable_when));
     }
-    return qdot_text_status(out);
+    return QDOT_OK;
 }
 
 /* `theta = 0`; a number that was found as a decimal one. */
 static qdot_status
-print_equation(qdot_session *session, const qdot_equilibrium *e, uint32_t k,
-               qdot_text *out)
+print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
 {
+    qdot_session *session = sheet->session;
     qdot_expr one = qdot_expr_arg(session->pool, e->equations, k);
+    qdot_text number = {0};
     double value;
+    qdot_status status;
 
     if (!e->numeric)
-        return qdot_formula_marked(session, one, out);
+        return qdot_sheet_formula(sheet, one);
     QDOT_TRY(
         qdot_session_number(session, qdot_expr_arg(session->pool, one, 1), &value, NULL));
-    QDOT_TRY(qdot_formula_marked(session, qdot_expr_arg(session->pool, one, 0), out));
-    qdot_text_add(out, " = ");
-    qdot_number_text(out, value, 0);
-    return qdot_text_status(out);
+    QDOT_TRY(qdot_sheet_formula(sheet, qdot_expr_arg(session->pool, one, 0)));
+    qdot_number_text(&number, value, 0);
+    qdot_sheet_format(sheet, " = %s", qdot_text_str(&number));
+    status = qdot_text_status(&number);
+    qdot_text_clear(&number);
+    return status;
 }
 
 /* `equilibria[1]: theta = 0, stable when ...`; as JSON the equations, then a text. */
@@ -200,7 +191,6 @@ static qdot_status
 answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
 {
     char name[40];
-    qdot_text text = {0};
     qdot_status status = QDOT_OK;
     uint32_t n = qdot_expr_count(session->pool, e->equations);
     qdot_sheet sheet;
@@ -210,20 +200,20 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         QDOT_TRY(qdot_answer_expr(session, name, qdot_equilibria_value(session->pool, e)));
     sheet = qdot_sheet_begin(session);
     if (!session->json)
-        qdot_text_format(&text, "%s: ", name);
+        qdot_sheet_format(&sheet, "%s: ", name);
     for (uint32_t k = 0; k < n && !session->json && status == QDOT_OK; k++) {
-        status = print_equation(session, e, k, &text);
-        qdot_text_add(&text, ", ");
+        status = print_equation(&sheet, e, k);
+        qdot_sheet_words(&sheet, ", ");
     }
     if (e->range != QDOT_NIL && !session->json && status == QDOT_OK) {
-        status = print_conditions(session, e->range, &text);
-        qdot_text_add(&text, ", ");
+        status = print_conditions(&sheet, e->range);
+        qdot_sheet_words(&sheet, ", ");
     }
     if (n == 0 && e->range == QDOT_NIL && !session->json)
-        qdot_text_add(&text, "everywhere, "); /* or wherever it exists */
+        qdot_sheet_words(&sheet, "everywhere, "); /* or wherever it exists */
     if (status == QDOT_OK)
-        status = print_stability(session, e, &text);
-    return qdot_sheet_end(session, &sheet, name, status, &text);
+        status = print_stability(&sheet, e);
+    return qdot_sheet_end(&sheet, name, status);
 }
 
 /* Tell at which values of parameters the list is none: `where a = 0 the places are others`. */

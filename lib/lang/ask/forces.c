@@ -1,5 +1,4 @@
 /* forces.c -- `forces`: the generalized forces, part by part. */
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
 #include "lang/syntax/record.h"
@@ -18,8 +17,9 @@ QDOT_STATEMENT(forces) = {
 
 /* `theta, spring s1: part`, one line a coordinate and source. */
 static qdot_status
-forces_print_sources(qdot_session *session, qdot_text *out)
+forces_print_sources(qdot_sheet *sheet)
 {
+    qdot_session *session = sheet->session;
     qdot_scene *s = session->scene;
     qdot_force_source source;
 
@@ -31,22 +31,21 @@ forces_print_sources(qdot_session *session, qdot_text *out)
             QDOT_TRY(qdot_pool_check(session->pool));
             if (part == QDOT_ZERO)
                 continue;
-            QDOT_TRY(qdot_formula_marked(session, q, out));
-            qdot_text_format(out, ", %s%s%s: ", source.kind, source.name != NULL ? " " : "",
-                             source.name != NULL ? source.name : "");
-            QDOT_TRY(qdot_formula_marked(session, part, out));
-            qdot_text_char(out, '\n');
+            QDOT_TRY(qdot_sheet_formula(sheet, q));
+            qdot_sheet_format(sheet, ", %s%s%s: ", source.kind, source.name != NULL ? " " : "",
+                              source.name != NULL ? source.name : "");
+            QDOT_TRY(qdot_sheet_formula(sheet, part));
+            qdot_sheet_words(sheet, "\n");
         }
-    if (out->n == 0)
-        qdot_text_add(out, "nothing is applied");
-    return qdot_text_status(out);
+    if (qdot_sheet_is_empty(sheet))
+        qdot_sheet_words(sheet, "nothing is applied");
+    return QDOT_OK;
 }
 
 static qdot_status
 forces_print(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
-    qdot_text text = {0};
     qdot_expr forces;
     qdot_sheet sheet;
 
@@ -58,5 +57,5 @@ forces_print(qdot_record *r)
                                              session->scene->coordinates.at)));
     QDOT_TRY(qdot_ask_list(session, "forces", forces, QDOT_NIL));
     sheet = qdot_sheet_begin(session);
-    return qdot_sheet_end(session, &sheet, "forces", forces_print_sources(session, &text), &text);
+    return qdot_sheet_end(&sheet, "forces", forces_print_sources(&sheet));
 }

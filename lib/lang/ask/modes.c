@@ -4,8 +4,6 @@
 
 #include "base/number-text.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/formula.h"
-#include "lang/answer/sheet.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
 #include "lang/syntax/record.h"

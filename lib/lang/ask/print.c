@@ -3,7 +3,7 @@
 #include "expr/value-kind.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -32,20 +32,35 @@ is_texts(const qdot_pool *pool, qdot_expr e)
     return list && n > 0;
 }
 
-static qdot_status
-add_texts(qdot_session *session, qdot_expr list, qdot_text *line)
+static void
+add_texts(qdot_sheet *sheet, qdot_expr list)
 {
-    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list); i++) {
-        qdot_text_add(line, i > 0 ? "\n" : "");
-        QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, list, i),
-                            session->style, line));
+    const qdot_pool *pool = sheet->session->pool;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
+        qdot_sheet_words(sheet, i > 0 ? "\n" : "");
+        qdot_sheet_words(sheet, qdot_expr_symbol(pool, qdot_expr_arg(pool, list, i))->name);
     }
-    return QDOT_OK;
+}
+
+/* A number of a run with `digits`. */
+static qdot_status
+add_digits(qdot_sheet *sheet, qdot_expr member, int digits, double error)
+{
+    qdot_text number = {0};
+    qdot_status status = qdot_digits_text(sheet->session, member, digits, error, &number);
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(&number);
+    if (status == QDOT_OK)
+        qdot_sheet_words(sheet, qdot_text_str(&number));
+    qdot_text_clear(&number);
+    return status;
 }
 
 /* One argument as text: a quoted one as it is, numbers of runs as numbers. */
 static qdot_status
-print_one(qdot_record *r, const qdot_filled *one, qdot_text *line)
+print_one(qdot_record *r, const qdot_filled *one, qdot_sheet *sheet)
 {
     qdot_session *session = r->cursor.session;
     qdot_expr value;
@@ -53,16 +68,18 @@ print_one(qdot_record *r, const qdot_filled *one, qdot_text *line)
     int digits;
 
     if (!qdot_filled_is(one, "EXPR")) {
-        qdot_text_add(line, qdot_record_text(one));
+        qdot_sheet_words(sheet, qdot_record_text(one));
         return QDOT_OK;
     }
     QDOT_TRY(qdot_record_value(r, one, &value));
-    if (is_texts(session->pool, value))
-        return add_texts(session, value, line);
+    if (is_texts(session->pool, value)) {
+        add_texts(sheet, value);
+        return QDOT_OK;
+    }
     if (!qdot_measured_occurs(session, value))
-        return qdot_formula_marked(session, value, line);
+        return qdot_sheet_formula(sheet, value);
     if (qdot_value_kind_are_equations(session->pool, value))
-        return qdot_ask_print_point(session, value, line);
+        return qdot_ask_print_point(sheet, value);
     digits = qdot_digits_of(session, value);
     for (uint32_t i = 0;; i++) {
         bool scalar = qdot_expr_is_scalar(session->pool, value);
@@ -72,11 +89,11 @@ print_one(qdot_record *r, const qdot_filled *one, qdot_text *line)
             return QDOT_OK;
         member = scalar ? value : qdot_expr_arg(session->pool, value, i);
         QDOT_TRY(qdot_session_number(session, member, &x, &error));
-        qdot_text_add(line, i > 0 ? ", " : "");
+        qdot_sheet_words(sheet, i > 0 ? ", " : "");
         if (digits > 0)
-            QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
+            QDOT_TRY(add_digits(sheet, member, digits, error));
         else
-            qdot_number_text_known(line, x, error);
+            qdot_sheet_known(sheet, x, error);
         if (scalar)
             return QDOT_OK;
     }
@@ -85,14 +102,14 @@ print_one(qdot_record *r, const qdot_filled *one, qdot_text *line)
 static qdot_status
 print_line(qdot_record *r)
 {
-    qdot_text line = {0};
+    qdot_sheet sheet = qdot_sheet_begin_words(r->cursor.session);
     qdot_status status = QDOT_OK;
 
     for (size_t i = 1; i < r->parts.n && status == QDOT_OK; i++) {
         if (r->parts.at[i].node->kind != QDOT_USAGE_HOLE)
             continue;
-        qdot_text_add(&line, line.n > 0 ? " " : "");
-        status = print_one(r, &r->parts.at[i], &line);
+        qdot_sheet_words(&sheet, qdot_sheet_is_empty(&sheet) ? "" : " ");
+        status = print_one(r, &r->parts.at[i], &sheet);
     }
-    return qdot_answer_written(r->cursor.session, "print", status, &line);
+    return qdot_sheet_end(&sheet, "print", status);
 }

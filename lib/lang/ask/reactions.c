@@ -2,7 +2,6 @@
 #include "mech/study/reactions.h"
 
 #include "lang/answer/answer.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/syntax/record.h"
 
@@ -31,24 +30,24 @@ reaction_is_zero(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_status
-reaction_print(qdot_session *session, const qdot_reaction *r, qdot_text *out)
+reaction_print(qdot_sheet *sheet, const qdot_reaction *r)
 {
-    qdot_pool *pool = session->pool;
+    qdot_pool *pool = sheet->session->pool;
 
     if (r->name == NULL)
-        QDOT_TRY(qdot_formula_marked(session, r->coordinate, out));
+        QDOT_TRY(qdot_sheet_formula(sheet, r->coordinate));
     else
-        qdot_text_add(out, r->name);
+        qdot_sheet_words(sheet, r->name);
     if (r->name == NULL || r->torque == QDOT_NIL || !reaction_is_zero(pool, r->force)) {
-        qdot_text_add(out, r->name == NULL ? ": generalized reaction " : ": force ");
-        QDOT_TRY(qdot_formula_marked(session, r->force, out));
+        qdot_sheet_words(sheet, r->name == NULL ? ": generalized reaction " : ": force ");
+        QDOT_TRY(qdot_sheet_formula(sheet, r->force));
         if (r->torque == QDOT_NIL || reaction_is_zero(pool, r->torque))
             return QDOT_OK;
-        qdot_text_add(out, " at its centre, torque ");
+        qdot_sheet_words(sheet, " at its centre, torque ");
     } else {
-        qdot_text_add(out, ": torque ");
+        qdot_sheet_words(sheet, ": torque ");
     }
-    return qdot_formula_marked(session, r->torque, out);
+    return qdot_sheet_formula(sheet, r->torque);
 }
 
 static qdot_status
@@ -56,7 +55,6 @@ reactions_print(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     qdot_reaction *list = NULL;
-    qdot_text text = {0};
     qdot_sheet sheet;
     qdot_status status;
     qdot_expr value;
@@ -74,12 +72,12 @@ reactions_print(qdot_record *r)
     status = qdot_mech_reactions(session->scene, &list, &n);
     sheet = qdot_sheet_begin(session);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i > 0 ? "\n" : "");
-        status = reaction_print(session, &list[i], &text);
+        qdot_sheet_words(&sheet, i > 0 ? "\n" : "");
+        status = reaction_print(&sheet, &list[i]);
     }
     if (n == 0)
-        qdot_text_add(&text, "the constraints act on nothing");
-    status = qdot_sheet_end(session, &sheet, "reactions", status, &text);
+        qdot_sheet_words(&sheet, "the constraints act on nothing");
+    status = qdot_sheet_end(&sheet, "reactions", status);
     qdot_free(list);
     return status;
 }

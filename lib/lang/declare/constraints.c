@@ -7,7 +7,6 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/formula.h"
 #include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
 #include "lang/language/hints.h"
@@ -63,33 +62,34 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
 
 /* `x - R*theta = const` */
 static qdot_status
-print_integral(qdot_session *session, qdot_expr integral, qdot_text *out)
+print_integral(qdot_sheet *sheet, qdot_expr integral)
 {
-    QDOT_TRY(qdot_formula_marked(session, integral, out));
-    qdot_text_add(out, " = const");
+    QDOT_TRY(qdot_sheet_formula(sheet, integral));
+    qdot_sheet_words(sheet, " = const");
     return QDOT_OK;
 }
 
 static qdot_status
-print_refuted(qdot_session *session, const qdot_integrability *i, qdot_text *out)
+print_refuted(qdot_sheet *sheet, const qdot_integrability *i)
 {
+    const qdot_pool *pool = sheet->session->pool;
     qdot_expr at = i->decision.at;
 
-    qdot_text_add(out, " is not integrable: dw along ");
-    QDOT_TRY(qdot_formula_marked(session, i->along[0], out));
-    qdot_text_add(out, " and ");
-    QDOT_TRY(qdot_formula_marked(session, i->along[1], out));
-    qdot_text_add(out, " is ");
-    QDOT_TRY(qdot_formula_marked(session, i->component, out));
-    if (at == QDOT_NIL || qdot_expr_count(session->pool, at) == 0)
+    qdot_sheet_words(sheet, " is not integrable: dw along ");
+    QDOT_TRY(qdot_sheet_formula(sheet, i->along[0]));
+    qdot_sheet_words(sheet, " and ");
+    QDOT_TRY(qdot_sheet_formula(sheet, i->along[1]));
+    qdot_sheet_words(sheet, " is ");
+    QDOT_TRY(qdot_sheet_formula(sheet, i->component));
+    if (at == QDOT_NIL || qdot_expr_count(pool, at) == 0)
         return QDOT_OK;
     if (isfinite(i->decision.left)) {
-        qdot_text_add(out, ", ");
-        qdot_text_double(out, i->decision.left, 12);
+        qdot_sheet_words(sheet, ", ");
+        qdot_sheet_double(sheet, i->decision.left, 12);
     }
-    for (uint32_t k = 0; k < qdot_expr_count(session->pool, at); k++) {
-        qdot_text_add(out, k == 0 ? " at " : ", ");
-        QDOT_TRY(qdot_formula_marked(session, qdot_expr_arg(session->pool, at, k), out));
+    for (uint32_t k = 0; k < qdot_expr_count(pool, at); k++) {
+        qdot_sheet_words(sheet, k == 0 ? " at " : ", ");
+        QDOT_TRY(qdot_sheet_formula(sheet, qdot_expr_arg(pool, at, k)));
     }
     return QDOT_OK;
 }
@@ -100,24 +100,24 @@ answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrab
     static const char *const verdicts[] = {[QDOT_PROVED] = "proved",
                                            [QDOT_REFUTED] = "refuted",
                                            [QDOT_UNDECIDED] = "undecided"};
-    qdot_text text = {0};
-    qdot_status status = QDOT_OK;
+    qdot_sheet sheet = qdot_sheet_begin_words(session);
+    qdot_text name = {0};
+    qdot_status status;
 
-    qdot_text_format(&text, "%s: ", verdicts[i->decision.verdict]);
-    print_constraint(c, &text);
-    if (i->decision.verdict == QDOT_REFUTED) {
-        status = print_refuted(session, i, &text);
-    } else if (i->decision.verdict == QDOT_UNDECIDED) {
-        qdot_text_add(&text, " may be integrable beside the other constraints");
-    } else {
-        qdot_text_format(&text, " is integrable%s",
-                         i->alone ? "" : " beside the other constraints");
-        qdot_text_add(&text, i->integral == QDOT_NIL ? "; its integral was not found"
-                                                     : ": ");
-        if (i->integral != QDOT_NIL)
-            status = print_integral(session, i->integral, &text);
-    }
-    return qdot_answer_written(session, "check", status, &text);
+    print_constraint(c, &name);
+    qdot_sheet_format(&sheet, "%s: %s", verdicts[i->decision.verdict], qdot_text_str(&name));
+    status = qdot_text_status(&name);
+    qdot_text_clear(&name);
+    if (i->decision.verdict == QDOT_UNDECIDED)
+        qdot_sheet_words(&sheet, " may be integrable beside the other constraints");
+    if (i->decision.verdict == QDOT_PROVED)
+        qdot_sheet_format(&sheet, " is integrable%s%s", i->alone ? "" : " beside the other constraints",
+                          i->integral == QDOT_NIL ? "; its integral was not found" : ": ");
+    if (status == QDOT_OK && i->decision.verdict == QDOT_REFUTED)
+        status = print_refuted(&sheet, i);
+    if (status == QDOT_OK && i->decision.verdict == QDOT_PROVED && i->integral != QDOT_NIL)
+        status = print_integral(&sheet, i->integral);
+    return qdot_sheet_end(&sheet, "check", status);
 }
 
 /* As JSON the sides are mu f and dF/dt where an integral proves it, else the worst
@@ -203,8 +203,10 @@ qdot_constraints_tell_disguise(qdot_session *session, size_t before)
         print_constraint(c, &text);
         qdot_text_add(&text, " is holonomic in disguise");
         if (i.integral != QDOT_NIL) {
+            qdot_sheet sheet = qdot_sheet_begin_text(session, session->style);
+
             qdot_text_add(&text, ": ");
-            status = print_integral(session, i.integral, &text);
+            status = qdot_sheet_text(&sheet, print_integral(&sheet, i.integral), &text);
         }
         QDOT_TRY(qdot_answer_notice_text(session, status, &text));
     }

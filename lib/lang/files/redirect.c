@@ -12,7 +12,6 @@
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/scene-file.h"
-#include "show/formula-page.h"
 
 struct qdot_redirect_type {
     const char *ending;
@@ -110,9 +109,11 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
         r->style = session->style;
         session->out = r->file;
         session->json = r->type->kind == JSON;
-        session->marked = r->type->kind == PAGE;
-        if (session->marked)
+        if (r->type->kind == PAGE) {
+            r->page.kind = r->type->style == QDOT_LATEX ? QDOT_PAGE_LATEX : QDOT_PAGE_MATHML;
+            session->page = &r->page;
             session->style = r->type->style;
+        }
         return QDOT_OK;
     }
     return redirect_refuse(path, ending);
@@ -125,8 +126,8 @@ make_page(qdot_redirect *r, qdot_text *page)
     const char *name = strrchr(r->path, '/');
 
     return r->type->style == QDOT_LATEX
-               ? qdot_page_latex(r->text, page)
-               : qdot_page_html(name == NULL ? r->path : name + 1, r->text, page);
+               ? qdot_formula_page_end(&r->page, page)
+               : qdot_formula_page_html(&r->page, name == NULL ? r->path : name + 1, page);
 }
 
 qdot_status
@@ -141,7 +142,7 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
     session->console = r->console;
     if (paged)
         session->style = r->style;
-    session->marked = false;
+    session->page = NULL;
     if (status == QDOT_OK && !complete)
         status = qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", r->path);
     if (status == QDOT_OK && paged)
@@ -152,6 +153,7 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
     if (status == QDOT_OK)
         status = qdot_answer_file(session, r->path);
     qdot_text_clear(&page);
+    qdot_formula_page_clear(&r->page);
     free(r->text); /* from open_memstream */
     return status;
 }

@@ -10,6 +10,7 @@
 #define QDOT_LANG_REDIRECT_H
 
 #include "lang/commands/statement.h"
+#include "show/formula-page.h"
 
 typedef struct {
     qdot_session *session;
@@ -18,6 +19,7 @@ typedef struct {
     bool json;
     qdot_style style; /* of the session before */
     const struct qdot_redirect_type *type;
+    qdot_formula_page page;
     char *text;
     size_t length;
 } qdot_redirect;

@@ -2,6 +2,7 @@
 #include "lang/files/report-answer.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "show/animation.h"
 
@@ -11,9 +12,10 @@ qdot_report_answer_begin(qdot_session *s, qdot_style style, qdot_report_answer *
     *k = (qdot_report_answer){.out = s->out,
                 .console = s->console,
                 .json = s->json,
-                .marked = s->marked,
                 .console_json = s->console_json,
                 .style = s->style,
+                .page = {.kind = QDOT_PAGE_REPORT},
+                .page_before = s->page,
                 .history = s->history.n,
                 .history_over = s->history_over.n};
     k->file = open_memstream(&k->text, &k->length);
@@ -26,7 +28,7 @@ qdot_report_answer_begin(qdot_session *s, qdot_style style, qdot_report_answer *
     s->out = k->file;
     s->json = false;
     s->style = style;
-    s->marked = true;
+    s->page = style == QDOT_MATHML ? &k->page : NULL;
     return QDOT_OK;
 }
 
@@ -41,7 +43,7 @@ qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status statu
     s->json = k->json;
     s->console_json = k->console_json;
     s->style = k->style;
-    s->marked = k->marked;
+    s->page = k->page_before;
     s->history.n = k->history;
     if (s->history_over.n > k->history_over)
         s->history_over.n = k->history_over;
@@ -49,10 +51,11 @@ qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status statu
         status = qdot_fail(QDOT_ENOMEM, "no memory for the report");
     if (status == QDOT_OK) {
         qdot_text_add_n(text, k->text, k->length);
+        status = qdot_formula_page_end(&k->page, text);
     } else if (qdot_grave(status) == QDOT_OK) {
-        qdot_text_format(text, "Not found: %s\n", qdot_last_error()->message);
-        status = QDOT_OK;
+        status = qdot_report_not_found(text);
     }
+    qdot_formula_page_clear(&k->page);
     free(k->text); /* from open_memstream */
     return status;
 }
@@ -65,6 +68,32 @@ qdot_report_answer_of(const qdot_cursor *cursor, const qdot_statement *statement
 
     QDOT_TRY(qdot_report_answer_begin(cursor->session, QDOT_MATHML, &k));
     return qdot_report_answer_end(cursor->session, &k, statement->handler(&r), text);
+}
+
+qdot_status
+qdot_report_line(qdot_text *page, const char *words)
+{
+    qdot_formula_page p = {.kind = QDOT_PAGE_REPORT};
+    qdot_status status;
+
+    qdot_formula_page_text(&p, words, strlen(words));
+    status = qdot_formula_page_end(&p, page);
+    qdot_formula_page_clear(&p);
+    return status;
+}
+
+qdot_status
+qdot_report_not_found(qdot_text *page)
+{
+    qdot_text words = {0};
+    qdot_status status;
+
+    qdot_text_format(&words, "Not found: %s", qdot_last_error()->message);
+    status = qdot_text_status(&words);
+    if (status == QDOT_OK)
+        status = qdot_report_line(page, words.at);
+    qdot_text_clear(&words);
+    return status;
 }
 
 void

@@ -3,18 +3,21 @@
 #define QDOT_LANG_REPORT_ANSWER_H
 
 #include "lang/syntax/record.h"
+#include "show/formula-page.h"
 
 /* What stays of a session while an answer is taken down. */
 typedef struct {
     FILE *out, *console, *file;
-    bool json, console_json, marked;
+    bool json, console_json;
     qdot_style style;
     size_t history, history_over;
+    qdot_formula_page page, *page_before;
     char *text;
     size_t length;
 } qdot_report_answer;
 
-/* From here on what the session answers is taken down, in this style. QDOT_ENOMEM. */
+/* From here on what the session answers is taken down, in this style: MathML as a part of a page (show/page.h), another
+ * as text. `a` stays where it is. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_report_answer_begin(qdot_session *s, qdot_style style,
                                                      qdot_report_answer *a);
 /* The session answers as before; append to `text` what was taken down. A failure, status, other than
@@ -22,10 +25,14 @@ QDOT_MUST_CHECK qdot_status qdot_report_answer_begin(qdot_session *s, qdot_style
 QDOT_MUST_CHECK qdot_status qdot_report_answer_end(qdot_session *s, qdot_report_answer *a,
                                                    qdot_status status, qdot_text *text);
 
-/* Append what a statement without operands answers, in MathML. */
+/* Append what a statement without operands answers, as a part of a page. */
 QDOT_MUST_CHECK qdot_status qdot_report_answer_of(const qdot_cursor *c,
                                                   const qdot_statement *statement,
                                                   qdot_text *text);
+
+/* Append a line of words; `Not found: ` and why the last failure was. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_report_line(qdot_text *page, const char *words);
+QDOT_MUST_CHECK qdot_status qdot_report_not_found(qdot_text *page);
 
 /* Append a heading of the page. */
 void qdot_report_heading(qdot_text *page, const char *title);

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/answer/formula.h"
 #include "lang/figures/figure-file.h"
 #include "lang/files/report-answer.h"
 #include "lang/files/report-run.h"
@@ -39,7 +38,8 @@ add_answer(page *p, const char *title, const qdot_statement *statement)
     if (text.n > LONGEST)
         qdot_text_format(&p->page, "<p>Left out: %zu characters.</p>\n", text.n);
     else
-        qdot_page_lines(&p->page, qdot_text_str(&text));
+        qdot_text_add_n(&p->page, qdot_text_str(&text), text.n);
+    p->page.failed = p->page.failed || text.failed;
     qdot_text_clear(&text);
     return status;
 }
@@ -62,26 +62,19 @@ add_conserved(page *p)
 {
     qdot_session *s = p->session;
     qdot_expr list = qdot_noether_conserved(s->scene);
-    qdot_text text = {0};
     qdot_report_answer k;
     qdot_status status = qdot_pool_check(s->pool);
 
     QDOT_TRY(qdot_grave(status));
     qdot_report_heading(&p->page, "Conserved quantities");
-    if (status != QDOT_OK) {
-        qdot_text_format(&text, "Not found: %s\n", qdot_last_error()->message);
-        status = QDOT_OK;
-    } else if (qdot_expr_count(s->pool, list) == 0) {
-        qdot_text_add(&text, "None was found.\n");
-    } else {
-        QDOT_TRY(qdot_report_answer_begin(s, QDOT_MATHML, &k));
-        for (uint32_t i = 0; i < qdot_expr_count(s->pool, list) && status == QDOT_OK; i++)
-            status = qdot_answer_expr(s, NULL, qdot_expr_arg(s->pool, list, i));
-        status = qdot_report_answer_end(s, &k, status, &text);
-    }
-    qdot_page_lines(&p->page, qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    if (status != QDOT_OK)
+        return qdot_report_not_found(&p->page);
+    if (qdot_expr_count(s->pool, list) == 0)
+        return qdot_report_line(&p->page, "None was found.");
+    QDOT_TRY(qdot_report_answer_begin(s, QDOT_MATHML, &k));
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, list) && status == QDOT_OK; i++)
+        status = qdot_answer_expr(s, NULL, qdot_expr_arg(s->pool, list, i));
+    return qdot_report_answer_end(s, &k, status, &p->page);
 }
 
 /* The script as it was read; at the prompt, statements that give the same. */

@@ -9,7 +9,7 @@
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
-#include "lang/answer/formula.h"
+#include "lang/answer/expression.h"
 #include "lang/functions/algebra.h"
 #include "lang/functions/equilibria.h"
 #include "lang/functions/numeric.h"
@@ -118,7 +118,7 @@ call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     for (uint32_t i = 0; i < count && status == QDOT_OK; i++) {
         qdot_text text = {0};
 
-        status = qdot_formula_print(
+        status = qdot_expression_print(
             s, list ? qdot_expr_arg(s->pool, args[0], i) : args[0], QDOT_LATEX, &text);
         if (status == QDOT_OK)
             members[i] = qdot_symbol_get(s->pool, QDOT_WORDS, qdot_text_str(&text));

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "show/formula-page.h"
+
 qdot_session *
 qdot_session_new(FILE *out, FILE *err)
 {
@@ -78,7 +80,9 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->including.n; i++)
         qdot_free(session->including.at[i]);
     qdot_free(session->including.at);
-    qdot_text_clear(&session->block);
+    if (session->block != NULL)
+        qdot_formula_page_clear(session->block);
+    qdot_free(session->block);
     if (session->scene != NULL)
         qdot_scene_free(session->scene);
     if (session->names != NULL)
@@ -102,6 +106,7 @@ qdot_session_exchange(qdot_session *session, qdot_session *other)
     STAYS(err)
     STAYS(style)
     STAYS(flat)
+    STAYS(page)
     STAYS(block)
     STAYS(json)
     STAYS(timing)

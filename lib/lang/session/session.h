@@ -89,8 +89,8 @@ typedef struct qdot_session {
     FILE *out, *err;
     qdot_style style;
     bool flat; /* formulas stand in one line on a terminal too */
-    bool marked; /* formulas of LaTeX in answers stand between \( and \) */
-    qdot_text block; /* of the present statement: equations for a block (lang/answer/sheet) */
+    struct qdot_formula_page *page;  /* what answers become a page of, for a file; NULL: none */
+    struct qdot_formula_page *block; /* of the present statement: its equations (lang/answer/sheet); NULL: none yet */
     bool json, timing, interactive;
     FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;

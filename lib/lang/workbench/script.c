@@ -270,7 +270,7 @@ statement(engine *x, size_t i)
     if (status == QDOT_OK)
         status = qdot_sheet_flush(x->session);
     else
-        qdot_text_clear(&x->session->block);
+        qdot_sheet_forget(x->session);
     if (qdot_memory_ran_out() && status == QDOT_OK) /* where it was not passed on, a part of the answer may be lost */
         status = qdot_fail(QDOT_ENOMEM, "out of memory on the way: what was answered may be incomplete");
     if (status == QDOT_OK)

@@ -8,16 +8,27 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "expr/print-formula.h"
 #include "lang/answer/notation.h"
 
 static void
 is_written(const char *formula, qdot_style style, const char *expected)
 {
+    const qdot_notation_kind notation = qdot_print_notation(style);
+    qdot_formula f = {0};
+    const qdot_formula_id all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
     qdot_text out = {0};
 
-    qdot_notation(formula, style, &out);
-    assert_int_equal(qdot_text_status(&out), QDOT_OK);
+    qdot_notation_add(&f, all, formula, notation);
+    assert_int_equal(qdot_formula_status(&f), QDOT_OK);
+    assert_int_equal(qdot_print_written(&f, all, style, &out), QDOT_OK);
     assert_string_equal(qdot_text_str(&out), expected);
+    if (notation != QDOT_NOTATION_DRAWN) {
+        qdot_text_truncate(&out, 0);
+        qdot_notation_print(formula, notation, &out);
+        assert_string_equal(qdot_text_str(&out), expected);
+    }
+    qdot_formula_clear(&f);
     qdot_text_clear(&out);
 }
 

@@ -1,18 +1,19 @@
 /* box.h -- a formula as boxes: what stands beside, above and below what, and how large it is.
  *
  * Boxes are numbered, those within a box before it. A box has columns, and rows above and below
- * its baseline row. Internal to show/.
+ * its baseline row. Internal to formula/.
  *
- * Tests  tests/show/test_layout.c
+ * Tests  tests/formula/test_layout.c
  */
-#ifndef QDOT_SHOW_BOX_H
-#define QDOT_SHOW_BOX_H
+#ifndef QDOT_FORMULA_BOX_H
+#define QDOT_FORMULA_BOX_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "formula/formula.h"
 
 typedef enum {
     QDOT_BOX_TEXT,
@@ -52,9 +53,9 @@ typedef struct {
     qdot_text text;
 } qdot_boxes;
 
-/* The boxes of a formula, the last of which is all of it. Clear them in any case. Errors:
- * QDOT_EINVAL, QDOT_ENOMEM, QDOT_EINTR. */
-QDOT_MUST_CHECK qdot_status qdot_boxes_read(const char *mathml, qdot_boxes *boxes);
+/* The boxes of a node and what is below it, the last of which is all of it. Clear them in any case. Errors:
+ * QDOT_ENOMEM, QDOT_ELIMIT, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_boxes_build(const qdot_formula *f, qdot_formula_id id, qdot_boxes *boxes);
 void qdot_boxes_clear(qdot_boxes *boxes);
 
 /* Columns of a root's sign, beside what stands under it. */

@@ -1,16 +1,15 @@
-/* formula.c -- expressions and the names of answers in the style of the session.
+/* typed-name.c -- names of answers, as they were typed, in the letters of formulas.
  *
  * A name goes word by word: `eom[theta1]` is eom[θ₁], `diff(T, theta')` is diff(T, θ̇): what is declared is written as in
  * formulas, words of the language stay. It is what was typed, not an expression any more.
  */
-#include "lang/answer/formula.h"
+#include "lang/answer/typed-name.h"
 
 #include <ctype.h>
-#include <inttypes.h>
 #include <string.h>
 
+#include "expr/print.h"
 #include "expr/walk.h"
-#include "formula/write.h"
 
 typedef struct {
     qdot_session *session;
@@ -241,91 +240,36 @@ next(writer *w)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_formula_name(qdot_session *session, const char *name, qdot_text *out)
+static qdot_status
+write_name(qdot_session *session, const char *name, qdot_style style, qdot_text *out)
 {
-    writer w = {.session = session,
-                .style = session->style,
-                .at = name,
-                .start = name,
-                .out = out};
-    qdot_text typed = {0};
+    writer w = {.session = session, .style = style, .at = name, .start = name, .out = out};
     qdot_status status = QDOT_OK;
 
-    if (session->style == QDOT_PLAIN || strchr(name, '"') != NULL) {
-        qdot_text_add(out, name);
-        return QDOT_OK;
-    }
-    if (session->style == QDOT_MATHML) { /* as a text; its letters as in the formulas */
-        w.style = QDOT_UNICODE;
-        w.out = &typed;
-    }
     while (*w.at != '\0' && status == QDOT_OK)
         status = next(&w);
-    if (session->style == QDOT_MATHML) {
-        qdot_text_add(out, "<mtext>");
-        qdot_formula_escape(qdot_text_str(&typed), typed.n, out);
-        qdot_text_add(out, "</mtext>");
-        out->failed = out->failed || typed.failed;
-    }
-    qdot_text_clear(&typed);
-    return status;
-}
-
-void
-qdot_formula_bracket(const qdot_session *session, bool open, qdot_text *out)
-{
-    if (session->style == QDOT_MATHML)
-        qdot_text_add(out, open ? "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
-                                : "</math>");
-    else if (session->style == QDOT_LATEX && session->marked)
-        qdot_text_add(out, open ? "\\(" : "\\)");
+    return status == QDOT_OK ? qdot_text_status(out) : status;
 }
 
 qdot_status
-qdot_formula_marked(qdot_session *session, qdot_expr e, qdot_text *out)
+qdot_typed_name_add(qdot_session *session, const char *name, qdot_style style, qdot_formula *f,
+                    qdot_formula_id parent, unsigned flags)
 {
-    qdot_formula_bracket(session, true, out);
-    QDOT_TRY(qdot_formula_print(session, e, session->style, out));
-    qdot_formula_bracket(session, false, out);
-    return QDOT_OK;
-}
+    const size_t from = f->nodes.n;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
 
-const char *
-qdot_formula_equals(const qdot_session *session)
-{
-    return session->style == QDOT_MATHML ? "<mo>=</mo>" : " = ";
-}
-
-/* --- expressions -------------------------------------------------------------------- */
-
-/* Whether e is the latest series, or one of a list of them. */
-static bool
-is_series(const qdot_session *session, qdot_expr e)
-{
-    qdot_expr all = session->series;
-
-    if (all == QDOT_NIL || e == all)
-        return e == all && all != QDOT_NIL;
-    for (uint32_t i = 0; qdot_expr_kind(session->pool, all) == QDOT_LIST &&
-                         i < qdot_expr_count(session->pool, all);
-         i++)
-        if (qdot_expr_arg(session->pool, all, i) == e)
-            return true;
-    return false;
-}
-
-qdot_status
-qdot_formula_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_text *out)
-{
-    uint64_t size = qdot_expr_size(session->pool, e);
-
-    if (size <= QDOT_FORMULA_OPERATIONS)
-        return is_series(session, e)
-                   ? qdot_print_series(session->pool, e, session->series_in, style, out)
-                   : qdot_print(session->pool, e, style, out);
-    (void)qdot_fail(QDOT_ELIMIT,
-                    "%s%" PRIu64 " operations are too many to print: more than %u",
-                    size == UINT64_MAX ? "more than " : "", size, QDOT_FORMULA_OPERATIONS);
-    return qdot_hint("size(...) tells it; what it is used in goes on");
+    if (style == QDOT_PLAIN || strchr(name, '"') != NULL)
+        qdot_text_add(&text, name);
+    else
+        status = write_name(session, name, style == QDOT_LATEX ? QDOT_LATEX : QDOT_UNICODE, &text);
+    if (status == QDOT_OK && style == QDOT_LATEX)
+        qdot_formula_add_latex(f, parent, qdot_text_str(&text), text.n);
+    else if (status == QDOT_OK)
+        qdot_formula_add_text(f, parent, QDOT_TEXT_WORDS, qdot_text_str(&text), text.n);
+    for (size_t i = from; i < f->nodes.n; i++)
+        f->nodes.at[i].flags |= (uint8_t)flags;
+    f->failed = f->failed || text.failed;
+    qdot_text_clear(&text);
+    return status == QDOT_OK ? qdot_formula_status(f) : status;
 }

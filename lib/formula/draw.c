@@ -1,5 +1,5 @@
 /* draw.c -- boxes drawn into a grid of characters, by a stack. */
-#include "show/draw.h"
+#include "formula/draw.h"
 
 #include <string.h>
 

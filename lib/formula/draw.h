@@ -1,11 +1,11 @@
-/* draw.h -- boxes drawn into lines of characters. Internal to show/.
+/* draw.h -- boxes drawn into lines of characters. Internal to formula/.
  *
- * Tests  tests/show/test_layout.c
+ * Tests  tests/formula/test_layout.c
  */
-#ifndef QDOT_SHOW_DRAW_H
-#define QDOT_SHOW_DRAW_H
+#ifndef QDOT_FORMULA_DRAW_H
+#define QDOT_FORMULA_DRAW_H
 
-#include "show/box.h"
+#include "formula/box.h"
 
 /* A box and the column that it begins at. */
 typedef struct {

@@ -1,11 +1,11 @@
 /* layout.c -- a formula as a sequence of boxes, and where its lines are broken. */
-#include "show/layout.h"
+#include "formula/layout.h"
 
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "base/utf8.h"
-#include "show/draw.h"
+#include "formula/draw.h"
 
 /* A line is rather broken earlier, by these parts of its length, than one bracket deeper, between
  * factors, before a sign and not a relation, within a text; later behind `spring s1: `. */
@@ -352,12 +352,12 @@ write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
 }
 
 qdot_status
-qdot_layout_part(const char *mathml, const qdot_layout_request *request, qdot_text *out,
+qdot_layout_part(const qdot_formula *f, qdot_formula_id id, const qdot_layout_request *request, qdot_text *out,
                  qdot_layout_size *size)
 {
     layout l = {.request = request,
                 .width = request->width < least_room ? least_room : request->width};
-    qdot_status status = qdot_boxes_read(mathml, &l.boxes);
+    qdot_status status = qdot_boxes_build(f, id, &l.boxes);
 
     if (status == QDOT_OK)
         status = layout_split_formula(&l);
@@ -373,10 +373,10 @@ qdot_layout_part(const char *mathml, const qdot_layout_request *request, qdot_te
 }
 
 qdot_status
-qdot_layout(const char *mathml, size_t width, qdot_text *out, qdot_layout_size *size)
+qdot_layout(const qdot_formula *f, qdot_formula_id id, size_t width, qdot_text *out, qdot_layout_size *size)
 {
     const qdot_layout_request request = {.width = width, .shown = SIZE_MAX};
     qdot_layout_size own = {0};
 
-    return qdot_layout_part(mathml, &request, out, size ? size : &own);
+    return qdot_layout_part(f, id, &request, out, size ? size : &own);
 }

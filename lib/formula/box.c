@@ -1,0 +1,624 @@
+/* box.c -- a formula as boxes: those of a node are finished, and measured, where it is left. */
+#include "formula/box.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "base/utf8.h"
+#include "formula/walk.h"
+
+typedef struct {
+    qdot_boxes *to;
+    qdot_vec(size_t)
+        open; /* where the boxes of each open node begin on the stack of finished ones */
+    qdot_vec(uint32_t) done; /* finished boxes of nodes that are open */
+    qdot_text spelled, copy; /* work space */
+} reader;
+
+/* --- texts ---------------------------------------------------------------------------------- */
+
+static const char *
+text_of(const qdot_boxes *b, const qdot_box *x)
+{
+    return b->text.at + x->first;
+}
+
+static bool
+is_text(const qdot_boxes *b, uint32_t i)
+{
+    return b->box.at[i].kind == QDOT_BOX_TEXT;
+}
+
+static qdot_status
+box_finish(reader *r, qdot_box x)
+{
+    QDOT_TRY(qdot_vec_push(&r->to->box, x));
+    return qdot_vec_push(&r->done, (uint32_t)(r->to->box.n - 1));
+}
+
+/* What has been added to the text from `from` on. */
+static qdot_status
+finish_text(reader *r, size_t from, qdot_box_role role)
+{
+    const qdot_text *t = &r->to->text;
+    qdot_box x = {.kind = QDOT_BOX_TEXT, .role = (uint8_t)role, .first = (uint32_t)from};
+
+    QDOT_TRY(qdot_text_status(t));
+    if (t->n > UINT32_MAX)
+        return qdot_fail(QDOT_ELIMIT, "the formula is too long to be laid out");
+    x.count = (uint32_t)(t->n - from);
+    x.columns = x.count > 0 ? (uint32_t)qdot_utf8_columns(t->at + from, x.count) : 0;
+    return box_finish(r, x);
+}
+
+static qdot_status
+box_add_text(reader *r, const char *text, qdot_box_role role)
+{
+    const size_t from = r->to->text.n;
+
+    qdot_text_add(&r->to->text, text);
+    return finish_text(r, from, role);
+}
+
+/* Whether a term begins here: a sign here is no sign of two. */
+static bool
+term_begins(const reader *r)
+{
+    const size_t first = r->open.n > 0 ? r->open.at[r->open.n - 1] : 0;
+    uint8_t role;
+
+    if (r->done.n == first)
+        return true;
+    role = r->to->box.at[r->done.at[r->done.n - 1]].role;
+    return role == QDOT_BOX_RELATION || role == QDOT_BOX_SIGN || role == QDOT_BOX_COMMA ||
+           role == QDOT_BOX_OPENING || role == QDOT_BOX_WORD;
+}
+
+/* A word of a text is one by the blank behind it. */
+static qdot_status
+box_add_words(reader *r, const char *text, size_t n)
+{
+    const size_t from = r->to->text.n;
+
+    qdot_text_add_n(&r->to->text, text, n);
+    QDOT_TRY(finish_text(r, from,
+                         n > 0 && text[n - 1] == ' ' ? QDOT_BOX_WORD : QDOT_BOX_NAME));
+    r->to->box.at[r->done.at[r->done.n - 1]].label = 1;
+    return QDOT_OK;
+}
+
+static qdot_status
+box_add_leaf(reader *r, const qdot_formula *f, const qdot_formula_node *leaf)
+{
+    const char *const text = f->text.at + leaf->child;
+    const size_t from = r->to->text.n;
+
+    if (leaf->what == QDOT_TEXT_WORDS || leaf->what == QDOT_TEXT_LABEL)
+        return box_add_words(r, text, leaf->n);
+    qdot_text_add_n(&r->to->text, text, leaf->n);
+    return finish_text(r, from, QDOT_BOX_NAME);
+}
+
+static qdot_status
+box_add_sign(reader *r, const qdot_formula_node *node)
+{
+    static const char *const written[] = {
+#define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) unicode,
+#include "formula/sign.def"
+#undef QDOT_SIGN
+    };
+    static const qdot_box_role roles[] = {
+        [QDOT_DUTY_NONE] = QDOT_BOX_NAME,         [QDOT_DUTY_COLON] = QDOT_BOX_COMMA,
+        [QDOT_DUTY_RELATION] = QDOT_BOX_RELATION, [QDOT_DUTY_TERMS] = QDOT_BOX_SIGN,
+        [QDOT_DUTY_ERROR] = QDOT_BOX_SIGN,        [QDOT_DUTY_LOGIC] = QDOT_BOX_SIGN,
+        [QDOT_DUTY_TIMES] = QDOT_BOX_TIMES,       [QDOT_DUTY_COMMA] = QDOT_BOX_COMMA};
+    unsigned sign = node->what;
+
+    if (sign == QDOT_SIGN_BLANK)
+        return QDOT_OK;
+    if (sign == QDOT_SIGN_NEGATIVE || sign == QDOT_SIGN_MINUS)
+        sign = term_begins(r) ? QDOT_SIGN_NEGATIVE : QDOT_SIGN_MINUS;
+    else if (sign == QDOT_SIGN_COMMA_BELOW)
+        sign = QDOT_SIGN_COMMA;
+    else if (sign == QDOT_SIGN_BESIDE)
+        sign = QDOT_SIGN_TIMES;
+    return box_add_text(r, written[sign],
+                        sign == QDOT_SIGN_MINUS ? QDOT_BOX_SIGN
+                                                : roles[qdot_formula_sign_duty(node)]);
+}
+
+/* --- what has its own character --------------------------------------------------------------- */
+
+typedef struct {
+    const char *of, *is;
+} character;
+
+static const character superscripts[] = {
+    {"0", "⁰"}, {"1", "¹"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}, {"5", "⁵"},
+    {"6", "⁶"}, {"7", "⁷"}, {"8", "⁸"}, {"9", "⁹"}, {"−", "⁻"}, {"n", "ⁿ"},
+    {"i", "ⁱ"}, {"(", "⁽"}, {")", "⁾"}, {"′", "′"}, {"'", "′"}};
+static const character subscripts[] = {
+    {"0", "₀"}, {"1", "₁"}, {"2", "₂"}, {"3", "₃"}, {"4", "₄"}, {"5", "₅"}, {"6", "₆"},
+    {"7", "₇"}, {"8", "₈"}, {"9", "₉"}, {"a", "ₐ"}, {"e", "ₑ"}, {"h", "ₕ"}, {"i", "ᵢ"},
+    {"j", "ⱼ"}, {"k", "ₖ"}, {"l", "ₗ"}, {"m", "ₘ"}, {"n", "ₙ"}, {"o", "ₒ"}, {"p", "ₚ"},
+    {"r", "ᵣ"}, {"s", "ₛ"}, {"t", "ₜ"}, {"u", "ᵤ"}, {"v", "ᵥ"}, {"x", "ₓ"}, {"β", "ᵦ"},
+    {"γ", "ᵧ"}, {"ρ", "ᵨ"}, {"φ", "ᵩ"}, {"χ", "ᵪ"}};
+static const character fractions[] = {
+    {"1/2", "½"}, {"1/3", "⅓"}, {"2/3", "⅔"}, {"1/4", "¼"}, {"3/4", "¾"},
+    {"1/5", "⅕"}, {"2/5", "⅖"}, {"3/5", "⅗"}, {"4/5", "⅘"}, {"1/6", "⅙"},
+    {"5/6", "⅚"}, {"1/8", "⅛"}, {"3/8", "⅜"}, {"5/8", "⅝"}, {"7/8", "⅞"}};
+
+#define COUNT(table) (sizeof(table) / sizeof *(table))
+
+/* Append the text by characters of a table; false, and nothing appended, where one has none. */
+static bool
+translate(qdot_text *to, const char *text, size_t bytes, const character *table,
+          size_t count)
+{
+    const size_t from = to->n;
+
+    for (size_t i = 0, n; i < bytes; i += n) {
+        size_t k = 0;
+
+        n = qdot_utf8_length(text + i);
+        while (k < count && (table[k].of[0] != text[i] || strlen(table[k].of) != n ||
+                             memcmp(table[k].of, text + i, n) != 0))
+            k++;
+        if (n == 0 || k == count) {
+            qdot_text_truncate(to, from);
+            return false;
+        }
+        qdot_text_add(to, table[k].is);
+    }
+    return bytes > 0;
+}
+
+/* The texts of a box, one behind the other, if it has nothing else: appended to `copy`, which is not the
+ * text of the boxes. */
+static bool
+spell(const qdot_boxes *b, uint32_t i, qdot_text *copy)
+{
+    const qdot_box *x = b->box.at + i;
+
+    if (x->kind == QDOT_BOX_TEXT) {
+        qdot_text_add_n(copy, text_of(b, x), x->count);
+        return true;
+    }
+    if (x->kind != QDOT_BOX_ROW)
+        return false;
+    for (uint32_t k = 0; k < x->count; k++) {
+        const qdot_box *y = b->box.at + b->children.at[x->first + k];
+
+        if (y->kind != QDOT_BOX_TEXT)
+            return false;
+        qdot_text_add_n(copy, text_of(b, y), y->count);
+    }
+    return true;
+}
+
+/* --- sizes ------------------------------------------------------------------------------------ */
+
+static void
+beside(qdot_box *row, const qdot_box *x)
+{
+    row->columns += x->columns;
+    if (x->above > row->above)
+        row->above = x->above;
+    if (x->below > row->below)
+        row->below = x->below;
+}
+
+/* Widths of the columns of a table, and what its rows take. */
+static qdot_status
+measure_table(qdot_boxes *b, qdot_box *table)
+{
+    const uint32_t rows = table->count / table->across;
+    uint32_t height = 0;
+
+    for (uint32_t c = 0; c < table->across; c++) {
+        uint32_t widest = 0;
+
+        for (uint32_t r = 0; r < rows; r++) {
+            const qdot_box *x =
+                b->box.at + b->children.at[table->first + r * table->across + c];
+
+            widest = x->columns > widest ? x->columns : widest;
+        }
+        table->columns += widest + (c > 0 ? QDOT_BOX_GAP : 0);
+    }
+    for (uint32_t r = 0; r < rows; r++) {
+        qdot_box row = {0};
+
+        for (uint32_t c = 0; c < table->across; c++)
+            beside(&row,
+                   b->box.at + b->children.at[table->first + r * table->across + c]);
+        height += qdot_box_height(&row) + (r > 0 && row.above > 0);
+    }
+    table->above = (height - 1) / 2;
+    table->below = height - 1 - table->above;
+    return QDOT_OK;
+}
+
+/* Brackets are as high as what they hold. */
+static void
+stretch(qdot_boxes *b, const qdot_box *row)
+{
+    const uint32_t *child = b->children.at + row->first;
+
+    for (uint32_t k = 0; k < row->count; k++) {
+        qdot_box *x = b->box.at + child[k];
+
+        if (x->kind != QDOT_BOX_TEXT ||
+            (x->role != QDOT_BOX_OPENING && x->role != QDOT_BOX_CLOSING))
+            continue;
+        x->above = row->above;
+        x->below = row->below;
+    }
+}
+
+static qdot_status
+finish_row(reader *r, qdot_box x)
+{
+    qdot_boxes *b = r->to;
+
+    if (x.count == 1)
+        return qdot_vec_push(&r->done, b->children.at[x.first]);
+    for (uint32_t k = 0; k < x.count; k++)
+        beside(&x, b->box.at + b->children.at[x.first + k]);
+    stretch(b, &x);
+    return box_finish(r, x);
+}
+
+/* ½ where there is such a character. */
+static qdot_status
+finish_fraction(reader *r, qdot_box x)
+{
+    qdot_boxes *b = r->to;
+    const uint32_t *of = b->children.at + x.first;
+    const qdot_box *up, *down;
+
+    if (is_text(b, of[0]) && is_text(b, of[1])) {
+        const size_t from = b->text.n;
+
+        qdot_text_truncate(&r->spelled, 0);
+        spell(b, of[0], &r->spelled);
+        qdot_text_char(&r->spelled, '/');
+        spell(b, of[1], &r->spelled);
+        for (size_t k = 0; k < COUNT(fractions) && !r->spelled.failed; k++)
+            if (strcmp(qdot_text_str(&r->spelled), fractions[k].of) == 0)
+                qdot_text_add(&b->text, fractions[k].is);
+        if (b->text.n > from)
+            return finish_text(r, from, QDOT_BOX_NAME);
+    }
+    up = b->box.at + of[0];
+    down = b->box.at + of[1];
+    x.columns = up->columns > down->columns ? up->columns : down->columns;
+    x.above = qdot_box_height(up);
+    x.below = qdot_box_height(down);
+    return box_finish(r, x);
+}
+
+/* The script by characters of its own, in the row of its base; *own: it has them. */
+static qdot_status
+append_script(reader *r, const qdot_box *x, bool super, bool *own)
+{
+    qdot_boxes *b = r->to;
+    const uint32_t base = b->children.at[x->first], script = b->children.at[x->first + 1];
+    const size_t from = b->text.n;
+    qdot_box row = {.kind = QDOT_BOX_ROW};
+
+    qdot_text_truncate(&r->spelled, 0);
+    qdot_text_truncate(&r->copy, 0);
+    *own = b->box.at[base].above + b->box.at[base].below == 0 &&
+           spell(b, script, &r->spelled);
+    if (*own && is_text(b, base)) {
+        spell(b, base, &r->copy);
+        qdot_text_add_n(&b->text, qdot_text_str(&r->copy), r->copy.n);
+    }
+    *own = *own && translate(&b->text, qdot_text_str(&r->spelled), r->spelled.n,
+                             super ? superscripts : subscripts,
+                             super ? COUNT(superscripts) : COUNT(subscripts));
+    b->text.failed = b->text.failed || r->spelled.failed || r->copy.failed;
+    if (!*own) {
+        qdot_text_truncate(&b->text, from);
+        return QDOT_OK;
+    }
+    QDOT_TRY(finish_text(r, from, QDOT_BOX_NAME));
+    if (is_text(b, base))
+        return QDOT_OK;
+    row.first = (uint32_t)b->children.n;
+    row.count = 2;
+    QDOT_TRY(qdot_vec_push(&b->children, base));
+    QDOT_TRY(qdot_vec_push(&b->children, r->done.at[--r->done.n]));
+    return finish_row(r, row);
+}
+
+static qdot_status
+finish_script(reader *r, qdot_box x)
+{
+    qdot_boxes *b = r->to;
+    const bool super = x.kind == QDOT_BOX_SUPER;
+    const qdot_box *base, *script;
+    bool own;
+
+    QDOT_TRY(append_script(r, &x, super, &own));
+    if (own)
+        return QDOT_OK;
+    base = b->box.at + b->children.at[x.first];
+    script = b->box.at + b->children.at[x.first + 1];
+    x.columns = base->columns + script->columns;
+    x.above =
+        super ? base->above + qdot_box_height(script) - (base->above > 0) : base->above;
+    x.below = super ? base->below : base->below + qdot_box_height(script);
+    return box_finish(r, x);
+}
+
+/* Indices above, then below. */
+static qdot_status
+finish_tensor(reader *r, qdot_box x)
+{
+    qdot_boxes *b = r->to;
+    const uint32_t below = b->children.at[x.first + 2];
+    qdot_box lower = {.kind = QDOT_BOX_SUB, .count = 2};
+
+    x.kind = QDOT_BOX_SUPER;
+    x.count = 2;
+    QDOT_TRY(finish_script(r, x));
+    lower.first = (uint32_t)b->children.n;
+    QDOT_TRY(qdot_vec_push(&b->children, r->done.at[--r->done.n]));
+    QDOT_TRY(qdot_vec_push(&b->children, below));
+    return finish_script(r, lower);
+}
+
+/* Dots over the first letter: θ and one dot become θ̇; over what is drawn there are none. */
+static qdot_status
+finish_accent(reader *r, const qdot_box *x, uint32_t dots)
+{
+    static const char *const marks[] = {"", "\u0307", "\u0308", "\u20DB"};
+    qdot_boxes *b = r->to;
+    const uint32_t base = b->children.at[x->first];
+    const size_t from = b->text.n;
+    const qdot_text *copy = &r->copy;
+    size_t letter;
+
+    if (!is_text(b, base) || b->box.at[base].count == 0)
+        return qdot_vec_push(&r->done, base);
+    qdot_text_truncate(&r->copy, 0);
+    spell(b, base, &r->copy);
+    letter = qdot_utf8_length(qdot_text_str(copy));
+    qdot_text_add_n(&b->text, qdot_text_str(copy), letter);
+    qdot_text_add(&b->text, marks[dots]);
+    qdot_text_add_n(&b->text, qdot_text_str(copy) + letter, copy->n - letter);
+    b->text.failed = b->text.failed || copy->failed;
+    return finish_text(r, from, QDOT_BOX_NAME);
+}
+
+static qdot_status
+finish_root(reader *r, qdot_box x)
+{
+    const qdot_box *under = r->to->box.at + r->to->children.at[x.first];
+
+    x.columns = under->columns + qdot_box_root_sign(under);
+    x.above = under->above + 1;
+    x.below = under->below;
+    return box_finish(r, x);
+}
+
+/* --- nodes ------------------------------------------------------------------------------------ */
+
+/* The boxes finished since the innermost open node, which is closed, become the children of x. */
+static qdot_status
+close_node(reader *r, qdot_box *x)
+{
+    qdot_boxes *b = r->to;
+    const size_t from = r->open.n > 0 ? r->open.at[--r->open.n] : 0;
+
+    x->first = (uint32_t)b->children.n;
+    x->count = (uint32_t)(r->done.n - from);
+    for (size_t k = from; k < r->done.n; k++)
+        QDOT_TRY(qdot_vec_push(&b->children, r->done.at[k]));
+    r->done.n = from;
+    return QDOT_OK;
+}
+
+/* Likewise one row, or the one box that there is. */
+static qdot_status
+close_row(reader *r)
+{
+    qdot_box row = {.kind = QDOT_BOX_ROW};
+
+    QDOT_TRY(close_node(r, &row));
+    return finish_row(r, row);
+}
+
+static qdot_status
+open_node(reader *r)
+{
+    return qdot_vec_push(&r->open, r->done.n);
+}
+
+/* Whether each child of a node is a box of its own. */
+static bool
+is_of_cells(const qdot_formula_node *node)
+{
+    switch (node->kind) {
+    case QDOT_FORMULA_FRACTION:
+    case QDOT_FORMULA_POWER:
+    case QDOT_FORMULA_INDEX:
+    case QDOT_FORMULA_TENSOR:
+    case QDOT_FORMULA_TABLE:
+    case QDOT_FORMULA_CASES: return true;
+    default: return false;
+    }
+}
+
+/* Whether all children of a node together are one box, which it is about. */
+static bool
+is_about_one(const qdot_formula_node *node)
+{
+    return node->kind == QDOT_FORMULA_ROOT || node->kind == QDOT_FORMULA_ACCENT ||
+           node->kind == QDOT_FORMULA_PRIMES;
+}
+
+/* Whether the boxes of a node stand in the row around it. */
+static bool
+is_open_row(const qdot_formula_node *node)
+{
+    return node->kind == QDOT_FORMULA_APPLY ||
+           (node->kind == QDOT_FORMULA_SPAN && !(node->flags & QDOT_FORMULA_LABEL));
+}
+
+static qdot_status
+box_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
+{
+    static const char *const opening[] = {"(", "[", "|", "⌊"};
+    reader *r = walk->user;
+
+    if (node->kind == QDOT_FORMULA_TEXT)
+        return box_add_leaf(r, walk->formula, node);
+    if (node->kind == QDOT_FORMULA_SIGN)
+        return box_add_sign(r, node);
+    if (is_open_row(node))
+        return QDOT_OK;
+    QDOT_TRY(open_node(r));
+    if (node->kind == QDOT_FORMULA_BRACKET)
+        return box_add_text(r, opening[node->what], QDOT_BOX_OPENING);
+    if (node->kind == QDOT_FORMULA_TABLE || node->kind == QDOT_FORMULA_CASES) {
+        QDOT_TRY(box_add_text(r, node->kind == QDOT_FORMULA_CASES ? "{" : "[",
+                              QDOT_BOX_OPENING));
+        QDOT_TRY(open_node(r));
+    }
+    return is_of_cells(node) || is_about_one(node) ? open_node(r) : QDOT_OK;
+}
+
+static qdot_status
+box_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
+{
+    reader *r = walk->user;
+
+    if (!is_of_cells(node))
+        return QDOT_OK;
+    QDOT_TRY(close_row(r));
+    QDOT_TRY(open_node(r));
+    return node->kind == QDOT_FORMULA_CASES && k % 2 == 1 ? box_add_words(r, "if ", 3)
+                                                          : QDOT_OK;
+}
+
+/* The cells between their brackets. */
+static qdot_status
+leave_table(reader *r, const qdot_formula_node *node)
+{
+    qdot_box table = {.kind = QDOT_BOX_TABLE,
+                      .across = node->kind == QDOT_FORMULA_CASES ? 2 : node->n};
+
+    if (node->kind == QDOT_FORMULA_CASES)
+        QDOT_TRY(box_add_words(r, "otherwise", 9));
+    QDOT_TRY(close_node(r, &table));
+    QDOT_TRY(measure_table(r->to, &table));
+    QDOT_TRY(box_finish(r, table));
+    if (node->kind != QDOT_FORMULA_CASES)
+        QDOT_TRY(box_add_text(r, "]", QDOT_BOX_CLOSING));
+    return close_row(r);
+}
+
+/* Primes, or the order of a derivative in brackets: what is written behind. */
+static qdot_status
+box_add_order(reader *r, uint32_t n)
+{
+    const size_t from = r->to->text.n;
+
+    for (uint32_t k = 0; k < n && n <= 3; k++)
+        qdot_text_add(&r->to->text, "′");
+    if (n > 3)
+        qdot_text_format(&r->to->text, "(%" PRIu32 ")", n);
+    return finish_text(r, from, QDOT_BOX_NAME);
+}
+
+/* What is about or made of whole boxes. */
+static qdot_status
+leave_structure(reader *r, const qdot_formula_node *node)
+{
+    const bool ordered = node->kind == QDOT_FORMULA_PRIMES ||
+                         (node->kind == QDOT_FORMULA_ACCENT && node->n > 3);
+    qdot_box x = {.kind = node->kind == QDOT_FORMULA_FRACTION ? QDOT_BOX_FRACTION
+                          : node->kind == QDOT_FORMULA_ROOT   ? QDOT_BOX_ROOT
+                          : node->kind == QDOT_FORMULA_INDEX  ? QDOT_BOX_SUB
+                                                              : QDOT_BOX_SUPER};
+
+    if (ordered)
+        QDOT_TRY(box_add_order(r, node->n));
+    QDOT_TRY(close_node(r, &x));
+    switch (node->kind) {
+    case QDOT_FORMULA_FRACTION: return finish_fraction(r, x);
+    case QDOT_FORMULA_ROOT: return finish_root(r, x);
+    case QDOT_FORMULA_TENSOR: return finish_tensor(r, x);
+    case QDOT_FORMULA_ACCENT:
+        return ordered ? finish_script(r, x) : finish_accent(r, &x, node->n);
+    default: return finish_script(r, x);
+    }
+}
+
+static qdot_status
+box_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
+{
+    static const char *const closing[] = {")", "]", "|", "⌋"};
+    reader *r = walk->user;
+
+    if (is_open_row(node))
+        return QDOT_OK;
+    if (is_of_cells(node) || is_about_one(node)) {
+        QDOT_TRY(close_row(r));
+        return node->kind == QDOT_FORMULA_TABLE || node->kind == QDOT_FORMULA_CASES
+                   ? leave_table(r, node)
+                   : leave_structure(r, node);
+    }
+    if (node->kind == QDOT_FORMULA_BRACKET)
+        QDOT_TRY(box_add_text(r, closing[node->what], QDOT_BOX_CLOSING));
+    QDOT_TRY(close_row(r));
+    if (node->flags & QDOT_FORMULA_LABEL)
+        r->to->box.at[r->done.at[r->done.n - 1]].label = 1;
+    return QDOT_OK;
+}
+
+/* All of it: one row, even of one box. */
+static qdot_status
+finish_all(reader *r)
+{
+    qdot_box x = {.kind = QDOT_BOX_ROW};
+
+    QDOT_TRY(close_node(r, &x));
+    for (uint32_t k = 0; k < x.count; k++)
+        beside(&x, r->to->box.at + r->to->children.at[x.first + k]);
+    return box_finish(r, x);
+}
+
+qdot_status
+qdot_boxes_build(const qdot_formula *f, qdot_formula_id id, qdot_boxes *boxes)
+{
+    reader r = {.to = boxes};
+    qdot_formula_walk walk = {.formula = f,
+                              .user = &r,
+                              .enter = box_enter,
+                              .between = box_between,
+                              .leave = box_leave};
+    qdot_status status;
+
+    *boxes = (qdot_boxes){0};
+    status = qdot_formula_pass(&walk, id);
+    if (status == QDOT_OK)
+        status = finish_all(&r);
+    qdot_free(r.open.at);
+    qdot_free(r.done.at);
+    qdot_text_clear(&r.spelled);
+    qdot_text_clear(&r.copy);
+    return status;
+}
+
+void
+qdot_boxes_clear(qdot_boxes *b)
+{
+    qdot_free(b->box.at);
+    qdot_free(b->children.at);
+    qdot_text_clear(&b->text);
+    *b = (qdot_boxes){0};
+}
