@@ -333,24 +333,60 @@ append_script(reader *r, const qdot_box *x, bool super, bool *own)
     return finish_row(r, row);
 }
 
+/* The script beside its base, above or below. */
 static qdot_status
-finish_script(reader *r, qdot_box x)
+finish_beside(reader *r, qdot_box x)
 {
-    qdot_boxes *b = r->to;
+    const qdot_boxes *b = r->to;
     const bool super = x.kind == QDOT_BOX_SUPER;
-    const qdot_box *base, *script;
-    bool own;
+    const qdot_box *base = b->box.at + b->children.at[x.first],
+                   *script = b->box.at + b->children.at[x.first + 1];
 
-    QDOT_TRY(append_script(r, &x, super, &own));
-    if (own)
-        return QDOT_OK;
-    base = b->box.at + b->children.at[x.first];
-    script = b->box.at + b->children.at[x.first + 1];
-    x.columns = base->columns + script->columns;
+    x.columns = base->columns + (script->columns > x.across ? script->columns - x.across : 0);
     x.above =
         super ? base->above + qdot_box_height(script) - (base->above > 0) : base->above;
     x.below = super ? base->below : base->below + qdot_box_height(script);
     return box_finish(r, x);
+}
+
+/* p with θ below and a square: the square by its character in the row of p, above θ; *own: it has one. */
+static qdot_status
+append_above_index(reader *r, const qdot_box *x, bool *own)
+{
+    qdot_boxes *b = r->to;
+    const qdot_box base = b->box.at[b->children.at[x->first]];
+    const uint32_t power = b->children.at[x->first + 1];
+    qdot_box upper = {.kind = QDOT_BOX_SUPER, .count = 2, .first = (uint32_t)b->children.n};
+    qdot_box lower = {.kind = QDOT_BOX_SUB, .count = 2};
+    uint32_t letter, index, whole;
+
+    *own = false;
+    if (base.kind != QDOT_BOX_SUB)
+        return QDOT_OK;
+    letter = b->children.at[base.first];
+    index = b->children.at[base.first + 1];
+    QDOT_TRY(qdot_vec_push(&b->children, letter));
+    QDOT_TRY(qdot_vec_push(&b->children, power));
+    QDOT_TRY(append_script(r, &upper, true, own));
+    if (!*own)
+        return QDOT_OK;
+    whole = r->done.at[--r->done.n];
+    lower.first = (uint32_t)b->children.n;
+    lower.across = b->box.at[whole].columns - b->box.at[letter].columns;
+    QDOT_TRY(qdot_vec_push(&b->children, whole));
+    QDOT_TRY(qdot_vec_push(&b->children, index));
+    return finish_beside(r, lower);
+}
+
+static qdot_status
+finish_script(reader *r, qdot_box x)
+{
+    bool own;
+
+    QDOT_TRY(append_script(r, &x, x.kind == QDOT_BOX_SUPER, &own));
+    if (!own && x.kind == QDOT_BOX_SUPER)
+        QDOT_TRY(append_above_index(r, &x, &own));
+    return own ? QDOT_OK : finish_beside(r, x);
 }
 
 /* Indices above, then below. */

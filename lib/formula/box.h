@@ -44,7 +44,7 @@ typedef struct {
     uint8_t label; /* words, a name that an answer begins with */
     uint32_t first, count;         /* of the children; of a text its bytes */
     uint32_t columns, above, below;
-    uint32_t across;               /* cells of a row of a table */
+    uint32_t across; /* cells of a row of a table; of SUB: columns of its base above the subscript */
 } qdot_box;
 
 typedef struct {

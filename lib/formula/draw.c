@@ -123,7 +123,7 @@ draw_script(canvas *c, const qdot_box *b, size_t x, size_t y)
     const qdot_box *base = box_at(c, of[0]), *script = box_at(c, of[1]);
 
     later(c, of[0], x, y);
-    later(c, of[1], x + base->columns,
+    later(c, of[1], x + base->columns - (b->kind == QDOT_BOX_SUB ? b->across : 0),
           b->kind == QDOT_BOX_SUB ? y + base->below + 1 + script->above
                                   : y - base->above - (base->above == 0) - script->below);
 }

@@ -70,6 +70,12 @@ scripts_are_raised_and_lowered(void **state)
                                                                        "x\n");
     draws(SPAN(INDEX(NAME("x"), NAME("q")), PLUS, NUMBER("1")), 80, "x  + 1\n"
                                                                     " q\n");
+    draws(SPAN(POWER(ROW(INDEX(NAME("p"), NAME("θ"))), NUMBER("2")), PLUS,
+               POWER(ROW(INDEX(NAME("p"), NAME("θφ"))), NUMBER("2")), PLUS,
+               POWER(ROW(INDEX(NAME("p"), NAME("θ"))), NUMBER("12"))),
+          80,
+          "p² + p²  + p¹²\n"
+          " θ    θφ    θ\n");
     draws(SPAN(POWER(ROUND(OVER(NAME("a"), NAME("b"))), NUMBER("2"))), 80, "⎛a⎞2\n"
                                                                            "⎜─⎟\n"
                                                                            "⎝b⎠\n");
