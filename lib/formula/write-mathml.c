@@ -210,7 +210,7 @@ mathml_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
         break;
     case QDOT_FORMULA_SIGN: qdot_text_add(out, signs[node->what]); break;
     case QDOT_FORMULA_ACCENT:
-        qdot_text_add(out, node->n <= MOST_DOTS ? "<mover>" : "<msup>");
+        qdot_text_add(out, node->n <= MOST_DOTS ? "<mover accent=\"true\">" : "<msup>");
         break;
     case QDOT_FORMULA_BRACKET: return mathml_open_bracket(w, walk->formula, node);
     case QDOT_FORMULA_PRIMES:

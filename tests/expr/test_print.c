@@ -229,7 +229,7 @@ mathml_is_presentation(void **state)
     assert_string_equal(
         text_of(p.pool, e, QDOT_MATHML),
         "<mfrac><mn>1</mn><mn>2</mn></mfrac><mo>&#x2062;</mo><msup><mrow>"
-        "<mover><mi>θ</mi><mo>˙</mo></mover></mrow><mrow><mn>2</mn></mrow>"
+        "<mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover></mrow><mrow><mn>2</mn></mrow>"
         "</msup>");
     e = qdot_rel(p.pool, QDOT_LT, qdot_sqrt(p.pool, x),
                  qdot_fun1(p.pool, QDOT_SIN, theta));

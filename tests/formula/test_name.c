@@ -56,10 +56,10 @@ derivatives_have_dots_over_one_letter(void **state)
 {
     (void)state;
     is("theta1", 1, "θ\u0307₁", "\\dot{\\theta}_{1}",
-       "<msub><mover><mi>θ</mi><mo>˙</mo></mover><mrow><mn>1</mn></mrow></msub>");
-    is("x", 2, "x\u0308", "\\ddot{x}", "<mover><mi>x</mi><mo>¨</mo></mover>");
-    is("x", 3, "x′′′", "\\dddot{x}", "<mover><mi>x</mi><mo>⃛</mo></mover>");
-    is("xy", 1, "xy′", "\\dot{\\mathrm{xy}}", "<mover><mi>xy</mi><mo>˙</mo></mover>");
+       "<msub><mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover><mrow><mn>1</mn></mrow></msub>");
+    is("x", 2, "x\u0308", "\\ddot{x}", "<mover accent=\"true\"><mi>x</mi><mo>¨</mo></mover>");
+    is("x", 3, "x′′′", "\\dddot{x}", "<mover accent=\"true\"><mi>x</mi><mo>⃛</mo></mover>");
+    is("xy", 1, "xy′", "\\dot{\\mathrm{xy}}", "<mover accent=\"true\"><mi>xy</mi><mo>˙</mo></mover>");
 }
 
 /* Only digits, and nothing else below, may be lowered. */

@@ -69,9 +69,9 @@ static void
 derivatives_have_dots_primes_and_orders(void **state)
 {
     (void)state;
-    says(DOTS(1, NAME("θ")), "\\dot{\\theta}", "<mover><mi>θ</mi><mo>˙</mo></mover>");
+    says(DOTS(1, NAME("θ")), "\\dot{\\theta}", "<mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover>");
     says(INDEX(DOTS(2, NAME("q")), ROW(NUMBER("1"))), "\\ddot{q}_{1}",
-         "<msub><mover><mi>q</mi><mo>¨</mo></mover><mrow><mn>1</mn></mrow></msub>");
+         "<msub><mover accent=\"true\"><mi>q</mi><mo>¨</mo></mover><mrow><mn>1</mn></mrow></msub>");
     says(DOTS(4, NAME("q")), "\\ddddot{q}", "<msup><mi>q</mi><mrow><mo>(</mo><mn>4</mn><mo>)</mo></mrow></msup>");
     says(DOTS(5, NAME("q")), "q^{(5)}", "<msup><mi>q</mi><mrow><mo>(</mo><mn>5</mn><mo>)</mo></mrow></msup>");
     says(INDEX(DOTS(5, NAME("q")), ROW(NUMBER("1"))), "q_{1}^{(5)}",
