@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "formula/width.h"
 #include "formula/write.h"
 #include "show/formulas.h"
 #include "show/page.h"
@@ -47,7 +48,7 @@ word_width(const char *word, size_t n)
     return 1;
 }
 
-/* About how many letters wide: half for what stands in a fraction. */
+/* About how many letters a text in LaTeX is wide. */
 static size_t
 latex_width(const char *at, size_t n)
 {
@@ -68,24 +69,11 @@ latex_width(const char *at, size_t n)
     return width;
 }
 
-static size_t
-mathml_width(const char *at, size_t n)
+/* Whether a node is a text in LaTeX: the name of an answer, latex(...). */
+static bool
+is_typed(const qdot_formula_node *node)
 {
-    size_t width = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        if (at[i] == '<') {
-            while (i < n && at[i] != '>')
-                i++;
-        } else if (at[i] == '&') {
-            width += strncmp(at + i, "&#x206", 6) != 0;
-            while (i < n && at[i] != ';')
-                i++;
-        } else {
-            width += (at[i] & 0xc0) != 0x80;
-        }
-    }
-    return width;
+    return node->kind == QDOT_FORMULA_TEXT && node->what == QDOT_TEXT_WORDS;
 }
 
 /* --- the parts of a formula --------------------------------------------------------------- */
@@ -103,6 +91,7 @@ page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
         const qdot_formula_node *node = qdot_formula_at(f, p->parts.part.at[i]);
         const bool label = (node->flags & QDOT_FORMULA_LABEL) && p->paint != NULL;
         const size_t from = p->written.n;
+        size_t letters;
 
         QDOT_TRY(qdot_vec_push(
             &p->cuts, ((qdot_page_cut){from, width, qdot_formula_sign_duty(node)})));
@@ -114,8 +103,8 @@ page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
                                                &p->written));
         qdot_text_add(&p->written, label ? p->end : "");
         QDOT_TRY(qdot_text_status(&p->written));
-        width += (is_latex(p) ? latex_width : mathml_width)(p->written.at + from,
-                                                            p->written.n - from);
+        QDOT_TRY(qdot_formula_width(f, p->parts.part.at[i], &letters));
+        width += is_latex(p) && is_typed(node) ? latex_width(p->written.at + from, p->written.n - from) : letters;
     }
     return qdot_vec_push(&p->cuts,
                          ((qdot_page_cut){p->written.n, width, QDOT_DUTY_NONE}));

@@ -2,6 +2,7 @@
 #include "kit.h"
 
 #include "base/interrupt.h"
+#include "formula/width.h"
 #include "formula/write.h"
 
 static void
@@ -195,6 +196,27 @@ tensors_have_their_indices(void **state)
 }
 
 static void
+has_letters(qdot_formula_id id, size_t expected)
+{
+    size_t letters;
+
+    assert_int_equal(qdot_formula_width(&f, id, &letters), QDOT_OK);
+    assert_int_equal(letters, expected);
+}
+
+/* Signs, brackets and letters; no marks above, nothing that is not seen. */
+static void
+letters_are_counted(void **state)
+{
+    (void)state;
+    has_letters(SPAN(NUMBER("12"), sign(QDOT_SIGN_TIMES), DOTS(1, NAME("θ")), sign(QDOT_SIGN_PLUS), NAME("mass")), 8);
+    has_letters(APPLY(FUNCTION("sin"), ROUND(OVER(NAME("a"), NAME("b")))), 7);
+    has_letters(SPAN(PRIMES(2, NAME("f")), PRIMES(12, NAME("f")), DOTS(5, NAME("q"))), 3 + 5 + 4);
+    has_letters(CASES(NAME("a"), NAME("b"), NAME("c")), strlen("{aifbcotherwise") + 1);
+    has_letters(TABLE(2, NAME("a"), NAME("b")), 4);
+}
+
+static void
 memory_that_runs_out_is_told(void **state)
 {
     const qdot_formula_id id = OVER(ROOT(NAME("θ")), INDEX(NAME("x"), ROW(NUMBER("1"))));
@@ -233,6 +255,7 @@ main(void)
         TEST(flat_brackets_do_not_stretch_on_pages),
         TEST(functions_stand_apart_on_pages),
         TEST(tensors_have_their_indices),
+        TEST(letters_are_counted),
         TEST(memory_that_runs_out_is_told),
     };
 
