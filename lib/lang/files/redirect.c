@@ -11,6 +11,7 @@
 #include "base/sink.h"
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/sheet.h"
 #include "lang/declare/scene-file.h"
 
 struct qdot_redirect_type {
@@ -134,9 +135,14 @@ qdot_status
 qdot_redirect_end(qdot_redirect *r, qdot_status status)
 {
     qdot_session *session = r->session;
-    bool complete = fclose(r->file) == 0, paged = r->type->kind == PAGE;
+    bool complete, paged = r->type->kind == PAGE;
     qdot_text page = {0};
 
+    if (status == QDOT_OK)
+        status = qdot_sheet_flush(session); /* equations of the styles latex and mathml as text */
+    else
+        qdot_sheet_forget(session);
+    complete = fclose(r->file) == 0;
     session->out = r->out;
     session->json = r->json;
     session->console = r->console;

@@ -15,10 +15,11 @@ print "Here T is", T to "print.tex"
 export latex mass_matrix to "M.tex"
 style mathml
 V to "V.tex"
+T to "T.txt"
 style plain
 V
 END
-for file in T.tex eom.tex eom.html derive.tex latex.tex print.tex M.tex V.tex; do
+for file in T.tex eom.tex eom.html derive.tex latex.tex print.tex M.tex V.tex T.txt; do
     echo "--- $file"
     sed '/^<script>/,/^<\/script>/d' $file
 done
