@@ -292,6 +292,21 @@ follow_readme(const char *at)
     assert_true(asked > 20);
 }
 
+/* The name of an answer, as it was typed, is broken as its value is. */
+static void
+long_names_are_broken(void **state)
+{
+    (void)state;
+    setenv("LC_ALL", "C.UTF-8", 1);
+    columns = 40;
+    start("-ecoord a, b; simplify(sin(a)^2 + cos(a)^2 + sqrt(a^2 + b^2) + a - b + sin(b) + 1)");
+    columns = 120;
+    assert_int_equal(finish(), 0);
+    assert_non_null(strstr(seen, "simplify(sin(a)² + cos(a)²"));
+    is_within(0, n_seen, 40);
+    setenv("LC_ALL", "C", 1);
+}
+
 static void
 readme_shows_what_is_seen(void **state)
 {
@@ -324,6 +339,7 @@ main(void)
         cmocka_unit_test(what_is_shown_fits_a_narrow_terminal),
         cmocka_unit_test(texts_are_broken_at_blanks),
         cmocka_unit_test(wide_tables_are_folded),
+        cmocka_unit_test(long_names_are_broken),
         cmocka_unit_test(readme_shows_what_is_seen),
     };
 

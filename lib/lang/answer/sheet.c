@@ -188,9 +188,27 @@ qdot_sheet_expr(qdot_sheet *s, qdot_expr e)
     return qdot_expression_add(s->session, e, s->notation, &s->formula, s->at);
 }
 
+/* A line may end behind each word of the name. */
+static qdot_status
+add_name_by_words(qdot_sheet *s, const char *name, unsigned flags)
+{
+    const size_t from = s->formula.nodes.n;
+    qdot_text text = {0};
+    const qdot_status status = qdot_typed_name_print(s->session, name, s->style, &text);
+
+    if (status == QDOT_OK)
+        sheet_add_words(s, qdot_text_str(&text), text.n);
+    for (size_t i = from; i < s->formula.nodes.n; i++)
+        s->formula.nodes.at[i].flags |= (uint8_t)flags;
+    qdot_text_clear(&text);
+    return status;
+}
+
 qdot_status
 qdot_sheet_name(qdot_sheet *s, const char *name, unsigned flags)
 {
+    if (s->form == QDOT_SHEET_DRAWN)
+        return add_name_by_words(s, name, flags);
     return qdot_typed_name_add(s->session, name, s->style, &s->formula, s->at, flags);
 }
 

@@ -240,12 +240,20 @@ next(writer *w)
     return QDOT_OK;
 }
 
-static qdot_status
-write_name(qdot_session *session, const char *name, qdot_style style, qdot_text *out)
+qdot_status
+qdot_typed_name_print(qdot_session *session, const char *name, qdot_style style, qdot_text *out)
 {
-    writer w = {.session = session, .style = style, .at = name, .start = name, .out = out};
+    writer w = {.session = session,
+                .style = style == QDOT_LATEX ? QDOT_LATEX : QDOT_UNICODE,
+                .at = name,
+                .start = name,
+                .out = out};
     qdot_status status = QDOT_OK;
 
+    if (style == QDOT_PLAIN || strchr(name, '"') != NULL) {
+        qdot_text_add(out, name);
+        return qdot_text_status(out);
+    }
     while (*w.at != '\0' && status == QDOT_OK)
         status = next(&w);
     return status == QDOT_OK ? qdot_text_status(out) : status;
@@ -257,12 +265,8 @@ qdot_typed_name_add(qdot_session *session, const char *name, qdot_style style, q
 {
     const size_t from = f->nodes.n;
     qdot_text text = {0};
-    qdot_status status = QDOT_OK;
+    qdot_status status = qdot_typed_name_print(session, name, style, &text);
 
-    if (style == QDOT_PLAIN || strchr(name, '"') != NULL)
-        qdot_text_add(&text, name);
-    else
-        status = write_name(session, name, style == QDOT_LATEX ? QDOT_LATEX : QDOT_UNICODE, &text);
     if (status == QDOT_OK && style == QDOT_LATEX)
         qdot_formula_add_latex(f, parent, qdot_text_str(&text), text.n);
     else if (status == QDOT_OK)
