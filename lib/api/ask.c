@@ -7,7 +7,7 @@
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
 #include "lang/workbench/script.h"
-#include "lang/commands/handlers.h"
+#include "lang/ask/ask.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"

@@ -3,6 +3,7 @@
 #define QDOT_LANG_ASK_H
 
 #include "lang/answer/sheet.h"
+#include "lang/language/cursor.h"
 
 /* `name = value`; of a list each member, `eom[theta]`, `solve(...)[1]`; a tensor by its components; numbers
  * of runs with their errors. over: the LIST of coordinates its entries go by, or nil. */
@@ -15,5 +16,8 @@ QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_sheet *sheet, qdot_expr eq
 /* Each member of a LIST, as above. */
 QDOT_MUST_CHECK qdot_status qdot_ask_list(qdot_session *session, const char *name, qdot_expr list,
                                           qdot_expr over);
+
+/* A claim without the word `check`, at the cursor up to its end. */
+QDOT_MUST_CHECK qdot_status qdot_check(qdot_cursor *c);
 
 #endif

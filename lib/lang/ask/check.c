@@ -9,19 +9,32 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/handlers.h"
+#include "lang/ask/ask.h"
 #include "lang/declare/assumed.h"
 #include "lang/declare/constraints.h"
 #include "lang/functions/equilibria.h"
-#include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
+#include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
 #include "normal/solve/proportion.h"
+
+static qdot_status check_claim(qdot_record *r);
+
+QDOT_STATEMENT(check) = {
+    .word = "check",
+    .group = QDOT_ASKING,
+    .usage = "check [not] A == B [when C, D, ...] [within E] | check [not] conserved E [when C, D, ...] | "
+             "check [not] integrable LABEL",
+    .summary = "decide an identity, an inequality, a conservation, or whether a velocity constraint "
+               "is holonomic in disguise: proved, refuted or undecided",
+    .example = "check sin(x)^2 + cos(x)^2 == 1",
+    .handler = check_claim,
+};
 
 /* --- deciding ----------------------------------------------------------------------- */
 
@@ -207,25 +220,11 @@ typedef struct {
     qdot_passed passed; /* on the way to the sides */
 } question;
 
-/* `conserved E`, but not the value `conserved[2]`. */
-static bool
-is_conserved(const qdot_cursor *c)
-{
-    const qdot_token *next = c->at + 1;
-
-    return qdot_cursor_is_word(c, "conserved") &&
-           qdot_names_find(c->session->names, "conserved") == NULL &&
-           (next->kind == QDOT_TOKEN_NAME || next->kind == QDOT_TOKEN_NUMBER ||
-            (next->kind == QDOT_TOKEN_OPERATOR &&
-             (strcmp(next->text, "(") == 0 || strcmp(next->text, "-") == 0 ||
-              strcmp(next->text, "sqrt") == 0)));
-}
-
 /* A bare relation, `check (a = b)`, `check E1`: its two sides. */
 static qdot_status
-take_apart(qdot_cursor *c, question *q)
+take_apart(qdot_record *r, const qdot_filled *part, question *q)
 {
-    qdot_pool *pool = c->session->pool;
+    qdot_pool *pool = r->cursor.session->pool;
     qdot_expr e = q->left;
     static const comparison how[] = {
         [QDOT_EQ] = EQUAL, [QDOT_LT] = LESS, [QDOT_LE] = LESS_EQUAL};
@@ -236,7 +235,7 @@ take_apart(qdot_cursor *c, question *q)
         return QDOT_OK;
     }
     if (qdot_expr_kind(pool, e) != QDOT_REL)
-        return qdot_cursor_expected(c, "`==` and the other side");
+        return qdot_record_expected(r, part->to, "`==` and the other side");
     q->how = how[qdot_expr_node(pool, e)->op];
     q->left = qdot_expr_arg(pool, e, 0);
     q->right = qdot_expr_arg(pool, e, 1);
@@ -244,64 +243,41 @@ take_apart(qdot_cursor *c, question *q)
 }
 
 static qdot_status
-read_comparison(qdot_cursor *c, question *q)
+read_comparison(qdot_record *r, const qdot_filled *part, question *q)
 {
-    static const struct {
-        const char *op;
-        comparison how;
-        bool turned;
-    } ops[] = {{"==", EQUAL, false},      {"=", EQUAL, false}, {"<", LESS, false},
-               {"<=", LESS_EQUAL, false}, {">", LESS, true},   {">=", LESS_EQUAL, true}};
+    const char *relation = r->compiled.at[part->first].to->text;
 
-    QDOT_TRY(qdot_read_side(c, &q->left));
-    for (size_t i = 0; i < sizeof ops / sizeof *ops; i++) {
-        if (!qdot_cursor_accept_op(c, ops[i].op))
-            continue;
-        q->how = ops[i].how;
-        QDOT_TRY(qdot_read_side(c, &q->right));
-        q->turned = ops[i].turned;
-        return QDOT_OK;
-    }
-    return take_apart(c, q);
+    QDOT_TRY(qdot_record_side(r, part, 0, &q->left));
+    if (part->n == 1)
+        return take_apart(r, part, q);
+    q->turned = relation[0] == '>';
+    q->how = relation[0] == '=' ? EQUAL : relation[1] == '=' ? LESS_EQUAL : LESS;
+    return qdot_record_side(r, part, 1, &q->right);
 }
 
 static qdot_status
-read_question(qdot_cursor *c, question *q, qdot_assumed *f)
+read_question(qdot_record *r, question *q, qdot_assumed *f)
 {
-    if (qdot_cursor_accept_word(c, "not"))
-        q->not = true;
-    if (qdot_cursor_is_word(c, "integrable") && c->at[1].kind == QDOT_TOKEN_NAME) {
-        c->at++;
-        q->integrable = true;
-        return QDOT_OK;
-    }
-    if (is_conserved(c)) {
-        c->at++;
-        q->conserved = true;
-        QDOT_TRY(qdot_read_side(c, &q->left));
-    } else {
-        qdot_status status;
+    const qdot_filled *sides = qdot_record_hole(r, NULL, "A"), *within = qdot_record_hole(r, "within", NULL);
+    qdot_session *session = r->cursor.session;
+    qdot_status status;
 
-        c->session->passed = &q->passed;
-        status = read_comparison(c, q);
-        c->session->passed = NULL;
+    q->not = qdot_record_word(r, "not") != NULL;
+    q->integrable = qdot_record_word(r, "integrable") != NULL;
+    q->conserved = qdot_record_word(r, "conserved") != NULL;
+    if (q->conserved)
+        QDOT_TRY(qdot_record_value(r, qdot_record_hole(r, "conserved", NULL), &q->left));
+    if (sides != NULL) {
+        session->passed = &q->passed;
+        status = read_comparison(r, sides, q);
+        session->passed = NULL;
         QDOT_TRY(status);
     }
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "when")) {
-            do
-                QDOT_TRY(qdot_assumed_read(c, f));
-            while (qdot_cursor_accept_op(c, ","));
-        } else if (qdot_cursor_accept_word(c, "within")) {
-            QDOT_TRY(qdot_cursor_once(c, "within", q->within));
-            q->within = true;
-            QDOT_TRY(qdot_read_number(c, &q->tol));
-        } else {
-            return qdot_cursor_expected(c,
-                                        "`when`, `within` or the end of the statement");
-        }
-    }
-    return QDOT_OK;
+    for (size_t i = 1; i < r->parts.n; i++)
+        if (r->parts.at[i].node->kind == QDOT_USAGE_HOLE && strcmp(r->parts.at[i].node->before, "when") == 0)
+            QDOT_TRY(qdot_assumed_add(r, &r->parts.at[i], f));
+    q->within = within != NULL;
+    return q->within ? qdot_record_number(r, within, &q->tol) : QDOT_OK;
 }
 
 /* `check eom == (x'' = -x)`: the only member of a list, beside what is no list. */
@@ -572,30 +548,44 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     return answer(c, q, f);
 }
 
-qdot_status
-qdot_check(qdot_cursor *c)
+static qdot_status
+check_claim(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_cursor *c = &r->cursor;
     question q = {.right = QDOT_ZERO};
     qdot_assumed f = {0};
     qdot_status status = qdot_assumed_begin(c->session, &f);
 
     if (status == QDOT_OK)
-        status = read_question(c, &q, &f);
+        status = read_question(r, &q, &f);
     if (status == QDOT_OK && q.conserved && qdot_held_coordinate(c->session)) {
-        c->error_at = start->start;
+        c->error_at = r->start->start;
         status = qdot_fail(QDOT_EINVAL, "what is conserved is so along the motion: no coordinate is held");
     }
     if (status == QDOT_OK && c->session->held.n > 0)
         status = qdot_assumed_hold(c->session, &f);
     if (status == QDOT_OK && q.integrable) {
-        status = qdot_constraints_check_integrable(c, q.not);
+        status = qdot_constraints_check_integrable(r, qdot_record_hole(r, NULL, "LABEL"), q.not);
     } else if (status == QDOT_OK) {
-        c->error_at = start->start;
+        c->error_at = r->start->start;
         status = q.conserved ? answer_conserved(c, &q, &f) : answer(c, &q, &f);
     }
     qdot_free(q.passed.value.at);
     qdot_free(q.passed.root.at);
     qdot_assumed_free(&f);
+    return status;
+}
+
+qdot_status
+qdot_check(qdot_cursor *c)
+{
+    qdot_record r;
+    qdot_status status = qdot_match_operands(c, &qdot_statement_row_check, &r);
+
+    if (status == QDOT_OK)
+        status = check_claim(&r);
+    c->at = r.cursor.at;
+    c->error_at = r.cursor.error_at;
+    qdot_record_free(&r);
     return status;
 }

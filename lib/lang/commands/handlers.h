@@ -4,13 +4,9 @@
 
 #include "lang/language/cursor.h"
 
-qdot_status qdot_check(qdot_cursor *c);
 qdot_status qdot_table_statement(qdot_cursor *c);
 qdot_status qdot_plot_statement(qdot_cursor *c);
 qdot_status qdot_table_save(qdot_cursor *c);
 qdot_status qdot_animate_statement(qdot_cursor *c);
-qdot_status qdot_help(qdot_cursor *c);
-qdot_status qdot_report_page(qdot_cursor *c);
-qdot_status qdot_export_statement(qdot_cursor *c);
 
 #endif

@@ -5,7 +5,6 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
-#include "lang/language/read.h"
 #include "lang/session/held.h"
 #include "lang/session/momenta.h"
 
@@ -202,20 +201,17 @@ qdot_assumed_hold(qdot_session *session, qdot_assumed *f)
 }
 
 qdot_status
-qdot_assumed_read(qdot_cursor *c, qdot_assumed *f)
+qdot_assumed_add(qdot_record *r, const qdot_filled *part, qdot_assumed *f)
 {
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
-    qdot_cursor look = *c;
+    qdot_session *session = r->cursor.session;
     const char *label;
     qdot_expr e;
 
-    if (c->at->kind == QDOT_TOKEN_NAME && qdot_read_name(&look, &label) == QDOT_OK &&
-        (qdot_cursor_is_op(&look, ",") || qdot_cursor_is_end(&look)) &&
-        qdot_names_find(session->names, label) == NULL) {
+    QDOT_TRY(qdot_record_bare_name(r, part, 0, &label));
+    if (label != NULL && qdot_names_find(session->names, label) == NULL) {
         bool found = strcmp(label, "eom") == 0;
 
-        c->error_at = start->start;
+        qdot_record_blame(r, part);
         if (found)
             QDOT_TRY(qdot_assumed_motion(session, f));
         for (size_t i = 0; i < session->scene->constraints.n; i++) {
@@ -226,12 +222,10 @@ qdot_assumed_read(qdot_cursor *c, qdot_assumed *f)
             found = true;
             QDOT_TRY(qdot_assumed_constraint(session, f, i, true));
         }
-        if (found) {
-            c->at = look.at;
+        if (found)
             return QDOT_OK;
-        }
     }
-    QDOT_TRY(qdot_read_value(c, &e));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_record_value(r, part, &e));
+    qdot_record_blame(r, part);
     return add_condition(session, f, e);
 }

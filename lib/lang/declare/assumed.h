@@ -3,7 +3,7 @@
 #ifndef QDOT_LANG_ASSUMED_H
 #define QDOT_LANG_ASSUMED_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 
 typedef struct {
     qdot_vec(qdot_expr) relations, conditions; /* scalars that are 0; inequalities */
@@ -14,8 +14,8 @@ typedef struct {
 /* Add the facts of the scene to an empty one. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_begin(qdot_session *session, qdot_assumed *f);
 void qdot_assumed_free(qdot_assumed *f);
-/* Read one condition after `when`: `eom`, the label of a constraint, or a relation. */
-QDOT_MUST_CHECK qdot_status qdot_assumed_read(qdot_cursor *c, qdot_assumed *f);
+/* Add a condition after `when`: `eom`, the label of a constraint, or a relation. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_add(qdot_record *r, const qdot_filled *part, qdot_assumed *f);
 /* `eom`: replace accelerations and multipliers by their solution, and add the constraints on q
  * and q'. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assumed *f);

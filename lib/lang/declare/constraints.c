@@ -10,7 +10,6 @@
 #include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
 #include "lang/language/hints.h"
-#include "lang/language/read.h"
 #include "mech/dynamics/integrable.h"
 
 /* "blade", "roll[2]" */
@@ -140,17 +139,15 @@ constraint_answer_json(qdot_session *session, const qdot_constraint *c, const qd
 }
 
 qdot_status
-qdot_constraints_check_integrable(qdot_cursor *c, bool not)
+qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name, bool not)
 {
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
     qdot_scene *scene = session->scene;
     const char *label, *nearest;
     bool found = false;
 
-    QDOT_TRY(qdot_read_name(c, &label));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_record_name(r, name, &label));
+    qdot_record_blame(r, name);
     for (size_t k = 0; k < scene->constraints.n; k++) {
         qdot_integrability i;
 

@@ -5,11 +5,11 @@
 #ifndef QDOT_LANG_CONSTRAINTS_H
 #define QDOT_LANG_CONSTRAINTS_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 
-/* `check [not] integrable LABEL`, behind these words: a verdict for each component of the
- * constraint. */
-QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_cursor *c, bool not);
+/* `check [not] integrable LABEL`: a verdict for each component of the constraint. */
+QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name,
+                                                              bool not);
 
 /* Append a line that names the redundant constraints, and one where nothing can move. */
 void qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,

@@ -5,9 +5,20 @@
 #include "lang/ask/ask.h"
 #include "lang/declare/export-scene.h"
 #include "lang/files/redirect.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
+#include "lang/syntax/record.h"
+
+static qdot_status export_write(qdot_record *r);
+
+QDOT_STATEMENT(export) = {
+    .word = "export",
+    .group = QDOT_WORKBENCH,
+    .usage = "export c|python|julia|matlab|octave|latex EXPR to \"FILE\"",
+    .summary = "the equations of motion as functions to call (M, f, accelerations, Jacobian, constraints, "
+               "events), or an expression as a function of its symbols",
+    .example = "export c eom to \"eom.c\"",
+    .handler = export_write,
+};
 
 enum { LATEX = -1 };
 
@@ -20,18 +31,6 @@ static const struct language {
     {"octave", ".m", QDOT_EXPORT_MATLAB}, {"latex", ".tex", LATEX},
 };
 
-static qdot_status
-read_language(qdot_cursor *c, const struct language **to)
-{
-    for (size_t i = 0; i < sizeof languages / sizeof *languages; i++)
-        if (qdot_cursor_accept_word(c, languages[i].word)) {
-            *to = &languages[i];
-            return QDOT_OK;
-        }
-    (void)qdot_cursor_expected(c, "c, python, julia, matlab or latex");
-    return qdot_hint("export c eom to \"eom.c\"");
-}
-
 /* What is exported: the motion, or the value of an expression with its text. */
 typedef struct {
     bool motion;
@@ -40,41 +39,31 @@ typedef struct {
 } operand;
 
 static qdot_status
-read_operand(qdot_cursor *c, const struct language *l, operand *o)
+read_operand(qdot_record *r, const struct language *l, operand *o)
 {
-    const qdot_token *start = c->at;
+    const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
+    qdot_session *session = r->cursor.session;
 
-    if (qdot_cursor_is_word(c, "to") && c->at[1].kind == QDOT_TOKEN_STRING) {
-        (void)qdot_cursor_expected(c, "`eom` or an expression");
-        return qdot_hint("export %s eom to \"eom%s\"", l->word, l->ending);
-    }
-    if (l->language != LATEX && qdot_cursor_is_word(c, "eom") && qdot_token_is_word(c->at + 1, "to") &&
-        qdot_names_find(c->session->names, "eom") == NULL) {
+    if (l->language != LATEX && part->to == part->from + 1 && qdot_token_is_word(part->from, "eom") &&
+        qdot_names_find(session->names, "eom") == NULL) {
         o->motion = true;
-        c->at++;
         return QDOT_OK;
     }
-    QDOT_TRY(qdot_read_value(c, &o->value));
-    qdot_token_text(c->session, start, c->at, &o->name);
+    QDOT_TRY(qdot_record_value(r, part, &o->value));
+    qdot_token_text(session, part->from, part->to, &o->name);
     return qdot_text_status(&o->name);
 }
 
 /* The file: its ending must be the language's. *name: without folder and ending, of `storage`. */
 static qdot_status
-read_file(qdot_cursor *c, const struct language *l, const char **path, qdot_text *name)
+read_file(qdot_record *r, const struct language *l, const char **path, qdot_text *name)
 {
-    const qdot_token *at;
+    const qdot_filled *file = qdot_record_hole(r, "to", NULL);
     const char *base;
     size_t n, ending = strlen(l->ending);
 
-    if (!qdot_cursor_accept_word(c, "to") || c->at->kind != QDOT_TOKEN_STRING) {
-        (void)qdot_cursor_expected(c, "`to` and the name of a file in quotes");
-        return qdot_hint("export %s eom to \"eom%s\"", l->word, l->ending);
-    }
-    at = c->at;
-    QDOT_TRY(qdot_read_string(c, path));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = at->start;
+    *path = qdot_record_text(file);
+    qdot_record_blame(r, file);
     base = strrchr(*path, '/') == NULL ? *path : strrchr(*path, '/') + 1;
     n = strlen(base);
     if (!qdot_ends_in(base, l->ending)) {
@@ -98,33 +87,33 @@ write_latex(qdot_session *session, const operand *o, const char *path)
                              qdot_ask_answer(session, qdot_text_str(&o->name), o->value, QDOT_NIL));
 }
 
-qdot_status
-qdot_export_statement(qdot_cursor *c)
+static qdot_status
+export_write(qdot_record *r)
 {
-    const qdot_token *start;
-    const struct language *l = NULL;
+    qdot_session *session = r->cursor.session;
+    const struct language *l = languages;
     operand o = {0};
     qdot_text name = {0}, source = {0};
     const char *path = NULL;
     qdot_status status;
 
-    QDOT_TRY(read_language(c, &l));
-    start = c->at;
-    status = read_operand(c, l, &o);
+    while (qdot_record_word(r, l->word) == NULL)
+        l++;
+    status = read_operand(r, l, &o);
     if (status == QDOT_OK)
-        status = read_file(c, l, &path, &name);
+        status = read_file(r, l, &path, &name);
     if (status == QDOT_OK)
-        c->error_at = start->start;
+        qdot_record_blame(r, qdot_record_hole(r, NULL, "EXPR"));
     if (status == QDOT_OK && l->language == LATEX) {
-        status = write_latex(c->session, &o, path);
+        status = write_latex(session, &o, path);
     } else if (status == QDOT_OK) {
-        status = o.motion ? qdot_export_scene(c->session, qdot_text_str(&name),
+        status = o.motion ? qdot_export_scene(session, qdot_text_str(&name),
                                               (qdot_export_language)l->language, &source)
-                          : qdot_export_value(c->session, qdot_text_str(&o.name), o.value,
+                          : qdot_export_value(session, qdot_text_str(&o.name), o.value,
                                               qdot_text_str(&name),
                                               (qdot_export_language)l->language, &source);
         if (status == QDOT_OK)
-            status = qdot_answer_in_file(c->session, path, &source);
+            status = qdot_answer_in_file(session, path, &source);
     }
     qdot_text_clear(&o.name);
     qdot_text_clear(&name);

@@ -2,18 +2,29 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
-#include "lang/figures/figure-file.h"
 #include "lang/files/report-answer.h"
 #include "lang/files/report-run.h"
 #include "lang/files/report-work.h"
 #include "lang/declare/scene-file.h"
-#include "lang/commands/handlers.h"
 #include "lang/commands/statement.h"
-#include "lang/language/read.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
 #include "mech/study/noether.h"
 #include "show/page.h"
 #include "show/pdf.h"
+
+static qdot_status report_write(qdot_record *r);
+
+QDOT_STATEMENT(report) = {
+    .word = "report",
+    .group = QDOT_WORKBENCH,
+    .usage = "report [RUN, ...] [title TEXT] [workprecision] to \"FILE.html\"|\"FILE.pdf\"",
+    .summary = "everything as one page: scene, derivation, conserved quantities, equilibria, run with its "
+               "error, curves, moving picture, script; several runs are compared",
+    .example = "report to \"x.html\"",
+    .form = "report to \"x.html\"",
+    .handler = report_write,
+};
 
 enum { LONGEST = 4000000 };
 
@@ -117,59 +128,33 @@ write_sections(page *p)
 
 /* --- the statement ------------------------------------------------------------------ */
 
-typedef struct {
-    size_t n;
-    const qdot_token *places[QDOT_REPORT_RUNS];
-    const char *runs[QDOT_REPORT_RUNS], *title, *path;
-    bool work;
-} options;
-
+/* The runs named, or the latest; none without a name is no failure. */
 static qdot_status
-read_runs(qdot_cursor *c, options *o)
+find_runs(qdot_record *r, page *p)
 {
-    do {
-        const qdot_token *place = c->at;
+    for (const qdot_filled *part = qdot_record_hole(r, NULL, "RUN"); part != NULL;
+         part = qdot_record_next(r, part, "RUN")) {
+        qdot_named_run *run;
         const char *name;
 
-        if (qdot_cursor_is_word(c, "to") && c->at[1].kind == QDOT_TOKEN_STRING)
-            return qdot_cursor_expected(c, "the name of a run");
-        QDOT_TRY(qdot_read_name(c, &name));
-        c->error_at = place->start;
-        if (o->n == QDOT_REPORT_RUNS)
-            return qdot_fail(QDOT_EINVAL, "a report compares %d runs at most",
-                             QDOT_REPORT_RUNS);
-        for (size_t i = 0; i < o->n; i++)
-            if (strcmp(o->runs[i], name) == 0)
+        QDOT_TRY(qdot_record_name(r, part, &name));
+        QDOT_TRY(qdot_record_no_prime(r, part, "`,` or `to`"));
+        qdot_record_blame(r, part);
+        if (p->n == QDOT_REPORT_RUNS)
+            return qdot_fail(QDOT_EINVAL, "a report compares %d runs at most", QDOT_REPORT_RUNS);
+        QDOT_TRY(qdot_runs_find(p->session, name, &run));
+        for (size_t i = 0; i < p->n; i++)
+            if (p->runs[i] == run)
                 return qdot_fail(QDOT_EINVAL, "run `%s` is named twice", name);
-        o->places[o->n] = place;
-        o->runs[o->n++] = name;
-    } while (qdot_cursor_accept_op(c, ","));
-    return QDOT_OK;
-}
-
-static qdot_status
-read_options(qdot_cursor *c, options *o)
-{
-    if (c->at->kind == QDOT_TOKEN_NAME && !qdot_cursor_is_word(c, "to") &&
-        !qdot_cursor_is_word(c, "title") && !qdot_cursor_is_word(c, "workprecision"))
-        QDOT_TRY(read_runs(c, o));
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "to")) {
-            QDOT_TRY(qdot_figure_file_read(c, &o->path));
-        } else if (qdot_cursor_accept_word(c, "workprecision")) {
-            QDOT_TRY(qdot_cursor_once(c, "workprecision", o->work));
-            o->work = true;
-        } else if (qdot_cursor_accept_word(c, "title")) {
-            QDOT_TRY(qdot_cursor_once(c, "title", o->title != NULL));
-            QDOT_TRY(qdot_figure_title_read(c, &o->title));
-        } else {
-            return qdot_cursor_expected(
-                c, "`title`, `workprecision`, `to` or the end of the statement");
-        }
+        p->runs[p->n++] = run;
     }
-    return o->path != NULL
-               ? QDOT_OK
-               : qdot_cursor_expected(c, "`to` and the name of a file in quotes");
+    if (p->n == 0 && p->session->runs.n > 0) {
+        qdot_named_run *run;
+
+        QDOT_TRY(qdot_runs_find(p->session, NULL, &run));
+        p->runs[p->n++] = run;
+    }
+    return QDOT_OK;
 }
 
 /* The name of the script without its folder and ending. */
@@ -184,23 +169,6 @@ add_title(const qdot_session *s, qdot_text *title)
         qdot_text_add(title, "Report");
     else
         qdot_text_add_n(title, name, qdot_ends_in(name, ".lag") ? n - 4 : n);
-}
-
-/* The runs named, or the latest; none without a name is no failure. */
-static qdot_status
-find_runs(page *p, const options *o)
-{
-    const bool latest = o->n == 0 && p->session->runs.n > 0;
-
-    for (size_t i = 0; i < o->n + latest; i++) {
-        qdot_named_run *run;
-
-        if (!latest)
-            p->c->error_at = o->places[i]->start;
-        QDOT_TRY(qdot_runs_find(p->session, latest ? NULL : o->runs[i], &run));
-        p->runs[p->n++] = run;
-    }
-    return QDOT_OK;
 }
 
 static qdot_status
@@ -222,41 +190,37 @@ make_page(page *p, const char *given)
     return status == QDOT_OK ? qdot_text_status(&p->page) : status;
 }
 
-qdot_status
-qdot_report_page(qdot_cursor *c)
+static qdot_status
+report_write(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    page p = {.c = c, .session = c->session};
-    options o = {0};
-    bool pdf;
+    const qdot_filled *title = qdot_record_hole(r, "title", NULL);
+    const char *path = qdot_record_text(qdot_record_hole(r, "to", NULL));
+    const bool pdf = qdot_ends_in(path, ".pdf");
+    page p = {.c = &r->cursor, .session = r->cursor.session, .work = qdot_record_word(r, "workprecision") != NULL};
     qdot_status status;
 
-    QDOT_TRY(read_options(c, &o));
-    c->error_at = start->start;
-    pdf = qdot_ends_in(o.path, ".pdf");
-    if (!pdf && !qdot_ends_in(o.path, ".html")) {
-        (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what page it is to be",
-                        o.path);
+    r->cursor.error_at = r->start->start;
+    if (!pdf && !qdot_ends_in(path, ".html")) {
+        (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what page it is to be", path);
         return qdot_hint("end its name in .html or .pdf");
     }
-    if (c->session->scene->coordinates.n == 0) {
+    if (p.session->scene->coordinates.n == 0) {
         (void)qdot_fail(QDOT_EINVAL,
                         "there is nothing to report: no coordinate is declared");
         return qdot_hint("coord theta");
     }
-    QDOT_TRY(find_runs(&p, &o));
-    c->error_at = start->start;
-    p.work = o.work;
+    QDOT_TRY(find_runs(r, &p));
+    r->cursor.error_at = r->start->start;
     if (p.work && p.n == 0)
         return qdot_fail(QDOT_EINVAL,
                          "`workprecision` measures the time of a run: there is none");
-    status = make_page(&p, o.title);
+    status = make_page(&p, title != NULL ? qdot_record_text(title) : NULL);
     if (status == QDOT_OK && pdf) {
-        status = qdot_pdf_print(qdot_text_str(&p.page), p.page.n, o.path);
+        status = qdot_pdf_print(qdot_text_str(&p.page), p.page.n, path);
         if (status == QDOT_OK)
-            status = qdot_answer_file(c->session, o.path);
+            status = qdot_answer_file(p.session, path);
     } else if (status == QDOT_OK) {
-        status = qdot_answer_in_file(c->session, o.path, &p.page);
+        status = qdot_answer_in_file(p.session, path, &p.page);
     }
     qdot_text_clear(&p.page);
     return status;

@@ -75,6 +75,7 @@ expected_collect(qdot_expected *list, int node, bool taken)
         return;
     }
     list->hole = list->hole || at->kind == QDOT_USAGE_HOLE;
+    list->open = list->open || (at->kind == QDOT_USAGE_HOLE && !taken);
     list->given = list->given || (taken && at->kind == QDOT_USAGE_WORD &&
                                   qdot_token_is_word(list->token, at->text));
     for (int i = 0; i < list->n; i++)
@@ -200,7 +201,7 @@ bool
 qdot_expected_refuses(const qdot_expected *list, const qdot_record *r)
 {
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        const bool is = refused[i].word == NULL ? !list->hole
+        const bool is = refused[i].word == NULL ? !list->open || r->parts.n == 1
                                                 : qdot_token_is_word(list->token, refused[i].word) ||
                                                       qdot_token_is(list->token, refused[i].word);
 

@@ -20,7 +20,8 @@ typedef struct {
     int node[QDOT_EXPECTED_NODES]; /* what may come, options that are taken too */
     int n;
     bool given; /* the token is the word of an option that is taken */
-    bool hole;  /* a hole may stand there */
+    bool hole;  /* a hole may stand there, or is that of an option that is taken */
+    bool open;  /* a hole may stand there */
 } qdot_expected;
 
 /* Add what may come at that node of the usage. */

@@ -12,6 +12,7 @@ typedef enum {
     QDOT_HOLE_VALUE,      /* an expression, with these */
     QDOT_HOLE_CONDITION,  /* SIDE = SIDE, `returns after SIDE`, or several joined by `and` */
     QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
+    QDOT_HOLE_COMPARISON, /* the same, also with == < <= > >= */
     QDOT_HOLE_RANGE,      /* SIDE..SIDE */
     QDOT_HOLE_VALUES,     /* SIDE..SIDE, or SIDE */
     QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), as many as the hole names */
@@ -21,6 +22,7 @@ typedef enum {
     QDOT_HOLE_CALL,       /* name(name, ...) */
     QDOT_HOLE_BODY,       /* an expression in the names of the call before it */
     QDOT_HOLE_WORD,       /* a single name */
+    QDOT_HOLE_TOPIC,      /* a single name, a text in quotes or % */
     QDOT_HOLE_TEXT        /* a text in quotes */
 } qdot_hole_class;
 

@@ -200,18 +200,36 @@ read_domain(matcher *m, const qdot_hole *hole, qdot_filled *part)
 
 /* --- a hole -------------------------------------------------------------------------- */
 
-/* SIDE = SIDE, or an equation by its name */
+/* Where what is read of the part so far is a name that means nothing, that is told. */
+static qdot_status
+tell_unknown(matcher *m, const qdot_filled *part)
+{
+    const qdot_token *name = part->from;
+    qdot_expr value;
+
+    return m->c->at == name + 1 && name->kind == QDOT_TOKEN_NAME &&
+                   !qdot_cursor_knows(m->c->session, name->text)
+               ? qdot_compiled_value(m->c, &m->r->compiled.at[part->first], &value)
+               : QDOT_OK;
+}
+
+/* SIDE = SIDE, or an equation by its name; of a comparison any relation */
 static qdot_status
 read_equation(matcher *m, const qdot_usage_node *node, qdot_filled *part)
 {
+    const bool comparison = node_class(node) == QDOT_HOLE_COMPARISON;
     qdot_cursor *c = m->c;
 
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
-    if (qdot_cursor_accept_op(c, "=") || qdot_cursor_accept_op(c, "=="))
+    if (qdot_token_is(c->at, "=") || qdot_token_is(c->at, "==") || (comparison && is_relation(c->at))) {
+        c->at++;
         return read_expression(m, QDOT_PARSE_SIDE, part);
-    return qdot_cursor_is_end(c) || leads_to(m->u, node->next, c->at)
-               ? QDOT_OK
-               : qdot_cursor_expected(c, "`=` and the other side");
+    }
+    if (qdot_cursor_is_end(c) || leads_to(m->u, node->next, c->at))
+        return QDOT_OK;
+    if (comparison)
+        QDOT_TRY(tell_unknown(m, part));
+    return qdot_cursor_expected(c, comparison ? "`==` and the other side" : "`=` and the other side");
 }
 
 /* SIDE = SIDE, or `returns after SIDE` */
@@ -246,19 +264,14 @@ read_tuple(matcher *m, const char *names, qdot_filled *part)
     return qdot_cursor_expect_op(m->c, ")");
 }
 
-/* SIDE..SIDE. Where no range follows a name that means nothing, that is told. */
+/* SIDE..SIDE */
 static qdot_status
 read_range(matcher *m, const qdot_hole *hole, qdot_filled *part)
 {
-    const qdot_token *start = m->c->at;
-    qdot_expr value;
-
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
     if (qdot_cursor_accept_op(m->c, ".."))
         return read_expression(m, QDOT_PARSE_SIDE, part);
-    if (m->c->at == start + 1 && start->kind == QDOT_TOKEN_NAME &&
-        !qdot_cursor_knows(m->c->session, start->text))
-        QDOT_TRY(qdot_compiled_value(m->c, &m->r->compiled.at[part->first], &value));
+    QDOT_TRY(tell_unknown(m, part));
     return qdot_cursor_expected(m->c, hole->expected);
 }
 
@@ -292,6 +305,19 @@ read_body(matcher *m, qdot_filled *part)
 }
 
 static qdot_status
+read_text(matcher *m, const qdot_usage_node *node)
+{
+    if (m->c->at->kind == QDOT_TOKEN_NAME && strcmp(node->before, "title") == 0) { /* title The pendulum */
+        m->c->error_at = m->c->at->start;
+        return qdot_fail(QDOT_ESYNTAX, "`%s` needs a text in quotes", node->before);
+    }
+    if (m->c->at->kind != QDOT_TOKEN_STRING)
+        return qdot_cursor_expected(m->c, qdot_hole_at(node->hole)->expected);
+    m->c->at++;
+    return QDOT_OK;
+}
+
+static qdot_status
 read_token(matcher *m, const qdot_hole *hole, qdot_token_kind kind)
 {
     if (m->c->at->kind != kind)
@@ -299,39 +325,6 @@ read_token(matcher *m, const qdot_hole *hole, qdot_token_kind kind)
     m->c->at++;
     return QDOT_OK;
 }
-
-static qdot_status
-read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
-{
-    const qdot_hole *hole = qdot_hole_at(node->hole);
-
-    if (qdot_cursor_is_end(m->c) && strcmp(hole->expected, "an expression") != 0)
-        return qdot_cursor_expected(m->c, hole->expected);
-    switch (hole->class) {
-    case QDOT_HOLE_SIDE: return read_expression(m, QDOT_PARSE_SIDE, part);
-    case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
-    case QDOT_HOLE_CONDITION:
-        do
-            QDOT_TRY(read_one_condition(m, hole, part));
-        while (qdot_cursor_accept_word(m->c, "and"));
-        return QDOT_OK;
-    case QDOT_HOLE_EQUATION: return read_equation(m, node, part);
-    case QDOT_HOLE_RANGE: return read_range(m, hole, part);
-    case QDOT_HOLE_VALUES:
-        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
-        return qdot_cursor_accept_op(m->c, "..") ? read_expression(m, QDOT_PARSE_SIDE, part) : QDOT_OK;
-    case QDOT_HOLE_TUPLE: return read_tuple(m, node->text, part);
-    case QDOT_HOLE_NAME:
-    case QDOT_HOLE_COORDINATE: return read_name(m, hole, part);
-    case QDOT_HOLE_DOMAIN: return read_domain(m, hole, part);
-    case QDOT_HOLE_CALL: return read_call(m, hole, part);
-    case QDOT_HOLE_BODY: return read_body(m, part);
-    case QDOT_HOLE_WORD: return read_token(m, hole, QDOT_TOKEN_NAME);
-    default: return read_token(m, hole, QDOT_TOKEN_STRING);
-    }
-}
-
-/* --- which hole ---------------------------------------------------------------------- */
 
 /* Whether the class can begin with the token, where others may stand too. */
 static bool
@@ -346,9 +339,57 @@ class_suits(const matcher *m, const qdot_usage_node *node)
     case QDOT_HOLE_CALL: return t->kind == QDOT_TOKEN_NAME && qdot_token_is(t + 1, "(");
     case QDOT_HOLE_COORDINATE: return t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t + 1, "(");
     case QDOT_HOLE_WORD: return t->kind == QDOT_TOKEN_NAME;
+    case QDOT_HOLE_TOPIC:
+        return t->kind == QDOT_TOKEN_NAME || t->kind == QDOT_TOKEN_STRING || qdot_token_is(t, "%");
     default: return t->kind != QDOT_TOKEN_STRING;
     }
 }
+
+/* Whether `to "FILE"`, which comes behind the expression of the hole, stands in its place. */
+static bool
+is_file_in_place(const matcher *m, const qdot_usage_node *node)
+{
+    const qdot_token *t = m->c->at;
+
+    return node_class(node) == QDOT_HOLE_VALUE && qdot_token_is_word(t, "to") &&
+           t[1].kind == QDOT_TOKEN_STRING && leads_to(m->u, node->next, t);
+}
+
+static qdot_status
+read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
+{
+    const qdot_hole *hole = qdot_hole_at(node->hole);
+
+    if (is_file_in_place(m, node) || (qdot_cursor_is_end(m->c) && strcmp(hole->expected, "an expression") != 0))
+        return qdot_cursor_expected(m->c, hole->expected);
+    switch (hole->class) {
+    case QDOT_HOLE_SIDE: return read_expression(m, QDOT_PARSE_SIDE, part);
+    case QDOT_HOLE_VALUE: return read_expression(m, QDOT_PARSE_VALUE, part);
+    case QDOT_HOLE_CONDITION:
+        do
+            QDOT_TRY(read_one_condition(m, hole, part));
+        while (qdot_cursor_accept_word(m->c, "and"));
+        return QDOT_OK;
+    case QDOT_HOLE_EQUATION:
+    case QDOT_HOLE_COMPARISON: return read_equation(m, node, part);
+    case QDOT_HOLE_RANGE: return read_range(m, hole, part);
+    case QDOT_HOLE_VALUES:
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+        return qdot_cursor_accept_op(m->c, "..") ? read_expression(m, QDOT_PARSE_SIDE, part) : QDOT_OK;
+    case QDOT_HOLE_TUPLE: return read_tuple(m, node->text, part);
+    case QDOT_HOLE_NAME:
+    case QDOT_HOLE_COORDINATE: return read_name(m, hole, part);
+    case QDOT_HOLE_DOMAIN: return read_domain(m, hole, part);
+    case QDOT_HOLE_CALL: return read_call(m, hole, part);
+    case QDOT_HOLE_BODY: return read_body(m, part);
+    case QDOT_HOLE_WORD: return read_token(m, hole, QDOT_TOKEN_NAME);
+    case QDOT_HOLE_TOPIC:
+        return read_token(m, hole, class_suits(m, node) ? m->c->at->kind : QDOT_TOKEN_NAME);
+    default: return read_text(m, node);
+    }
+}
+
+/* --- which hole ---------------------------------------------------------------------- */
 
 /* The hole to be read at the token; NULL: none may stand there. */
 static const qdot_usage_node *
@@ -422,32 +463,50 @@ fail_at_token(matcher *m)
     return qdot_last_error()->hint[0] == '\0' ? qdot_hint("%s", hint) : status;
 }
 
+/* Whether the word has an operand, where a value of that name may stand too: `conserved E` and
+ * `conserved[2]`, `help search energy` and `help search`. */
+static bool
+has_operand(const matcher *m, const qdot_token *word)
+{
+    const qdot_token *t = word + 1;
+
+    return qdot_names_find(m->c->session->names, word->text) == NULL &&
+           (t->kind == QDOT_TOKEN_NAME || t->kind == QDOT_TOKEN_NUMBER || t->kind == QDOT_TOKEN_STRING ||
+            qdot_token_is(t, "(") || qdot_token_is(t, "-") || qdot_token_is(t, "sqrt"));
+}
+
 /* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a
  * spring may be called `rest`. */
 static bool
 token_fits(const matcher *m)
 {
-    bool fits = false;
+    bool fits = false, named = false;
 
     for (size_t i = m->first; i < m->places.n; i++) {
         const qdot_usage_node *node = place_node(m, i);
 
         if (node->kind == QDOT_USAGE_HOLE && node_class(node) == QDOT_HOLE_NAME && class_suits(m, node))
             return false;
+        named = named || (node->kind == QDOT_USAGE_HOLE && (node_class(node) == QDOT_HOLE_COMPARISON ||
+                                                            node_class(node) == QDOT_HOLE_TOPIC));
         fits = fits || node_is_token(node, m->c->at);
     }
-    return fits;
+    return fits && (!named || has_operand(m, m->c->at));
+}
+
+static bool
+may_end(const matcher *m)
+{
+    for (size_t i = m->first; i < m->places.n; i++)
+        if (place_node(m, i)->kind == QDOT_USAGE_END)
+            return true;
+    return false;
 }
 
 static bool
 is_at_end(const matcher *m)
 {
-    if (!qdot_cursor_is_end(m->c))
-        return false;
-    for (size_t i = m->first; i < m->places.n; i++)
-        if (place_node(m, i)->kind == QDOT_USAGE_END)
-            return true;
-    return false;
+    return qdot_cursor_is_end(m->c) && may_end(m);
 }
 
 static qdot_status
@@ -463,7 +522,7 @@ match_token(matcher *m, bool *end)
         m->c->at++;
     } else {
         hole = hole_choose(m);
-        if (hole == NULL)
+        if (hole == NULL || (node_class(hole) == QDOT_HOLE_TOPIC && may_end(m) && !class_suits(m, hole)))
             return fail_at_token(m);
         QDOT_TRY(read_hole(m, hole, &part));
     }

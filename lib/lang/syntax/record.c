@@ -120,6 +120,12 @@ qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k, qdot_expr *v
 }
 
 qdot_status
+qdot_record_side(qdot_record *r, const qdot_filled *part, size_t k, qdot_expr *value)
+{
+    return qdot_compiled_value(&r->cursor, &r->compiled.at[part->first + k], value);
+}
+
+qdot_status
 qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion, qdot_expr *left,
                      qdot_expr *right)
 {

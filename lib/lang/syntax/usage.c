@@ -236,6 +236,31 @@ gather_clauses(compiler *c, int i, int to, members *m)
     return clauses < 2 ? start : i;
 }
 
+/* Whether one of the options is `word HOLE` as a clause is. */
+static bool
+holds_clause(const compiler *c, const members *m)
+{
+    for (int k = 0; k < m->n; k++)
+        if (is_clause(c, m->at[k].from, m->at[k].to))
+            return true;
+    return false;
+}
+
+/* The clauses behind options: `[title TEXT] to "FILE"`. */
+static int
+gather_clauses_behind(compiler *c, int i, int to, members *m)
+{
+    while (is_clause(c, i, to)) {
+        int k = i + 1;
+
+        while (k < to && (c->piece[k].kind == HOLE || c->piece[k].kind == TIGHT))
+            k++;
+        add_member(c, m, i, k, m->n);
+        i = k;
+    }
+    return i;
+}
+
 /* The alternatives that end the clauses, [a|b|c). */
 static void
 gather_tail(compiler *c, members *m)
@@ -393,6 +418,8 @@ compile_sequence(compiler *c, int i, int to)
         } else if (p->kind == OPEN) {
             m.n = 0;
             i = gather_options(c, i, to, &m);
+            if (c->depth == 0 && holds_clause(c, &m))
+                i = gather_clauses_behind(c, i, to, &m);
             compile_members(c, &m);
         } else if (p->kind == SIGN) {
             (void)emit(c, QDOT_USAGE_SIGN, p->text);

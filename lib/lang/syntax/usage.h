@@ -16,7 +16,7 @@
  *                   name with its bounds as one: NAME [> 0], LO < NAME < HI
  *
  * Two or more clauses `word HOLE` outside of brackets may come in any order too, with the options
- * among them: `particle NAME mass M at R`. Each must be there; of alternatives that end them,
+ * among them: `particle NAME mass M at R`; one behind options, `[title TEXT] to "FILE"`, too. Each must be there; of alternatives that end them,
  * `angle A | rotation MATRIX`, one. TAB offers them as they are written.
  *
  * Every statement may go on with `for NAME = A..B`, and one that answers with `to "FILE"`.

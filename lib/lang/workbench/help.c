@@ -4,13 +4,24 @@
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/workbench/search.h"
-#include "lang/commands/handlers.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/hints.h"
-#include "lang/language/read.h"
+#include "lang/syntax/record.h"
 #include "ode/method.h"
+
+static qdot_status help_tell(qdot_record *r);
+
+QDOT_STATEMENT(help) = {
+    .word = "help",
+    .group = QDOT_WORKBENCH,
+    .usage = "help [WORD] | help search WORD ...",
+    .summary = "this list, what a word means, or the words whose help holds a text; at the prompt `?particle` "
+               "and `??energy` are short for `help particle` and `help search energy`",
+    .example = "help particle",
+    .handler = help_tell,
+};
 
 enum { OFF_TERMINAL = 86 }; /* columns of running lines there */
 
@@ -160,27 +171,23 @@ look_up(qdot_text *text, const char *word)
     return text->n > 0;
 }
 
-/* `search WORD ...`, `search "TEXT"`: at the words. */
+/* `search WORD ...`, `search "TEXT"` */
 static qdot_status
-search_statement(qdot_cursor *c)
+help_search(qdot_record *r)
 {
-    const qdot_token *start = c->at;
     qdot_text words = {0}, text = {0};
     qdot_status status;
 
-    for (; c->at->kind == QDOT_TOKEN_NAME || c->at->kind == QDOT_TOKEN_STRING; c->at++)
-        qdot_text_format(&words, "%s%s", words.n > 0 ? " " : "", c->at->text);
-    status = c->at == start ? qdot_cursor_expected(c, "what to search for")
-                            : qdot_cursor_expect_end(c);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&words);
+    for (size_t i = 2; i < r->parts.n; i++)
+        qdot_text_format(&words, "%s%s", words.n > 0 ? " " : "", r->parts.at[i].from->text);
+    status = qdot_text_status(&words);
     if (status == QDOT_OK && qdot_search(qdot_text_str(&words), &text) == 0) {
-        c->error_at = start->start;
+        qdot_record_blame(r, &r->parts.at[2]);
         (void)qdot_fail(QDOT_ENAME, "no help holds `%.100s`", qdot_text_str(&words));
         status = qdot_hint("`help` lists every word");
     }
     qdot_text_clear(&words);
-    return qdot_answer_written(c->session, "help", status, &text);
+    return qdot_answer_written(r->cursor.session, "help", status, &text);
 }
 
 /* The statement, function or value whose word is nearest; NULL if none is near. */
@@ -198,38 +205,26 @@ nearest_word(qdot_session *session, const char *word)
     return near.best;
 }
 
-qdot_status
-qdot_help(qdot_cursor *c)
+static qdot_status
+help_tell(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    const char *word = "help", *near;
-    const size_t width = qdot_write_width(c->session, c->session->out);
+    qdot_session *session = r->cursor.session;
+    const qdot_filled *word = qdot_record_hole(r, "help", NULL);
+    const size_t width = qdot_write_width(session, session->out);
+    const char *near;
     qdot_text text = {0};
 
-    if (qdot_token_is_word(c->at, "search") && c->at[1].kind != QDOT_TOKEN_END) {
-        c->at++;
-        return search_statement(c);
-    }
-    if (c->at->kind == QDOT_TOKEN_NAME)
-        word = c->at++->text;
-    else if (c->at->kind == QDOT_TOKEN_STRING)
-        QDOT_TRY(qdot_read_string(c, &word));
-    else if (qdot_cursor_accept_op(c, "%"))
-        word = "%";
-    if (!qdot_cursor_is_end(c)) {
-        c->error_at = c->at->start;
-        (void)qdot_fail(QDOT_ESYNTAX, "`help` takes one word of the language");
-        return qdot_hint("help search energy");
-    }
-    c->error_at = start->start;
-    if (c->at == start) {
+    if (qdot_record_word(r, "search") != NULL)
+        return help_search(r);
+    r->cursor.error_at = r->start->start;
+    if (word == NULL) {
         overview(&text, width > 0 ? width : OFF_TERMINAL);
-    } else if (!look_up(&text, word)) {
-        (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word);
-        near = nearest_word(c->session, word);
+    } else if (!look_up(&text, word->from->text)) {
+        (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word->from->text);
+        near = nearest_word(session, word->from->text);
         return near != NULL
                    ? qdot_hint("did you mean `%s`?", near)
                    : qdot_hint("`help` lists every word; `show NAME` tells of your own names");
     }
-    return qdot_answer_written(c->session, "help", QDOT_OK, &text);
+    return qdot_answer_written(session, "help", QDOT_OK, &text);
 }

@@ -4,7 +4,7 @@
  * a statement with a trailing `for` runs, that word is an end to it: its token is an END
  * for the while.
  */
-#include "lang/commands/handlers.h"
+#include "lang/ask/ask.h"
 #include "lang/workbench/script.h"
 
 #include <string.h>

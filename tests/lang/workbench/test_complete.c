@@ -94,7 +94,7 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"plot theta log ", "x xy y"},
         {"style ", "flat latex mathml plain unicode"},
         {"timing ", "off on"},
-        {"export ", "c julia latex matlab python"},
+        {"export ", "c julia latex matlab octave python"},
         {"check integrable ", "rod"},
         {"check conser", "conserved"},
         {"event e: theta = 0 ", "falling for rising stop then"},
