@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/tensor.h"
+#include "expr/walk.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/foreign-words.h"
@@ -111,6 +112,7 @@ is_kind(const matcher *x, char kind, const qdot_token *t)
     case 'n': return true;
     case 'u': return !qdot_cursor_knows(s, t->text);
     case 'p': return name != NULL && name->kind == QDOT_NAME_PARAM;
+    case 'D': return name != NULL && name->kind == QDOT_NAME_VALUE && s->runs.n == 0;
     case 'l': return qdot_scene_has_label(s->scene, t->text);
     case 'd':
         name = t->text[0] == 'd' ? qdot_names_find(s->names, t->text + 1) : NULL;
@@ -385,12 +387,30 @@ matched_name(const qdot_session *s, const qdot_match *m, qdot_name_kind kind)
     return NULL;
 }
 
+/* A coordinate in what a name that matched was defined as; NULL: none. */
+static const char *
+coordinate_within(const qdot_session *s, const qdot_match *m)
+{
+    for (const qdot_token *k = m->from; k < m->to; k++) {
+        const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
+
+        if (known == NULL || known->kind != QDOT_NAME_VALUE)
+            continue;
+        for (size_t i = 0; i < s->scene->coordinates.n; i++)
+            if (qdot_expr_contains(s->pool, known->value, s->scene->coordinates.at[i]))
+                return qdot_expr_symbol(s->pool, s->scene->coordinates.at[i])->name;
+    }
+    return NULL;
+}
+
 /* What an equation that matched is solved for: a coordinate that it holds, else a parameter, else the first coordinate. */
 static const char *
 unknown_of(const qdot_session *s, const qdot_match *m)
 {
     const char *name = matched_name(s, m, QDOT_NAME_COORD);
 
+    if (name == NULL)
+        name = coordinate_within(s, m);
     if (name == NULL)
         name = matched_name(s, m, QDOT_NAME_PARAM);
     return name != NULL ? name : first_coordinate(s);

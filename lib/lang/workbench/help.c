@@ -4,6 +4,7 @@
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
 #include "lang/workbench/search.h"
+#include "lang/workbench/topics.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
@@ -92,31 +93,6 @@ explain(qdot_text *text, const char *usage, const char *summary, const char *exa
         qdot_text_format(text, "    example: %s\n", example);
 }
 
-/* Words that are no statement, value or function. */
-static const struct {
-    const char *word, *usage, *summary, *example;
-} topics[] = {
-    {"for",
-     "STATEMENT for K = A..B [, J = C..D] | STATEMENT for K = [LIST] | { ... } for ...",
-     "the statement or the block once for each value, in order",
-     "print k^2 for k = 1..3"},
-    {"to", "STATEMENT to \"FILE\"",
-     "its answer goes to a file; type by ending: .txt .tex .json, figures .svg .png "
-     ".pdf, "
-     "tables .csv .txt",
-     "eom to \"eom.tex\""},
-    {"pi", "pi", "the number 3.14159...; it stays exact", "cos(pi)"},
-    {"t", "t", "the time", "diff(sin(t), t)"},
-    {"and", "A and B", "both hold", "if(x > 0 and y > 0, 1, 0)"},
-    {"or", "A or B", "at least one holds", "if(x > 0 or y > 0, 1, 0)"},
-    {"not", "not A", "A does not hold; `check not A == B` expects a refutation",
-     "check not sin(t) == t"},
-    {"search", "help search WORD ...",
-     "the words of the language whose name, summary or example holds all of these",
-     "help search energy"},
-    {"%", "% | %3", "the last value; the third of the session", ""},
-};
-
 /* Every statement of which the word is an option. */
 static void
 look_up_option(qdot_text *text, const char *word)
@@ -131,6 +107,20 @@ look_up_option(qdot_text *text, const char *word)
             if (!qdot_statement_is_built(row))
                 qdot_text_add(text, "    not built yet\n");
         }
+}
+
+/* What it is; of an option the statements that take it. */
+static void
+explain_topic(qdot_text *text, const qdot_topic *topic)
+{
+    const qdot_statement *row;
+    size_t n = 0;
+
+    explain(text, topic->usage, topic->summary, topic->example);
+    for (size_t i = 0; topic->option && (row = qdot_statement_at(i)) != NULL; i++)
+        if (qdot_statement_is_built(row) && qdot_has_word(row->usage, topic->word))
+            qdot_text_format(text, "%s%s", n++ == 0 ? "    an option of " : ", ", row->word);
+    qdot_text_add(text, n > 0 ? "\n" : "");
 }
 
 /* Append what the word is: statement, function, value; false: none of these. */
@@ -159,9 +149,9 @@ look_up(qdot_text *text, const char *word)
     } else if (qdot_fun_find(word, &id)) {
         qdot_text_format(text, "%s: an elementary function\n", qdot_fun_name(id));
     }
-    for (size_t i = 0; i < sizeof topics / sizeof *topics; i++)
-        if (strcmp(word, topics[i].word) == 0)
-            explain(text, topics[i].usage, topics[i].summary, topics[i].example);
+    for (size_t i = 0; qdot_topic_at(i) != NULL; i++)
+        if (strcmp(word, qdot_topic_at(i)->word) == 0)
+            explain_topic(text, qdot_topic_at(i));
     if (qdot_ode_method_find(word) != NULL) {
         qdot_text_format(text, "run T0..T1 method %s", word);
         qdot_text_format(text, "\n    %s\n", qdot_ode_method_find(word)->fits);

@@ -8,6 +8,7 @@
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/workbench/topics.h"
 #include "ode/method.h"
 
 typedef struct {
@@ -84,6 +85,9 @@ look_at_all(search *s)
     for (size_t i = 0; (builtin = qdot_builtin_at(i)) != NULL; i++)
         if (!(builtin->flags & QDOT_BUILTIN_UNBUILT))
             search_look(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
+    for (size_t i = 0; qdot_topic_at(i) != NULL; i++)
+        search_look(s, qdot_topic_at(i)->word, qdot_topic_at(i)->usage, qdot_topic_at(i)->summary,
+                    qdot_topic_at(i)->example);
     for (size_t i = 0; qdot_ode_method_at(i) != NULL; i++)
         search_look(s, qdot_ode_method_at(i)->name, "method", qdot_ode_method_at(i)->fits, NULL);
 }

@@ -120,6 +120,23 @@ need_scalar(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return need_free_of(s, e, what, forbidden);
 }
 
+/* The dimension of the scene is another; a hint where gravity alone made it so. */
+static qdot_status
+tell_dimension(qdot_scene *s, const char *what, uint32_t n, uint32_t space)
+{
+    qdot_text field = {0};
+    qdot_status status = qdot_fail(QDOT_ETYPE, "%s has %u component%s in a scene of %u dimension%s", what, n,
+                                   n == 1 ? "" : "s", space, space == 1 ? "" : "s");
+
+    if (s->gravities.n != 1 || s->particles.n + s->bodies.n > 0)
+        return status;
+    if (qdot_scene_print_at(s, QDOT_GRAVITY, 0, &field) == QDOT_OK && field.n > 1 && field.n < 80)
+        status = qdot_hint("`%.*s` made it so: `remove gravity`, then gravity %s", (int)field.n - 1,
+                           qdot_text_str(&field), n == 2 ? "(0, -g)" : n == 3 ? "(0, 0, -g)" : "-g");
+    qdot_text_clear(&field);
+    return status;
+}
+
 /* A position, field or force: of the scene's dimension, which is what is declared first. */
 static qdot_status
 need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
@@ -136,8 +153,7 @@ need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
             return qdot_fail(QDOT_ETYPE, "component %u of %s is not a number", i + 1,
                              what);
     if (space && n != space)
-        return qdot_fail(QDOT_ETYPE, "%s has %u component%s in a scene of %u dimension%s",
-                         what, n, n == 1 ? "" : "s", space, space == 1 ? "" : "s");
+        return tell_dimension(s, what, n, space);
     return need_free_of(s, e, what, forbidden);
 }
 
