@@ -7,6 +7,5 @@
 qdot_status qdot_table_statement(qdot_cursor *c);
 qdot_status qdot_plot_statement(qdot_cursor *c);
 qdot_status qdot_table_save(qdot_cursor *c);
-qdot_status qdot_animate_statement(qdot_cursor *c);
 
 #endif

@@ -5,84 +5,59 @@
 #include "lang/answer/answer.h"
 #include "lang/figures/animated.h"
 #include "lang/figures/figure-file.h"
-#include "lang/commands/handlers.h"
-#include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
 
-typedef struct {
-    const char *run, *path;
-    qdot_animated_options drawn;
-} options;
+static qdot_status animate_write(qdot_record *r);
 
-static bool
-is_option(const qdot_cursor *c)
-{
-    static const char *const words[] = {"from", "to", "title", "trail", "speed"};
+QDOT_STATEMENT(animate) = {
+    .word = "animate",
+    .group = QDOT_NUMBERS,
+    .usage = "animate [RUN] [from A [to B]] [title TEXT] [trail T] [speed S] to \"FILE.html\"",
+    .summary = "a moving picture of a run: particles, bodies, rods, springs, dampers, with a phase portrait "
+               "and the energies beside it",
+    .example = "animate to \"double.html\"",
+    .handler = animate_write,
+};
 
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (qdot_cursor_is_word(c, words[i]))
-            return true;
-    return false;
-}
-
+/* A number that is finite; *t NaN: it was not said. */
 static qdot_status
-read_time(qdot_cursor *c, const char *word, double *t)
+time_find(qdot_record *r, const qdot_filled *part, double *t)
 {
-    const qdot_token *start;
-
-    QDOT_TRY(qdot_cursor_once(c, word, !isnan(*t)));
-    start = c->at;
-    QDOT_TRY(qdot_read_number(c, t));
+    *t = NAN;
+    if (part == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_record_number(r, part, t));
     if (isfinite(*t))
         return QDOT_OK;
-    c->error_at = start->start;
-    return qdot_fail(QDOT_EDOMAIN, "`%s` needs a finite number", word);
+    qdot_record_blame(r, part);
+    return qdot_fail(QDOT_EDOMAIN, "`%s` needs a finite number", part->node->before);
 }
 
 /* A number that is not negative, of `speed` above 0. */
 static qdot_status
-read_length(qdot_cursor *c, const char *word, bool zero, double *value)
+length_find(qdot_record *r, const qdot_filled *part, bool zero, double *value)
 {
-    const qdot_token *start = c->at;
-
-    QDOT_TRY(read_time(c, word, value));
-    if (*value > 0 || (zero && *value == 0))
+    QDOT_TRY(time_find(r, part, value));
+    if (part == NULL || *value > 0 || (zero && *value == 0))
         return QDOT_OK;
-    c->error_at = start->start;
-    return qdot_fail(QDOT_EDOMAIN, "`%s` needs a number %s 0", word,
+    qdot_record_blame(r, part);
+    return qdot_fail(QDOT_EDOMAIN, "`%s` needs a number %s 0", part->node->before,
                      zero ? "not below" : "above");
 }
 
 static qdot_status
-animate_read_options(qdot_cursor *c, options *o)
+options_find(qdot_record *r, qdot_animated_options *drawn)
 {
-    if (c->at->kind == QDOT_TOKEN_NAME && !is_option(c))
-        QDOT_TRY(qdot_read_name(c, &o->run));
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "from")) {
-            QDOT_TRY(read_time(c, "from", &o->drawn.from));
-        } else if (qdot_cursor_is_word(c, "to") && c->at[1].kind != QDOT_TOKEN_STRING &&
-                   !isnan(o->drawn.from)) {
-            c->at++;
-            QDOT_TRY(read_time(c, "to", &o->drawn.to));
-        } else if (qdot_cursor_accept_word(c, "to")) {
-            QDOT_TRY(qdot_figure_file_read(c, &o->path));
-        } else if (qdot_cursor_accept_word(c, "title")) {
-            QDOT_TRY(qdot_cursor_once(c, "title", o->drawn.title != NULL));
-            QDOT_TRY(qdot_figure_title_read(c, &o->drawn.title));
-        } else if (qdot_cursor_accept_word(c, "trail")) {
-            QDOT_TRY(read_length(c, "trail", true, &o->drawn.trail));
-        } else if (qdot_cursor_accept_word(c, "speed")) {
-            QDOT_TRY(read_length(c, "speed", false, &o->drawn.speed));
-        } else {
-            return qdot_cursor_expected(
-                c, "`from`, `to`, `title`, `trail`, `speed` or the end of the statement");
-        }
-    }
-    return o->path != NULL
-               ? QDOT_OK
-               : qdot_cursor_expected(c, "`to` and the name of a file in quotes");
+    const qdot_filled *title = qdot_record_hole(r, "title", NULL);
+
+    if (title != NULL)
+        drawn->title = qdot_record_text(title);
+    QDOT_TRY(time_find(r, qdot_record_hole(r, "from", "A"), &drawn->from));
+    QDOT_TRY(time_find(r, qdot_record_hole(r, "to", "B"), &drawn->to));
+    QDOT_TRY(length_find(r, qdot_record_hole(r, "trail", "T"), true, &drawn->trail));
+    return length_find(r, qdot_record_hole(r, "speed", "S"), false, &drawn->speed);
 }
 
 static qdot_status
@@ -102,26 +77,30 @@ write_picture(qdot_session *session, const qdot_animation *a, const char *path)
     return status;
 }
 
-qdot_status
-qdot_animate_statement(qdot_cursor *c)
+static qdot_status
+animate_write(qdot_record *r)
 {
-    const qdot_token *start = c->at;
-    options o = {.drawn = {NAN, NAN, NULL, NAN, NAN, false}};
+    const qdot_filled *name = qdot_record_hole(r, "animate", "RUN");
+    const char *path = qdot_record_text(qdot_record_hole(r, "to", "\"FILE.html\"")), *of = NULL;
+    qdot_session *session = r->cursor.session;
+    qdot_animated_options drawn = {NAN, NAN, NULL, NAN, NAN, false};
     qdot_named_run *run;
     qdot_animation a;
     qdot_status status;
 
-    QDOT_TRY(animate_read_options(c, &o));
-    c->error_at = start->start;
-    if (!qdot_ends_in(o.path, ".html") && !qdot_ends_in(o.path, ".gif")) {
+    if (name != NULL)
+        QDOT_TRY(qdot_record_name(r, name, &of));
+    QDOT_TRY(options_find(r, &drawn));
+    r->cursor.error_at = r->start->start;
+    if (!qdot_ends_in(path, ".html") && !qdot_ends_in(path, ".gif")) {
         (void)qdot_fail(QDOT_EINVAL,
-                        "`%.200s` does not say what moving picture it is to be", o.path);
+                        "`%.200s` does not say what moving picture it is to be", path);
         return qdot_hint("end its name in .html or .gif");
     }
-    QDOT_TRY(qdot_runs_find(c->session, o.run, &run));
-    status = qdot_animated_make(c->session, run, &o.drawn, &a);
+    QDOT_TRY(qdot_runs_find(session, of, &run));
+    status = qdot_animated_make(session, run, &drawn, &a);
     if (status == QDOT_OK)
-        status = write_picture(c->session, &a, o.path);
+        status = write_picture(session, &a, path);
     qdot_animation_clear(&a);
     return status;
 }

@@ -258,7 +258,8 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         found(what, t);
         return hint_foreign(t);
     }
-    if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0)
+    if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0 ||
+        strncmp(what, "a text", 6) == 0)
         return found(what, t); /* behind an option word, not an operand */
     if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
         !qdot_cursor_knows(c->session, t->text)) {

@@ -180,6 +180,16 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
     return NULL;
 }
 
+const char *
+qdot_expected_clause(const char *statement, const char *word)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].statement != NULL && strcmp(rows[i].statement, statement) == 0 &&
+            strncmp(rows[i].before, "... ", 4) == 0 && strcmp(rows[i].before + 4, word) == 0)
+            return rows[i].what;
+    return NULL;
+}
+
 /* The hint with what it holds in place of its `%s` or `%n`. */
 static void
 hint_give(const char *hint, const qdot_token *token, const qdot_record *r)

@@ -558,6 +558,8 @@ trace_back(matcher *m)
     }
     if (missing == NULL)
         return QDOT_OK;
+    if (qdot_expected_clause(m->u->word, missing->text) != NULL)
+        return qdot_cursor_expected(m->c, qdot_expected_clause(m->u->word, missing->text));
     m->c->error_at = m->r->start->start;
     (void)qdot_fail(QDOT_ESYNTAX, "a %s needs `%s`", m->u->word, missing->text);
     return qdot_hint("%s", m->r->row->form != NULL ? m->r->row->form : m->r->row->usage);

@@ -212,7 +212,8 @@ is_clause(const compiler *c, int i, int to)
            strcmp(c->piece[i].text, c->word) != 0;
 }
 
-/* Clauses from i on, with the options among them; i: there are less than two. */
+/* Clauses from i on, with the options among them; i: there are less than two, and no single one that ends the
+ * usage behind several options. */
 static int
 gather_clauses(compiler *c, int i, int to, members *m)
 {
@@ -233,6 +234,8 @@ gather_clauses(compiler *c, int i, int to, members *m)
         clauses++;
         i = k;
     }
+    if (c->piece[start].kind == OPEN)
+        return clauses == 1 && m->n > 2 && i == to ? i : start;
     return clauses < 2 ? start : i;
 }
 
@@ -387,6 +390,14 @@ behind_relation(const compiler *c, int i, int to, qdot_hole_class class)
     return i;
 }
 
+/* Whether the option at i is a hole behind the statement's word, which stands before the others: `animate [RUN]`. */
+static bool
+stands_first(const compiler *c, int i)
+{
+    return c->depth == 0 && i > 0 && c->piece[i - 1].kind == WORD && strcmp(c->piece[i - 1].text, c->word) == 0 &&
+           c->piece[i + 1].kind == HOLE;
+}
+
 /* Pieces one after the other, without alternatives. */
 static void
 compile_sequence(compiler *c, int i, int to)
@@ -395,7 +406,7 @@ compile_sequence(compiler *c, int i, int to)
         const piece *p = &c->piece[i];
         const int comma = p->kind == HOLE ? end_of_list(c, i, to) : i;
         members m = {.n = 0};
-        int fork, behind = p->kind == WORD && c->depth == 0 ? gather_clauses(c, i, to, &m) : i;
+        int fork, behind = (p->kind == WORD || (p->kind == OPEN && !stands_first(c, i))) && c->depth == 0 ? gather_clauses(c, i, to, &m) : i;
 
         if (behind > i) {
             if (behind == to)
@@ -417,9 +428,14 @@ compile_sequence(compiler *c, int i, int to)
             i = compile_words(c, i, to);
         } else if (p->kind == OPEN) {
             m.n = 0;
-            i = gather_options(c, i, to, &m);
-            if (c->depth == 0 && holds_clause(c, &m))
-                i = gather_clauses_behind(c, i, to, &m);
+            if (stands_first(c, i)) {
+                add_member(c, &m, i + 1, behind_group(c, i, to) - 1, -1);
+                i = behind_group(c, i, to);
+            } else {
+                i = gather_options(c, i, to, &m);
+                if (c->depth == 0 && holds_clause(c, &m))
+                    i = gather_clauses_behind(c, i, to, &m);
+            }
             compile_members(c, &m);
         } else if (p->kind == SIGN) {
             (void)emit(c, QDOT_USAGE_SIGN, p->text);

@@ -125,6 +125,14 @@ a_statement_is_its_words_and_holes(void **state)
         {"scale Q = VALUE, t = VALUE, ...", "scale t = 2, x' = 1, t = 3",
          "scale t = VALUE=2 , Q=x' = VALUE=1 , t = VALUE=3"},
         {"start Q = VALUE, ... [exactly] | start RUN [exactly]", "start a exactly", "start RUN=a exactly"},
+        {"sweep NAME = A..B [step H] [count N], ... run T0..T1 : EXPR, ...",
+         "sweep k = [1, 2], m = 0..1 count 3 run 0..2 : x, y",
+         "sweep NAME=k = A..B=[1, 2] , NAME=m = A..B=0..1 count N=3 run T0..T1=0..2 : EXPR=x , EXPR=y"},
+        {"find NAME = GUESS such that CONDITION, ... [as NAME]",
+         "find T = 1 such that x = 1 and returns after T, y = 2 as a",
+         "find NAME=T = GUESS=1 such that CONDITION=x = 1 and returns after T , CONDITION=y = 2 as NAME=a"},
+        {"run T0..T1 [tol E | digits N] [with NAME = VALUE, ...]", "run 0..2*T with x' = 1, p[x] = 2 digits 30",
+         "run T0..T1=0..2*T with NAME=x' = VALUE=1 , NAME=p[x] = VALUE=2 digits N=30"},
     };
     reading *r = *state;
 
@@ -168,6 +176,14 @@ what_belongs_there_is_said_by_the_usage(void **state)
         {"check A == B [within E]", "check x foo", "expected `==` and the other side, found `foo`", 8},
         {"coord NAME, LO < NAME < HI, ...", "coord u w", "expected `,` or the end of the statement, found `w`", 8},
         {"start Q = VALUE, ... [exactly]", "start = 1", "expected a coordinate, found `=`", 6},
+        {"run T0..T1 [tol E | digits N]", "run 0..1 tol 1 digits 2",
+         "`digits` sets the tolerance itself: no `tol` beside it", 15},
+        {"run T0..T1 [tol E | digits N]", "run 0..1 tol 1 tol 2", "`tol` is given twice", 15},
+        {"race T0..T1 [keep]", "race 0..1 tol 1",
+         "a race takes no `tol`: it compares tolerances and formulations by itself", 10},
+        {"find NAME = GUESS such that CONDITION, ...", "find T = 1 such that x",
+         "expected `=`: a condition is an equation, found the end of the statement", 22},
+        {"lyapunov [spectrum] T0..T1", "lyapunov all 0..10", "unknown name `all`", 9},
     };
     reading *r = *state;
 
@@ -203,6 +219,36 @@ a_hole_is_evaluated_as_often_as_one_likes(void **state)
         qdot_names_pop(session->names);
     }
     statement_free(&s);
+}
+
+/* The operands alone, which end where the caller says; what an option asks for is evaluated behind that. */
+static void
+operands_are_read_without_their_word(void **state)
+{
+    const qdot_statement row = {.word = "run", .usage = "run T0..T1 [tol E]"};
+    reading *r = *state;
+    qdot_cursor c = {.session = r->session};
+    qdot_record record;
+    qdot_source *source;
+    qdot_expr from, to;
+    double tol, values[2];
+    bool is;
+
+    assert_int_equal(qdot_source_new("a test", "0..3 tol normal(1/4, 2) for k", 29, &source, &c.error_at), QDOT_OK);
+    c.source = source;
+    c.at = source->tokens.at;
+    assert_int_equal(qdot_match_operands(&c, &row, &record), QDOT_ESYNTAX);
+    qdot_record_free(&record);
+    assert_int_equal(qdot_match_operands_to(&c, source->tokens.at + source->tokens.n - 3, &row, &record), QDOT_OK);
+    assert_int_equal(source->tokens.at[source->tokens.n - 3].kind, QDOT_TOKEN_NAME);
+    assert_int_equal(qdot_record_range(&record, qdot_record_hole(&record, NULL, "T0..T1"), &from, &to), QDOT_OK);
+    assert_true(to == qdot_expr_int(r->session->pool, 3));
+    assert_int_equal(qdot_record_call_of_two(&record, qdot_record_hole(&record, "tol", "E"), "normal", values, &is),
+                     QDOT_OK);
+    assert_true(is && values[0] == 0.25 && values[1] == 2);
+    assert_int_equal(qdot_record_number(&record, qdot_record_hole(&record, "tol", "E"), &tol), QDOT_ENAME);
+    qdot_record_free(&record);
+    qdot_source_free(source);
 }
 
 /* Which clauses must be there: those of six statements are in any order. */
@@ -276,6 +322,7 @@ main(void)
         cmocka_unit_test_setup_teardown(a_statement_is_its_words_and_holes, begin, end),
         cmocka_unit_test_setup_teardown(what_belongs_there_is_said_by_the_usage, begin, end),
         cmocka_unit_test_setup_teardown(a_hole_is_evaluated_as_often_as_one_likes, begin, end),
+        cmocka_unit_test_setup_teardown(operands_are_read_without_their_word, begin, end),
         cmocka_unit_test(clauses_of_things_come_in_any_order),
         cmocka_unit_test_setup_teardown(memory_may_run_out_while_reading, begin, end),
     };
