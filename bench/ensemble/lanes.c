@@ -16,12 +16,16 @@
 #include <string.h>
 #include <time.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "num/batch.h"
 #include "num/kinds.h"
 #include "ode/integrate.h"
 #include "sim/bind/bind.h"
-#include "sim/plan/plan.h"
 #include "sim/ensemble/ensemble.h"
+#include "sim/plan/plan.h"
 
 enum { MOST = 16, MOST_ROUNDS = 99 };
 

@@ -4,13 +4,14 @@
 
 #include "api/system.h"
 #include "base/memory.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
-#include "lang/workbench/script.h"
 #include "lang/ask/ask.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/workbench/script.h"
 #include "normal/prove/decide.h"
 
 _Static_assert((int)QDOT_NOTATION_PLAIN == (int)QDOT_PLAIN, "notation");

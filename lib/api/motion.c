@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/symbol.h"
 #include "lang/commands/statement.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/match.h"

@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 void

@@ -10,7 +10,7 @@
 #define QDOT_EXPR_ABBREVIATE_H
 
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 
 enum { QDOT_ABBREVIATE_SAVED = 4 };
 

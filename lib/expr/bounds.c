@@ -1,5 +1,6 @@
 /* bounds.c -- the sign of a sum by the bounds of its terms, in exact numbers. */
 #include "expr/elementary.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 /* One bound of a value: a rational, where there is one; `open`: not reached. */

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 #include "expr/walk.h"
 

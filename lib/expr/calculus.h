@@ -5,7 +5,7 @@
 #ifndef QDOT_EXPR_CALCULUS_H
 #define QDOT_EXPR_CALCULUS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* de/dx, all other symbols held: q, q', q'', t, parameters are independent. x a SYM, else
  * QDOT_ETYPE. */

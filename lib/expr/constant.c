@@ -8,9 +8,12 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/exact.h"
 #include "expr/function-ball.h"
+#include "expr/node.h"
 #include "expr/print.h"
 #include "expr/rational.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 enum { FIRST_BITS = 256, MOST_BITS = 4096 };

@@ -7,7 +7,7 @@
 
 #include <mpfr.h>
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Whether e contains no symbol except pi, true and false, and no undefined function. */
 bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);

@@ -1,4 +1,6 @@
 /* construct.c -- relations, logic, vectors, matrices, lists; rebuilding any node. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <string.h>

@@ -1,6 +1,8 @@
 /* elementary.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 #include "expr/walk.h"
 

@@ -5,7 +5,7 @@
 #ifndef QDOT_EXPR_ELEMENTARY_H
 #define QDOT_EXPR_ELEMENTARY_H
 
-#include "expr/expr.h"
+#include "expr/function.h"
 
 /* Traits of a function of one real argument f; of atan2 QDOT_FUN_ARC alone. */
 enum {

@@ -1,6 +1,8 @@
 /* expand.c -- products over sums multiplied out; powers of one symbol collected. */
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"

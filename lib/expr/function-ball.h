@@ -5,7 +5,7 @@
 #ifndef QDOT_EXPR_FUNCTION_BALL_H
 #define QDOT_EXPR_FUNCTION_BALL_H
 
-#include "expr/expr.h"
+#include "expr/function.h"
 #include "num/arb.h"
 
 /* y encloses f(x) for every x of the ball, rounded to `bits`; y may be x. sign of a ball that holds 0 is [-1, 1]. */

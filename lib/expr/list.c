@@ -2,6 +2,8 @@
 #include "expr/list.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/node.h"
 
 qdot_expr
 qdot_list_appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *more)

@@ -1,4 +1,6 @@
 /* number.c -- numbers by their value: quotients, integers, decimals. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
  * pair of children, and that pair alone decides.
  */
 #include "expr/elementary.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <math.h>

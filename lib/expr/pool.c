@@ -13,6 +13,7 @@
 #include "base/interrupt.h"
 #include "base/scope.h"
 #include "base/text.h"
+#include "expr/exact.h"
 #include "expr/printed.h"
 
 static uint32_t

@@ -2,9 +2,13 @@
 #ifndef QDOT_EXPR_POOL_H
 #define QDOT_EXPR_POOL_H
 
+#include <flint/fmpq.h>
+
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/rational.h"
+#include "expr/symbol.h"
 
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* [0] is nil */

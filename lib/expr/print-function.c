@@ -1,6 +1,7 @@
 /* print-function.c -- elementary and undefined functions, and their derivatives, as formulas. */
 #include <string.h>
 
+#include "expr/exact.h"
 #include "expr/print-parts.h"
 
 /* if(C, A, if(D, B, E)) as A if C, B if D, E otherwise. */

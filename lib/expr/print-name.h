@@ -2,8 +2,10 @@
 #ifndef QDOT_EXPR_PRINT_NAME_H
 #define QDOT_EXPR_PRINT_NAME_H
 
+#include <flint/fmpq.h>
+
 #include "base/text.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* print.h says what they are. */
 typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;

@@ -2,6 +2,8 @@
 #ifndef QDOT_EXPR_PRINT_PARTS_H
 #define QDOT_EXPR_PRINT_PARTS_H
 
+#include <flint/fmpq.h>
+
 #include "expr/pool.h"
 #include "expr/print-name.h"
 #include "formula/formula.h"

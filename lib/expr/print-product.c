@@ -7,6 +7,7 @@
 
 #include <flint/fmpz.h>
 
+#include "expr/exact.h"
 #include "expr/print-parts.h"
 
 /* The factors of a product that are written under one root. */

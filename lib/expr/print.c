@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/exact.h"
 #include "expr/print-formula.h"
 #include "expr/print-parts.h"
 #include "expr/printed.h"

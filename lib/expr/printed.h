@@ -7,7 +7,7 @@
 #ifndef QDOT_EXPR_PRINTED_H
 #define QDOT_EXPR_PRINTED_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "formula/formula.h"
 
 typedef struct qdot_printed qdot_printed;

@@ -1,4 +1,6 @@
 /* product.c -- products: maps base -> exponent with a rational coefficient; powers. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /* root.c -- numbers with exponents: exact powers, and roots with all that is exact taken out. */
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <stdlib.h>

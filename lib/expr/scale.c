@@ -1,4 +1,6 @@
 /* scale.c -- numbers times expressions, and the products and powers that need no merging. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
 /* size.c -- operations in an expression: kept with each node as far as 32 bits tell it. */
 #include "base/memory.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 #include "expr/walk.h"
 

@@ -1,4 +1,6 @@
 /* sum.c -- sums: maps term -> rational coefficient. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 #include <stdlib.h>

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 
 static const char *

@@ -5,7 +5,7 @@
 #ifndef QDOT_EXPR_TENSOR_H
 #define QDOT_EXPR_TENSOR_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 qdot_expr qdot_value_add(qdot_pool *pool, qdot_expr a, qdot_expr b);
 qdot_expr qdot_value_sub(qdot_pool *pool, qdot_expr a, qdot_expr b);

@@ -1,6 +1,8 @@
 /* ufun.c -- undefined functions: declared, applied. */
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/pool.h"
 #include "expr/printed.h"
 

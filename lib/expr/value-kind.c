@@ -1,6 +1,10 @@
 /* value-kind.c -- what a constructor made, and what that is called. */
 #include "expr/value-kind.h"
 
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+
 qdot_status
 qdot_value_kind_check(qdot_pool *pool, qdot_expr value)
 {

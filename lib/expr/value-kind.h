@@ -2,7 +2,7 @@
 #ifndef QDOT_EXPR_VALUE_KIND_H
 #define QDOT_EXPR_VALUE_KIND_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* After a constructor: QDOT_OK, or the pool's failure if value is nil. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr value);

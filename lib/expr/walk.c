@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/pool.h"
 
 static uint32_t

@@ -12,7 +12,7 @@
 #ifndef QDOT_EXPR_WALK_H
 #define QDOT_EXPR_WALK_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 enum { QDOT_WALK_FEW = 32 };
 

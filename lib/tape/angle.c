@@ -1,7 +1,11 @@
 /* angle.c -- base angles, chosen by counted cost. */
 #include "tape/angle.h"
 
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/rational.h"
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/constant.h"
+#include "expr/exact.h"
 
 const qdot_operation qdot_operations[QDOT_OP_COUNT] = {
 #define X(ID, name, operands, operations, calls, statement, ...)                         \

@@ -9,7 +9,7 @@
 #define QDOT_TAPE_CODE_H
 
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "tape/instruction.h"
 #include "tape/keymap.h"
 

@@ -5,7 +5,7 @@
 #ifndef QDOT_TAPE_INSTRUCTION_H
 #define QDOT_TAPE_INSTRUCTION_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef enum {
 #define X(ID, ...) QDOT_OP_##ID,

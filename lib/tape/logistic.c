@@ -1,9 +1,12 @@
 /* logistic.c -- products with negative powers of exponentials, as exponentials of logarithms. */
 #include "tape/logistic.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 
 enum { MOST = 8 }; /* factors of one product that are treated */
 

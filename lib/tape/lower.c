@@ -1,7 +1,11 @@
 /* lower.c -- lowers the DAG to code: sums, products, functions, node by node. */
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/rational.h"
 #include "expr/walk.h"
 #include "tape/angle.h"

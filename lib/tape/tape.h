@@ -11,7 +11,7 @@
 #ifndef QDOT_TAPE_TAPE_H
 #define QDOT_TAPE_TAPE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef struct qdot_tape qdot_tape;
 

@@ -8,7 +8,10 @@
 #include <string.h>
 
 #include "expr/abbreviate.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 
 static bool
 is_d2(const char *name, void *user)

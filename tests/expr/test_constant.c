@@ -10,7 +10,11 @@
 
 #include <mpfr.h>
 
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "tape/tape.h"
 
 static double

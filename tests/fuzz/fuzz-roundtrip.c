@@ -2,6 +2,8 @@
  * style and read again: the same expression. The simplified form must not be refuted as the other's
  * equal.
  */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "fuzz.h"
 
 #include "expr/walk.h"

@@ -15,9 +15,10 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/workbench/script.h"
+#include "expr/symbol.h"
 #include "lang/language/read.h"
 #include "lang/source/source.h"
+#include "lang/workbench/script.h"
 
 typedef struct {
     qdot_session *session;

@@ -17,8 +17,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/scene/scene.h"

@@ -12,7 +12,11 @@
 
 #include <cmocka.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "num/kinds.h"
 #include "series/lanes-code.h"
 

@@ -9,7 +9,11 @@
 
 #include <cmocka.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "num/kinds.h"
 #include "series/taylor-motion.h"
 

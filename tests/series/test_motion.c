@@ -8,6 +8,9 @@
 
 #include <cmocka.h>
 
+#include "expr/build.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "num/kinds.h"
 #include "series/lanes.h"
 #include "series/precise.h"

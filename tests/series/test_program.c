@@ -7,6 +7,9 @@
 
 #include <cmocka.h>
 
+#include "expr/build.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "series/precise.h"
 #include "series/program.h"
 #include "series/two.h"

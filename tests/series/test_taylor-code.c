@@ -13,7 +13,11 @@
 
 #include <cmocka.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "machine/asm.h"
 #include "num/kinds.h"
 #include "num/series.h"

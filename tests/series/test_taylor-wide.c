@@ -9,7 +9,11 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "series/kit.h"
 #include "series/taylor-wide.h"
 

@@ -8,6 +8,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "show/export-language.h"
 #include "show/export.h"
 

@@ -12,6 +12,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 

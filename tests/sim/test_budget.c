@@ -1,4 +1,8 @@
 /* test_budget.c -- what is spent on the error of a run, in counted work, beside the run. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -14,6 +14,9 @@
 
 #include <mpfr.h>
 
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 /* A value and the bound of its error. */

@@ -9,7 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "tape/logistic.h"
 #include "tape/tape.h"
 

@@ -9,6 +9,8 @@
 #include "base/number-text.h"
 #include "base/sink.h"
 #include "base/terminal.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"

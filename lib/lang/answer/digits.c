@@ -5,7 +5,10 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 typedef struct {

@@ -1,5 +1,7 @@
 /* abbreviate.c -- a value with names for the parts that it repeats. */
 #include "expr/abbreviate.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 
 #include <string.h>
 

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"

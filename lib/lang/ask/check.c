@@ -2,7 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"

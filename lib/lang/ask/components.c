@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer/sheet.h"

@@ -1,4 +1,6 @@
 /* cyclic.c -- `cyclic`: the coordinates absent from L, each with its momentum. */
+#include "expr/build.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/syntax/record.h"

@@ -1,7 +1,10 @@
 /* derive.c -- the whole derivation, from r(q) to the equations, as a textbook would. */
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer/notation.h"

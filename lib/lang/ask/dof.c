@@ -1,4 +1,5 @@
 /* dof.c -- `dof`: coordinates, constraints, degrees of freedom. */
+#include "expr/exact.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/constraints.h"
 #include "lang/syntax/record.h"

@@ -3,7 +3,12 @@
 #include <stdio.h>
 
 #include "base/number-text.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/functions/equilibria.h"

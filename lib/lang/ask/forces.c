@@ -1,4 +1,5 @@
 /* forces.c -- `forces`: the generalized forces, part by part. */
+#include "expr/build.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
 #include "lang/syntax/record.h"

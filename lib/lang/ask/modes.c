@@ -3,6 +3,9 @@
 #include <stdio.h>
 
 #include "base/number-text.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"

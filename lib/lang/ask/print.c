@@ -1,5 +1,7 @@
 /* print.c -- `print`: expressions and texts in one line. */
 #include "base/number-text.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"

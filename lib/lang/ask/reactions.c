@@ -1,4 +1,5 @@
 /* reactions.c -- `reactions`: the constraints' forces on each particle and body. */
+#include "expr/node.h"
 #include "mech/study/reactions.h"
 
 #include "lang/answer/answer.h"

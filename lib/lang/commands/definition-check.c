@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/definition-parts.h"

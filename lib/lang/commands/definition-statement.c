@@ -1,6 +1,7 @@
 /* definition-statement.c -- the statement that was meant where its word stands before an equation sign. */
 #include <string.h>
 
+#include "expr/node.h"
 #include "lang/commands/definition-parts.h"
 #include "lang/commands/statement-form.h"
 #include "lang/language/token-text.h"

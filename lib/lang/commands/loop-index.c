@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/commands/statement-form.h"
 #include "lang/functions/quantity.h"

@@ -2,6 +2,9 @@
 #include "lang/commands/loop.h"
 
 #include "base/interrupt.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"

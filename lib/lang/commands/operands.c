@@ -1,6 +1,7 @@
 /* operands.c -- expressions along runs, for tables and curves. */
 #include "lang/commands/operands.h"
 
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_PAIRS_H
 #define QDOT_LANG_PAIRS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "lang/source/token.h"
 
 typedef struct {

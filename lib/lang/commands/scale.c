@@ -1,4 +1,5 @@
 /* scale.c -- `scale`: the sizes that tolerances and errors of coordinates are relative to. */
+#include "expr/symbol.h"
 #include "lang/commands/pairs.h"
 #include "lang/commands/set.h"
 #include "lang/session/scales.h"

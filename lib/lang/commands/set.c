@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/read.h"

@@ -1,6 +1,7 @@
 /* start.c -- `start`: the initial state. */
 #include <math.h>
 
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/pairs.h"

@@ -3,6 +3,8 @@
  * All relations are read before the first is kept. None is kept if they are proved to contradict each other, an
  * earlier one, or a declared domain.
  */
+#include "expr/build.h"
+#include "expr/node.h"
 #include "lang/commands/value-check.h"
 #include "lang/syntax/record.h"
 #include "normal/inequality/contradiction.h"

@@ -3,7 +3,10 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/held.h"
 #include "lang/session/momenta.h"

@@ -1,4 +1,5 @@
 /* constraint.c -- `constraint`: A = B, also of velocities and accelerations. */
+#include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/objects.h"

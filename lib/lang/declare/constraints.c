@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"

@@ -2,8 +2,11 @@
 #include "lang/declare/export-massless.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/model/gates.h"

@@ -4,11 +4,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
-#include "lang/declare/export-massless.h"
 #include "lang/answer/answer.h"
+#include "lang/declare/export-massless.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"

@@ -1,7 +1,10 @@
 /* export-value.c -- an expression, lowered to a tape with its symbols as inputs. */
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/declare/export-scene.h"
 #include "lang/session/measured.h"

@@ -1,4 +1,5 @@
 /* force.c -- `force`: an applied force, on a particle, a body, a coordinate, or at a place. */
+#include "expr/node.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 

@@ -1,6 +1,8 @@
 /* new-names.c -- names that a statement declares, each with its domain. */
 #include "lang/declare/new-names.h"
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/commands/set.h"
 #include "lang/declare/declare.h"
 #include "lang/syntax/holes.h"

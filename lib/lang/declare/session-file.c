@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/session-remarks.h"
 #include "lang/language/read.h"

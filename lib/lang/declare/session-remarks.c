@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "lang/session/measured.h"
 
 const char qdot_session_file_header[] = "# a scene written by qdot\n";

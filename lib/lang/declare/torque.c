@@ -1,4 +1,5 @@
 /* torque.c -- `torque`: a generalized force on a coordinate, or a torque on a body. */
+#include "expr/node.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 

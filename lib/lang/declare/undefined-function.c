@@ -1,7 +1,10 @@
 /* undefined-function.c -- `function`: functions that stay undefined. */
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/declare/declare.h"
 #include "lang/syntax/record.h"

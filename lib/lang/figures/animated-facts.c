@@ -2,6 +2,9 @@
 #include <math.h>
 
 #include "base/number-text.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/figures/animated.h"
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "lang/figures/plot-loop.h"
 #include "lang/figures/plot-parts.h"
 #include "lang/language/read.h"

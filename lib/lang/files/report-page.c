@@ -1,12 +1,13 @@
 /* report-page.c -- the statement `report`: scene, derivation, run and script as one page. */
 #include <string.h>
 
+#include "expr/node.h"
 #include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/declare/scene-file.h"
 #include "lang/files/report-answer.h"
 #include "lang/files/report-run.h"
 #include "lang/files/report-work.h"
-#include "lang/declare/scene-file.h"
-#include "lang/commands/statement.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 #include "mech/study/noether.h"

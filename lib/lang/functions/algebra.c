@@ -3,7 +3,10 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"

@@ -5,7 +5,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"

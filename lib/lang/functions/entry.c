@@ -1,6 +1,8 @@
 /* entry.c -- an entry of a value, and the name of a member. */
 #include "lang/functions/entry.h"
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "lang/session/bind.h"

@@ -1,8 +1,13 @@
 /* equilibria.c -- equilibria and modes of a session's scene, with its values for numbers. */
 #include "lang/functions/equilibria.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "expr/list.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"

@@ -2,6 +2,8 @@
 #include "lang/functions/numeric.h"
 
 #include "expr/constant.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "lang/session/bind.h"

@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "lang/functions/entry.h"
 #include "lang/functions/equilibria.h"

@@ -2,6 +2,8 @@
 #include "lang/functions/series.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/node.h"
 #include "expr/value-kind.h"
 #include "lang/functions/algebra.h"
 #include "lang/session/bind.h"

@@ -2,6 +2,8 @@
 #include "lang/functions/solve-conditions.h"
 
 #include "base/text.h"
+#include "expr/build.h"
+#include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "normal/solve/conditions.h"
 

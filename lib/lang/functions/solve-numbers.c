@@ -6,9 +6,13 @@
 
 #include "base/number-text.h"
 #include "base/text.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
 #include "expr/list.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"

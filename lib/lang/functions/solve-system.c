@@ -5,8 +5,11 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/list.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"

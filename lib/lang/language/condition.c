@@ -1,6 +1,8 @@
 /* condition.c -- equations and inequalities as values, and as conditions. */
 #include "lang/language/condition.h"
 
+#include "expr/build.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"

@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_CONDITION_H
 #define QDOT_LANG_CONDITION_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* a op b for = == < <= > >=. QDOT_ETYPE: an inequality between values that are not numbers. */
 QDOT_MUST_CHECK qdot_status qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a,

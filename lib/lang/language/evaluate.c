@@ -2,6 +2,9 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"

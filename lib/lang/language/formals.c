@@ -3,7 +3,10 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 
 qdot_status
 qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)

@@ -2,6 +2,11 @@
 #include "lang/language/forms.h"
 
 #include "base/interrupt.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "lang/language/condition.h"

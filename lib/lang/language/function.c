@@ -5,7 +5,9 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "lang/language/evaluator.h"

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/value-kind.h"
 #include "lang/session/member.h"
 

@@ -3,6 +3,10 @@
 
 #include <string.h>
 
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+
 const qdot_partial_sum *
 qdot_partial_sum_find(const qdot_session *session, const qdot_token *place, long first,
                       long last)

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/functions/builtin.h"

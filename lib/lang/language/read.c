@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/node.h"
 #include "expr/value-kind.h"
 #include "lang/language/compiled.h"
 #include "lang/language/hints.h"

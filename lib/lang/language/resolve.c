@@ -7,7 +7,9 @@
 
 #include "base/text.h"
 #include "base/utf8.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"

@@ -2,6 +2,8 @@
 #include "lang/runs/request.h"
 
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"

@@ -3,6 +3,7 @@
 
 #include <limits.h>
 
+#include "expr/symbol.h"
 #include "lang/commands/set.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/token-text.h"

@@ -7,6 +7,8 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/session/member.h"

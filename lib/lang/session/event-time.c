@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
 

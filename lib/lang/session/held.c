@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 
 /* --- values of `set` and `start` --------------------------------------------------------- */

@@ -6,6 +6,9 @@
 #include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 qdot_expr

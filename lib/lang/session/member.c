@@ -4,6 +4,7 @@
  * the session remembers. An expression of such symbols is evaluated run by run, and then
  * itself; what is along no run named is along the latest.
  */
+#include "expr/node.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
 

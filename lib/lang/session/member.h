@@ -2,6 +2,7 @@
 #ifndef QDOT_LANG_MEMBER_H
 #define QDOT_LANG_MEMBER_H
 
+#include "expr/symbol.h"
 #include "lang/session/session.h"
 
 /* What a symbol that stands alone reads along the latest run. */

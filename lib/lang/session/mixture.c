@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"

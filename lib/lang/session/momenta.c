@@ -1,6 +1,8 @@
 /* momenta.c -- expressions in momenta p[q] and in velocities q', one turned into the other. */
 #include "lang/session/momenta.h"
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"

@@ -6,7 +6,7 @@
 #define QDOT_LANG_NAMES_H
 
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "lang/session/function-body.h"
 
 typedef enum {

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"

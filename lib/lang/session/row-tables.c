@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 
 /* The index of that name; the number of tables: there is none. */

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "expr/constant.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "lang/session/measured.h"

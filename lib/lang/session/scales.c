@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 
 qdot_status

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "show/formula-page.h"
 
 qdot_session *

@@ -2,6 +2,11 @@
 #include "lang/session/transfer.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 static qdot_expr

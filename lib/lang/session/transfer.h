@@ -6,7 +6,7 @@
 #ifndef QDOT_LANG_TRANSFER_H
 #define QDOT_LANG_TRANSFER_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* e of `from`, built in `to`, with the symbols' declared domains. Symbols come into
  * being in the order of their ids. Nil on failure, which `to` keeps. */

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "expr/symbol.h"
 #include "lang/session/undo-state.h"
 
 enum { TEXT_LIMIT = 160 };

@@ -1,6 +1,7 @@
 /* free-request.c -- values and start in the unknowns. */
 #include "lang/slopes/free-request.h"
 
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "expr/symbol.h"
 #include "lang/session/runs.h"
 #include "sim/study/floquet.h"
 

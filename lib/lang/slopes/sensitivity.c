@@ -1,12 +1,13 @@
 /* sensitivity.c -- the statement `sensitivity EXPR of NAME, ...`. */
+#include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/language/token-text.h"
 #include "lang/runs/own-run.h"
-#include "lang/slopes/trial.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/slopes/trial.h"
 #include "lang/syntax/record.h"
 
 static qdot_status sensitivity_tell(qdot_record *r);

@@ -2,12 +2,14 @@
 #include <float.h>
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
-#include "lang/slopes/slopes.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/runs.h"
+#include "lang/slopes/slopes.h"
 #include "sim/study/extremum.h"
 
 /* The slope of the time of an event that changes the state is read before the event, by at most this part of the run's

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/commands/set.h"
 #include "lang/language/token-text.h"

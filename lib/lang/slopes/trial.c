@@ -1,11 +1,14 @@
 /* trial.c -- a run at given values of unknowns. */
 #include "lang/slopes/trial.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/runs/own-run.h"
-#include "lang/session/momenta.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/momenta.h"
 #include "lang/session/runs.h"
 
 qdot_status

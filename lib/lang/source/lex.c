@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/text.h"
 #include "base/utf8.h"
+#include "expr/exact.h"
 #include "lang/source/letters.h"
 #include "lang/source/refuse.h"
 

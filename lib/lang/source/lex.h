@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_LEX_H
 #define QDOT_LANG_LEX_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "lang/source/token.h"
 
 #define QDOT_LEX_TOKENS 10000000u  /* tokens of one source */

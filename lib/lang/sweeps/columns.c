@@ -1,6 +1,8 @@
 /* columns.c -- what is asked of each run. */
 #include "lang/sweeps/columns.h"
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"

@@ -7,6 +7,9 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "lang/commands/set.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"

@@ -1,4 +1,7 @@
 /* sweep-lanes-members.c -- what fits lanes; members as numbers. */
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/sweeps/sweep-lanes-parts.h"
 
 #include <stdlib.h>

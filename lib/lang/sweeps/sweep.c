@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
 #include "lang/commands/warnings.h"

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/node.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 

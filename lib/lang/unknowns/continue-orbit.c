@@ -4,12 +4,13 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/unknowns/continue-parts.h"
+#include "lang/session/bind.h"
 #include "lang/slopes/orbit-run.h"
 #include "lang/slopes/slopes.h"
-#include "lang/session/bind.h"
+#include "lang/unknowns/continue-parts.h"
 #include "sim/branches/orbit-continuation.h"
 
 enum { NAME_ROOM = 120 };

@@ -3,14 +3,15 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"
 #include "lang/commands/value-check.h"
 #include "lang/session/bind.h"
 #include "lang/session/row-tables.h"
 #include "lang/slopes/slopes.h"
-#include "lang/unknowns/continue-parts.h"
 #include "lang/syntax/record.h"
+#include "lang/unknowns/continue-parts.h"
 #include "sim/branches/rest-continuation.h"
 
 static qdot_status continue_follow(qdot_record *r);

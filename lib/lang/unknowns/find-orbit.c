@@ -1,5 +1,7 @@
 /* find-orbit.c -- the guess of a periodic orbit, moved to it by multiple shooting. */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/slopes/free-request.h"

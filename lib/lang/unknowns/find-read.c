@@ -1,4 +1,7 @@
 /* find-read.c -- the statement `find`: its unknowns, its conditions, the run that they are of. */
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/unknowns/find-parts.h"
 
 #include <math.h>

@@ -1,6 +1,8 @@
 /* find-size.c -- what the conditions of `find` are differences of, and what its runs may cost. */
 #include <math.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/unknowns/find-parts.h"
 #include "sim/study/sizes.h"

@@ -2,13 +2,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/unknowns/find-parts.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/unknowns/find-parts.h"
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 

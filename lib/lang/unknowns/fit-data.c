@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lang/unknowns/fit-parts.h"
+#include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "lang/unknowns/fit-parts.h"
 
 /* A row's time, and the row: in order of both. */
 typedef struct {

@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
-#include "lang/unknowns/fit-parts.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/slopes/free-request.h"
+#include "lang/unknowns/fit-parts.h"
 #include "sim/study/response.h"
 
 /* Values by the run with slopes and by an ordinary one that are further apart, relative to max(1, |value|), beside

@@ -3,16 +3,19 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/language/token-text.h"
-#include "lang/unknowns/fit-parts.h"
 #include "lang/runs/error-time.h"
-#include "lang/slopes/trial.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
+#include "lang/slopes/trial.h"
 #include "lang/syntax/record.h"
+#include "lang/unknowns/fit-parts.h"
 
 static qdot_status fit_find(qdot_record *r);
 

@@ -5,14 +5,15 @@
 #include <string.h>
 
 #include "base/utf8.h"
-#include "lang/files/redirect.h"
+#include "expr/function.h"
 #include "lang/commands/statement.h"
-#include "lang/syntax/usage.h"
+#include "lang/files/redirect.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/session/labels.h"
 #include "lang/source/letters.h"
 #include "lang/source/source.h"
+#include "lang/syntax/usage.h"
 #include "ode/method.h"
 
 typedef struct {

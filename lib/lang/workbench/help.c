@@ -2,14 +2,15 @@
 #include <string.h>
 
 #include "base/spelling.h"
+#include "expr/function.h"
 #include "lang/answer/answer.h"
-#include "lang/workbench/search.h"
-#include "lang/workbench/topics.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/hints.h"
 #include "lang/syntax/record.h"
+#include "lang/workbench/search.h"
+#include "lang/workbench/topics.h"
 #include "ode/method.h"
 
 static qdot_status help_tell(qdot_record *r);

@@ -1,4 +1,6 @@
 /* reset.c -- the statement `reset`. */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/language/function.h"
 #include "lang/session/transfer.h"
 #include "lang/session/undo.h"

@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 

@@ -1,4 +1,9 @@
 /* chart-express.c -- expressions in other coordinates. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/coordinates/chart.h"
 
 #include <stdlib.h>

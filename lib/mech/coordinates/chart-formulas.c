@@ -1,4 +1,8 @@
 /* chart-formulas.c -- the groups of chart.h by their formulas. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "mech/coordinates/chart.h"
 
 #include <stdio.h>

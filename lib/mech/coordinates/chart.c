@@ -3,8 +3,12 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/coordinates/chart-body.h"
 #include "mech/scene/access.h"

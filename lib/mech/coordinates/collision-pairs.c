@@ -1,4 +1,8 @@
 /* collision-pairs.c -- pairs of points on whose distance accelerations depend in a singular way. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "mech/coordinates/collision.h"
 
 #include "expr/calculus.h"

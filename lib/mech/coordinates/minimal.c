@@ -6,7 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/scene/access.h"

@@ -7,7 +7,9 @@
  * are left out (mech/dynamics/freedom.c): q'' does not depend on how they share the reaction. Rows
  * of velocity constraints in disguise are those of their integrals (mech/dynamics/integrated.h).
  */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/freedom.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/lagrange.h"

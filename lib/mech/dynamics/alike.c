@@ -9,6 +9,8 @@
 #include <stdio.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/scene/cache.h"

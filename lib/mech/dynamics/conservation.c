@@ -9,7 +9,10 @@
  * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'. Where L jumps
  * at a time, as that of a stiffness switched then, dL/dt is infinite though it is 0 before and after.
  */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/energy.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/quantity.h"

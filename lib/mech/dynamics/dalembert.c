@@ -1,6 +1,7 @@
 /* dalembert.c -- inertial terms and generalized forces, not differentiated. */
 #include "mech/dynamics/dalembert.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/potential.h"

@@ -1,8 +1,12 @@
 /* direction.c -- friction along u/|u| as sign(u): for each |u| that a force divides by, C/|u| becomes B sign(u). */
 #include "mech/dynamics/direction.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 enum { MOST_DIRECTIONS = 64 };

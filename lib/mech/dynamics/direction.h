@@ -10,7 +10,7 @@
 #ifndef QDOT_MECH_DIRECTION_H
 #define QDOT_MECH_DIRECTION_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Replace such directions in e [n] by signs. On failure an entry is nil or unchanged, and the pool keeps the
  * failure. */

@@ -1,6 +1,9 @@
 /* energy.c -- T, L, the Jacobi energy h = sum p q' - L, slopes of L. */
 #include "mech/dynamics/energy.h"
 
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/kinematics.h"
 
 #include "expr/calculus.h"

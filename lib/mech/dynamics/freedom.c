@@ -21,7 +21,10 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"

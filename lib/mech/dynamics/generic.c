@@ -7,6 +7,11 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 static double

@@ -2,7 +2,7 @@
 #ifndef QDOT_MECH_GENERIC_H
 #define QDOT_MECH_GENERIC_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* A point: symbols [m] have values; any other symbol or undefined function gets a random one from
  * `seed`. */

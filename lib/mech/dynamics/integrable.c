@@ -4,7 +4,11 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"

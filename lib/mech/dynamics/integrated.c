@@ -3,6 +3,9 @@
 
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrable.h"
 #include "mech/scene/access.h"

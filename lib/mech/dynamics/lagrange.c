@@ -8,7 +8,9 @@
 
 #include <stdlib.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"

@@ -9,7 +9,9 @@
 #include "mech/dynamics/mass-matrix.h"
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/potential.h"

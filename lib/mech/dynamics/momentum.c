@@ -3,6 +3,7 @@
  * Where dL/dq_i = 0 Lagrange's equation reads p_i' = Q_i + R_i, with Q what is applied
  * beside V and R the reactions: p_i is conserved when both vanish.
  */
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/energy.h"

@@ -13,7 +13,9 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
 
 typedef struct {
     uint32_t set;

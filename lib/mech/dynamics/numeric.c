@@ -11,7 +11,12 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/direction.h"
 #include "mech/dynamics/kinematics.h"

@@ -1,4 +1,5 @@
 /* parts.c -- T and V by what they are made of: each particle, body, field, spring. */
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "mech/dynamics/potential.h"

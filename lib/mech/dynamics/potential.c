@@ -2,7 +2,9 @@
 
 #include "mech/dynamics/potential.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/quantity.h"

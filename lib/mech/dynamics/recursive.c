@@ -13,7 +13,11 @@
  */
 #include "mech/dynamics/recursive.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/nested.h"
 #include "mech/dynamics/virtual-work.h"

@@ -3,7 +3,10 @@
 #include "mech/dynamics/squares.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"

@@ -12,7 +12,10 @@
  */
 #include "mech/dynamics/virtual-work.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/kinematics.h"

@@ -1,7 +1,10 @@
 /* access.c -- what every chapter asks of a scene. */
 #include "mech/scene/access.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"

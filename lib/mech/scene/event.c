@@ -1,7 +1,9 @@
 /* event.c -- declares, finds and prints the events of a scene. */
 #include <string.h>
 
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 

@@ -2,7 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 

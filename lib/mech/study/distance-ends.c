@@ -1,7 +1,11 @@
 /* distance-ends.c -- between which points of bodies a constraint keeps the distance. */
 #include "mech/study/distance-ends.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"

@@ -12,7 +12,10 @@
  */
 #include <stdio.h>
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"

@@ -4,8 +4,11 @@
  * a = 0, the values are put in: if they are proved to solve the equations at rest there, inside the declared domains, and
  * no other place is the same one, the condition becomes a >= 0. What is judged of its stability stays what holds for
  * a > 0. */
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/list.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"

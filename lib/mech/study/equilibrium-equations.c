@@ -5,6 +5,9 @@
  * 1, where they have no value at 0), are equations without t. They are necessary; whether what
  * solves them solves G for all t is looked at afterwards. Multipliers may depend on t: of an
  * equation that holds some, its value at that time alone is taken. */
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"

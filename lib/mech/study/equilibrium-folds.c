@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "mech/study/equilibrium-set.h"
 #include "normal/solve/cramer.h"
 #include "normal/solve/zeros.h"

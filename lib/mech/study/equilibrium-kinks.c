@@ -11,7 +11,11 @@
  */
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/direction.h"
 #include "mech/dynamics/generic.h"

@@ -1,4 +1,8 @@
 /* equilibrium-members.c -- solutions of the equations at rest as places. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-bands.h"

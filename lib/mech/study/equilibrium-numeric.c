@@ -11,6 +11,9 @@
 #include <gsl/gsl_linalg.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/generic.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/solve/isolate.h"

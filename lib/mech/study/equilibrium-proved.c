@@ -4,6 +4,9 @@
  * everywhere (normal/solve/zeros.h). */
 #include <math.h>
 
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/solve/zeros.h"
 

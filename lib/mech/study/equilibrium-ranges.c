@@ -1,4 +1,6 @@
 /* equilibrium-ranges.c -- a region of rests in one free coordinate, listed as intervals of it. */
+#include "expr/build.h"
+#include "expr/node.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-bands.h"
 #include "mech/study/equilibrium-search.h"

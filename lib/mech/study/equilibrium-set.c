@@ -5,7 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/generic.h"
 #include "normal/simplify/positive.h"
 #include "normal/solve/conditions.h"

@@ -5,6 +5,9 @@
  *
  * 0 < theta < pi leaves out the poles of a sphere, where a rest may be: such an end of a chart is told too. */
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/coordinates/chart.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/refute/constant.h"

@@ -2,7 +2,9 @@
  *
  * Where no formula gives the rests and parameters have no values, those that a symmetry of the scene provides can
  * still be proved: the equations are put in and decided. */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 

@@ -1,4 +1,5 @@
 /* equilibrium-twice.c -- removes equilibria that belong to a family listed elsewhere. */
+#include "expr/node.h"
 #include "mech/study/equilibrium-search.h"
 
 static bool

@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"

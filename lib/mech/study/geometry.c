@@ -1,7 +1,11 @@
 /* geometry.c -- Christoffel symbols, curvature, geodesics; grad, div, curl, Laplace. */
 #include "mech/study/geometry.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"

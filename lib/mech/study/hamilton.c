@@ -1,7 +1,10 @@
 /* hamilton.c -- replaces velocities by momenta, all of them or those of the cyclic coordinates. */
 #include "mech/study/hamilton.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/squares.h"

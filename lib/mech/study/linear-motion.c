@@ -1,7 +1,10 @@
 /* linear-motion.c -- the equations of motion about a place of rest, to first order. */
 #include "mech/study/linear-motion.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"

@@ -2,7 +2,11 @@
  * known. */
 #include "mech/study/lyapunov.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/energy.h"
 #include "mech/dynamics/integrated.h"

@@ -7,7 +7,11 @@
 #include <gsl/gsl_linalg.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/integrated.h"

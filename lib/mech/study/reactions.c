@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"

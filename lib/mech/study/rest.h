@@ -2,7 +2,7 @@
 #ifndef QDOT_MECH_REST_H
 #define QDOT_MECH_REST_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef enum {
     QDOT_STABLE,

@@ -1,7 +1,10 @@
 /* rods.c -- distances of a scene that never change: rods, and points fixed in bodies. */
 #include "mech/study/rods.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"

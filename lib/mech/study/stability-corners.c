@@ -20,7 +20,11 @@
 #include <stdio.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"

@@ -1,6 +1,10 @@
 /* stability-exact.c -- whether a scene stays near a place that is known exactly: by an energy,
  * by the roots of the linear motion, by the force on either side. */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"

@@ -16,7 +16,10 @@
  * Source  Lyapunov's and Lagrange's theorems for the L above.
  * Tests   tests/mech/study/test_equilibrium-bands.c
  */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"

@@ -9,6 +9,7 @@
 #include <gsl/gsl_linalg.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/integrated.h"

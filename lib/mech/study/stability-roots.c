@@ -1,4 +1,7 @@
 /* stability-roots.c -- whether the linear motion about a place grows, decays or stays bounded. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "mech/scene/access.h"
 #include "mech/study/stability-parts.h"
 #include "normal/inequality/half-plane.h"

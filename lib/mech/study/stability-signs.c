@@ -1,4 +1,7 @@
 /* stability-signs.c -- what must be positive for a verdict: proved, or noted as a condition. */
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"

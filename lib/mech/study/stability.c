@@ -2,6 +2,8 @@
 #include "mech/study/stability.h"
 
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"

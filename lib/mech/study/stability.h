@@ -2,6 +2,7 @@
 #ifndef QDOT_MECH_STABILITY_H
 #define QDOT_MECH_STABILITY_H
 
+#include "expr/function.h"
 #include "mech/study/lyapunov.h"
 #include "mech/study/rest.h"
 

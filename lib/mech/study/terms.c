@@ -1,6 +1,8 @@
 /* terms.c -- the terms of a sum by the symbols that they hold. */
 #include "mech/study/terms.h"
 
+#include "expr/build.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Of a number or vector, component by component: the sum of the terms that hold one of symbols [n]
  * (holding), or of those that hold none. */

@@ -9,7 +9,7 @@
 #ifndef QDOT_NORMAL_CLOSED_SUM_H
 #define QDOT_NORMAL_CLOSED_SUM_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* More terms than this are summed by formula or not at all. */
 enum { QDOT_SUM_TERMS = 1000000 };

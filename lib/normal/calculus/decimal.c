@@ -6,7 +6,10 @@
 #include <mpfr.h>
 
 #include "base/text.h"
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/print.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"

@@ -8,7 +8,7 @@
 #ifndef QDOT_NORMAL_DECIMAL_H
 #define QDOT_NORMAL_DECIMAL_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The constant e rounded to so many digits; |e - *value| <= *error. QDOT_EDOMAIN: not real, undefined, not told from
  * 0; QDOT_ELIMIT: too large or too small to be written. */

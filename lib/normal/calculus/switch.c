@@ -2,7 +2,9 @@
 #include "normal/calculus/switch.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 

@@ -3,6 +3,7 @@
 #ifndef QDOT_NORMAL_SWITCH_H
 #define QDOT_NORMAL_SWITCH_H
 
+#include "expr/function.h"
 #include "normal/field/facts.h"
 
 /* *part: the first part of e that switches where the symbol `ray` is 0; nil: none. QDOT_ENOMEM. */

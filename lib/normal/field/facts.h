@@ -3,7 +3,7 @@
 #ifndef QDOT_NORMAL_FACTS_H
 #define QDOT_NORMAL_FACTS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Assumptions: relations (each a scalar expression that is 0) and conditions (RELs that sample
  * points must satisfy). Arrays borrowed. */

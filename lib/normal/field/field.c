@@ -6,6 +6,11 @@
 #include <flint/fmpz_factor.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/value.h"
 
 static void

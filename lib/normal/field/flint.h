@@ -22,7 +22,7 @@
 #ifndef QDOT_NORMAL_FLINT_H
 #define QDOT_NORMAL_FLINT_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The most memory of one computation, in bytes. */
 #define QDOT_FLINT_MEMORY ((size_t)2 << 30)

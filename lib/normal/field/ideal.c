@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 
 enum { MOST_PAIRS = 400, MOST_POLYS = 48, MOST_TERMS = 400 };

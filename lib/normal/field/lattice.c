@@ -5,6 +5,9 @@
 #include <flint/fmpz_mat.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 
 #define FARTHEST 200
 #define FEW 16 /* are looked through one by one */

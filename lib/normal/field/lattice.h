@@ -12,7 +12,7 @@
 #include <flint/fmpq.h>
 
 #include "base/status.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "normal/field/map.h"
 
 typedef struct {

@@ -3,7 +3,7 @@
 #define QDOT_NORMAL_MAP_H
 
 #include "base/status.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Start with `qdot_map m = {0};`. */
 typedef struct {

@@ -2,6 +2,10 @@
 #include "normal/field/prepare.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/field/field.h"
 #include "normal/field/split.h"

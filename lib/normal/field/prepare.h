@@ -13,7 +13,7 @@
 #ifndef QDOT_NORMAL_PREPARE_H
 #define QDOT_NORMAL_PREPARE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "normal/field/map.h"
 
 /* e prepared; e itself where that fails (the pool keeps QDOT_ENOMEM and QDOT_EINTR

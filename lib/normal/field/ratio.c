@@ -3,6 +3,8 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
 
 /* Past these a gcd is not asked for: the quotient stays uncancelled, which is correct. */
 #define GCD_COST 60000

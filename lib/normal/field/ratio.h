@@ -7,7 +7,7 @@
 #include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_vec.h>
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "normal/field/lattice.h"
 #include "normal/field/map.h"
 

@@ -14,7 +14,7 @@
 #define QDOT_NORMAL_ROOT_PARTS_H
 
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* A matrix by rows of n entries, roots included, and the R_k of each row. */
 typedef struct {

@@ -1,9 +1,14 @@
 /* split.c -- splits b = c prod f^m into positive factors, squares and a rest that stays together. */
 #include "normal/field/split.h"
 
+#include <flint/fmpz.h>
 #include <flint/fmpz_factor.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "normal/field/factor.h"
 
 #define WORK 400000

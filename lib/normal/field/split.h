@@ -3,7 +3,7 @@
 #ifndef QDOT_NORMAL_SPLIT_H
 #define QDOT_NORMAL_SPLIT_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* b^x for a prepared b and a rational x that is not an integer. */
 qdot_expr qdot_split_power(qdot_pool *pool, qdot_expr b, qdot_expr x);

@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/field.h"
 

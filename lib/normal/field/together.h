@@ -8,7 +8,7 @@
 #ifndef QDOT_NORMAL_TOGETHER_H
 #define QDOT_NORMAL_TOGETHER_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Rewrite e[n], prepared, in place; *changed. Errors: QDOT_ENOMEM, QDOT_EINTR; the pool may keep a
  * failure. */

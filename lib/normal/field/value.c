@@ -6,6 +6,10 @@
 #include <flint/fmpz_factor.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 
 static void
 value_of_generator(qdot_field *f, qdot_ratio *r, qdot_expr e)

@@ -1,6 +1,10 @@
 /* collect.c -- polynomials collected in velocities and accelerations, common factors
  * out. */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/form/form.h"

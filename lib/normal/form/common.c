@@ -8,6 +8,10 @@
 #include "normal/form/common.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 /* The exponent of b in a term; nil: none. */

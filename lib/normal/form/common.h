@@ -2,7 +2,7 @@
 #ifndef QDOT_NORMAL_COMMON_H
 #define QDOT_NORMAL_COMMON_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* A sum with the factors that all its terms share in front, where that is shorter; a product of a
  * fraction and a sum with other numbers in it as that sum, each term with its own. The form of T,

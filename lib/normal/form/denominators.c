@@ -4,6 +4,10 @@
  *     (d u'' + 2 v u' v' + u u'^2)/d = u'' + (2 v u' v' + u u'^2)/d.
  */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/form/form.h"

@@ -5,6 +5,8 @@
 #ifndef QDOT_NORMAL_FORM_H
 #define QDOT_NORMAL_FORM_H
 
+#include <flint/fmpq.h>
+
 #include "normal/field/polynomials.h"
 
 /* Kinds of variables, and the forms found so far. */

@@ -2,7 +2,11 @@
 #include "normal/form/products.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/form/common.h"
 

@@ -2,7 +2,7 @@
 #ifndef QDOT_NORMAL_PRODUCTS_H
 #define QDOT_NORMAL_PRODUCTS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* sin(a)^m cos(a)^-n as tan(a)^k ..., likewise cot and tanh. Equal to e; nil as the pool failed. */
 qdot_expr qdot_products_tangents(qdot_pool *pool, qdot_expr e);

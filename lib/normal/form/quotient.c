@@ -1,5 +1,8 @@
 /* quotient.c -- the forms of one quotient: over its denominator, or as a sum of quotients. */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "normal/field/factor.h"
 #include "normal/form/form.h"
 #include "normal/form/items.h"

@@ -4,6 +4,11 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"

@@ -2,6 +2,12 @@
  * sums that mechanics brings most are of two angles, and need no field. */
 #include "normal/form/simple.h"
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+
 enum { MOST_COLLECTED = 16 };
 
 /* a + b + c, parameters. */

@@ -2,7 +2,7 @@
 #ifndef QDOT_NORMAL_SIMPLE_H
 #define QDOT_NORMAL_SIMPLE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Whether e is obviously as simple as possible without relations: powers of symbols times at most
  * one function and one sum of parameters. e a scalar. */

@@ -3,6 +3,9 @@
  *     x^2 - 2*x*y + y^2 + z^2 = (x - y)^2 + z^2.
  */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "normal/form/form.h"
 
 enum { MOST_TERMS = 24 };

@@ -1,6 +1,10 @@
 /* trig-form.c -- the shortest way to say a polynomial in sines and cosines: Pythagoras
  * either way, as a product, or by multiple angles and sums of angles.
  */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "normal/form/form.h"
 
 #include <string.h>

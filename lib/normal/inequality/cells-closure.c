@@ -2,6 +2,7 @@
 #include "normal/inequality/cells-closure.h"
 
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 bool

@@ -7,7 +7,11 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
 #include "normal/inequality/cells-closure.h"
@@ -15,14 +19,8 @@
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
 
-enum {
-    MOST_SYMBOLS = 4,
-    MOST_POLYNOMIALS = 30, /* a level */
-    MOST_TERMS = 300,
-    MOST_DEGREE = 40,
-    MOST_CONDITIONS = 16,
-    MOST_BITS = 2048
-};
+enum { MOST_SYMBOLS = 4, MOST_TERMS = 300, MOST_DEGREE = 40, MOST_CONDITIONS = 16, MOST_BITS = 2048 };
+enum { MOST_POLYNOMIALS = 30 /* a level */ };
 #define WORK 4000000
 
 typedef qdot_vec(fmpz_mpoly_struct) polynomials;

@@ -22,7 +22,7 @@
 #ifndef QDOT_NORMAL_CELLS_H
 #define QDOT_NORMAL_CELLS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef struct {
     qdot_expr gap; /* > 0, or >= 0 if weak */

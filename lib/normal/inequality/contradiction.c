@@ -1,6 +1,7 @@
 /* contradiction.c -- tests each condition against those before it. */
 #include "normal/inequality/contradiction.h"
 
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/inequality/less.h"
 

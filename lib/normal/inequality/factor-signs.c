@@ -1,6 +1,8 @@
 /* factor-signs.c -- signs of the factors of an expression, by their nodes and the ends of cosines. */
 #include "normal/inequality/factor-signs.h"
 
+#include "expr/build.h"
+#include "expr/node.h"
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
 

@@ -6,7 +6,7 @@
 #ifndef QDOT_NORMAL_FACTOR_SIGNS_H
 #define QDOT_NORMAL_FACTOR_SIGNS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The bits QDOT_GE0, QDOT_LE0, QDOT_NE0 that are known of e; 0: none. */
 uint8_t qdot_sign_by_factors(qdot_pool *pool, qdot_expr e);

@@ -6,6 +6,8 @@
 #include <flint/fmpz_poly_mat.h>
 
 #include "base/memory.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "normal/field/flint.h"
 #include "normal/refute/ball.h"
 

@@ -14,7 +14,7 @@
 #ifndef QDOT_NORMAL_HALF_PLANE_H
 #define QDOT_NORMAL_HALF_PLANE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef struct {
     bool grows;   /* proved: a zero has a positive real part */

@@ -5,8 +5,12 @@
 #include <stdio.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/prepare.h"
 #include "normal/form/shortest.h"

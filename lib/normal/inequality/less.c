@@ -6,8 +6,12 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"

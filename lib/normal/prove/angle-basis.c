@@ -4,8 +4,10 @@
 
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
 #include "expr/walk.h"
 #include "normal/prove/equal.h"
 #include "normal/refute/constant.h"

@@ -5,6 +5,10 @@
  * of the functions leave |S| < pi, S is 0 if Im Z is; where they leave |S| < 2 pi, if Re Z = |Z|.
  */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "normal/field/factor.h"
 #include "normal/prove/zero.h"
 #include "normal/refute/constant.h"

@@ -2,8 +2,12 @@
 #include "normal/prove/cases.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/equal.h"
 #include "normal/prove/prove.h"

@@ -1,7 +1,11 @@
 /* defined.c -- finds the nodes that are always evaluated and the conditions on their arguments. */
 #include "normal/prove/defined.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 

@@ -15,7 +15,7 @@
 #ifndef QDOT_NORMAL_DEFINED_H
 #define QDOT_NORMAL_DEFINED_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* gap >= 0, and > 0 unless weak. */
 typedef qdot_status (*qdot_defined_gap)(void *user, qdot_expr gap, bool weak);

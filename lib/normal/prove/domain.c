@@ -3,7 +3,12 @@
 
 #include <stdio.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/defined.h"
 #include "normal/refute/constant.h"

@@ -1,6 +1,9 @@
 /* equal.c -- proves a difference zero in one field, or root by root where there are many roots. */
 #include "normal/prove/equal.h"
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/field/prepare.h"
 #include "normal/field/root-parts.h"

@@ -1,5 +1,9 @@
 /* logarithm.c -- proves sums of logarithms zero. */
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "normal/field/factor.h"
 #include "normal/prove/zero.h"
 

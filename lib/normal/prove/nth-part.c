@@ -1,7 +1,10 @@
 /* nth-part.c -- terms c f(u) of arguments, c with an odd factor below the bar. */
 #include "normal/prove/nth-part.h"
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 enum { MOST_PARTS = 15, MOST = 4 };

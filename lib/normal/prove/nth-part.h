@@ -14,7 +14,7 @@
 #define QDOT_NORMAL_NTH_PART_H
 
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef qdot_vec(qdot_expr) qdot_nth_parts;
 

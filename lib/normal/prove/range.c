@@ -2,6 +2,10 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/prove/zero.h"
 #include "normal/refute/ball.h"

@@ -2,7 +2,10 @@
 #include "normal/prove/rewrite.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 static qdot_expr

@@ -13,7 +13,7 @@
 #ifndef QDOT_NORMAL_REWRITE_H
 #define QDOT_NORMAL_REWRITE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* e rewritten, children first; nil on failure. */
 qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials);

@@ -5,6 +5,10 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/refute/sample.h"
 

@@ -1,8 +1,12 @@
 /* within.c -- compares bounds of a symbol with the range of an inverse function. */
 #include "normal/prove/within.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 /* Whether bound <= n/2 pi (below: >=), for a rational or a rational times pi. */

@@ -9,7 +9,7 @@
 #ifndef QDOT_NORMAL_WITHIN_H
 #define QDOT_NORMAL_WITHIN_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* e with x in their place; nil on failure. */
 qdot_expr qdot_within_values(qdot_pool *pool, qdot_expr e);

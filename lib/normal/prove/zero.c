@@ -3,6 +3,9 @@
 
 #include "base/memory.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/refute/constant.h"

@@ -2,7 +2,9 @@
 #include "normal/refute/ball.h"
 
 #include "base/memory.h"
+#include "expr/exact.h"
 #include "expr/function-ball.h"
+#include "expr/node.h"
 
 /* --- functions --------------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
 #ifndef QDOT_NORMAL_BALL_H
 #define QDOT_NORMAL_BALL_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "expr/walk.h"
 #include "num/arb.h"
 

@@ -8,6 +8,10 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/refute/ball.h"
 

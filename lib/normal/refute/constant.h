@@ -21,7 +21,7 @@
 #ifndef QDOT_NORMAL_CONSTANT_H
 #define QDOT_NORMAL_CONSTANT_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The sign of a constant. */
 typedef enum {

@@ -6,6 +6,8 @@
 
 #include "base/memory.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "num/arb.h"
 

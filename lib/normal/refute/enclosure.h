@@ -19,7 +19,7 @@
 #ifndef QDOT_NORMAL_ENCLOSURE_H
 #define QDOT_NORMAL_ENCLOSURE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "num/interval.h"
 
 enum { QDOT_ENCLOSURE_MOST = 6 }; /* unknowns */

@@ -1,4 +1,7 @@
 /* sample-edge.c -- sample points at which two sides may differ although they agree nearby. */
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/refute/sample.h"
 
 /* x = c or c pi of a constant that is one of these. */

@@ -6,7 +6,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
 

@@ -11,6 +11,8 @@
 #ifndef QDOT_NORMAL_SAMPLE_H
 #define QDOT_NORMAL_SAMPLE_H
 
+#include <flint/fmpq.h>
+
 #include "normal/field/facts.h"
 #include "normal/refute/ball.h"
 

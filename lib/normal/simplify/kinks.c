@@ -2,8 +2,11 @@
 #include "normal/simplify/kinks.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"
 

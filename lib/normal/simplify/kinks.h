@@ -12,7 +12,7 @@
 #ifndef QDOT_NORMAL_KINKS_H
 #define QDOT_NORMAL_KINKS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* e without the kinks that cancel; e itself where none does. Nil on failure. */
 qdot_expr qdot_kinks_cancel(qdot_pool *pool, qdot_expr e);

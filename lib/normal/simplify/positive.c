@@ -2,7 +2,10 @@
 #include "normal/simplify/positive.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"

@@ -1,6 +1,8 @@
 /* simplify.c -- known signs, then the shortest form. */
 #include "normal/simplify/simplify.h"
 
+#include "expr/build.h"
+#include "expr/node.h"
 #include "normal/form/shortest.h"
 #include "normal/inequality/less.h"
 

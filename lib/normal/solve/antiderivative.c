@@ -1,7 +1,12 @@
 /* antiderivative.c -- a table of integrals, parts and substitutions. */
 #include "normal/solve/antiderivative.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"

@@ -2,6 +2,7 @@
 #include "normal/solve/assumptions.h"
 
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/special-values.h"

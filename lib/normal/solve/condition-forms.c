@@ -1,8 +1,11 @@
 /* condition-forms.c -- simpler forms of conditions 0 < g and 0 <= g whose g holds |v| or square roots. */
 #include "normal/solve/condition-forms.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 /* So many nodes |u| and the like are replaced by what they may be; larger expressions are not examined. */

@@ -8,7 +8,7 @@
 #ifndef QDOT_NORMAL_CONDITION_FORMS_H
 #define QDOT_NORMAL_CONDITION_FORMS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Whether e may be 0 in whole regions, as |a| - a is: with other values of |u|, sign u, max, min put in, it is 0
  * identically. */

@@ -1,6 +1,7 @@
 /* cramer.c -- Cramer's rule over expressions. */
 #include "normal/solve/cramer.h"
 
+#include "expr/build.h"
 #include "expr/tensor.h"
 
 qdot_expr

@@ -2,7 +2,7 @@
 #ifndef QDOT_NORMAL_CRAMER_H
 #define QDOT_NORMAL_CRAMER_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 enum { QDOT_CRAMER_MOST = 3 };
 

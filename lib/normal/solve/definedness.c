@@ -1,5 +1,8 @@
 /* definedness.c -- where an expression is defined, as a set of conditions. */
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/solve/conditions.h"
 

@@ -7,6 +7,8 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
 
 enum { BITS = 128, SIZES = 5, STEPS = 10 };
 

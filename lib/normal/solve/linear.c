@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/node.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/field/field.h"

@@ -6,6 +6,9 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/field/factor.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"

@@ -14,7 +14,7 @@
 #ifndef QDOT_NORMAL_NULL_SPACE_H
 #define QDOT_NORMAL_NULL_SPACE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* E [rows*n] row-major. *basis [*m * n]: the vectors, one after another, owned by the caller
  * (qdot_free). Columns that come late are free (1 in one vector, 0 in the others) rather

@@ -2,7 +2,11 @@
 #include "normal/solve/proportion.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/field/flint.h"

@@ -2,9 +2,11 @@
  * values for u > 0 and u < 0. */
 #include "normal/solve/sides.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/list.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"
 

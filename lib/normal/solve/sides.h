@@ -18,7 +18,7 @@
 #define QDOT_NORMAL_SIDES_H
 
 #include "base/memory.h"
-#include "expr/expr.h"
+#include "expr/id.h"
 
 enum { QDOT_SIDES_MOST = 8 };
 

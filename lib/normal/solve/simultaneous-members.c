@@ -2,7 +2,11 @@
  * domains, and the conditions under which each exists. */
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"

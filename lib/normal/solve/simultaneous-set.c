@@ -2,8 +2,12 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "expr/list.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 #include "normal/simplify/simplify.h"

@@ -6,9 +6,13 @@
 #include <stdlib.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
 #include "expr/list.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"

@@ -3,7 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"

@@ -1,5 +1,7 @@
 /* solve-cases.c -- equations with |u(x)|, sign u(x), max, min and if(...): solved case by case. */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "normal/prove/decide.h"
 #include "normal/solve/sides.h"
 #include "normal/solve/solver.h"

@@ -5,7 +5,11 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"

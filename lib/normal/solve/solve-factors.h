@@ -5,7 +5,7 @@
 #ifndef QDOT_NORMAL_SOLVE_FACTORS_H
 #define QDOT_NORMAL_SOLVE_FACTORS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The factors of f's numerator, each once, numbers left out: f = 0 where one of them
  * is. A LIST; f itself alone where it cannot be factored. */

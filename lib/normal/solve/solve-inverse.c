@@ -1,6 +1,9 @@
 /* solve-inverse.c -- elementary functions inverted: g(u(x)) = v becomes u(x) = w. */
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/solve/solver.h"
 

@@ -1,5 +1,7 @@
 /* solve-sort.c -- sorts solutions by their values. */
 #include "base/memory.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/refute/sample.h"
 #include "normal/solve/solve.h"
 

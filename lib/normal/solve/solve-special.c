@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"

@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"

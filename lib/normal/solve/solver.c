@@ -2,7 +2,12 @@
 #include "normal/solve/solver.h"
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"

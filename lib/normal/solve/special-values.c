@@ -1,7 +1,11 @@
 /* special-values.c -- values of parameters at which divisors of a solution are 0. */
 #include "normal/solve/special-values.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"

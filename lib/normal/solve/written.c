@@ -3,7 +3,11 @@
 
 #include <stdio.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/solve/solve-factors.h"

@@ -1,7 +1,9 @@
 /* zeros-exact.c -- exact numbers that a zero may be, and exact tests of them. */
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 #include "normal/solve/zeros-parts.h"

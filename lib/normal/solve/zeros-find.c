@@ -1,4 +1,6 @@
 /* zeros-find.c -- all zeros in a box: systems, charts, ends; what is found put together. */
+#include "expr/build.h"
+#include "expr/node.h"
 #include "normal/solve/zeros.h"
 
 #include <math.h>

@@ -5,7 +5,11 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "normal/refute/ball.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"

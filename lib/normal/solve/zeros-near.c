@@ -3,8 +3,9 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "num/lu.h"
+#include "expr/exact.h"
 #include "normal/solve/zeros-parts.h"
+#include "num/lu.h"
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, STEPS = 200, HALVINGS = 30 };
 

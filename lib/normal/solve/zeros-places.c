@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/refute/ball.h"

@@ -31,7 +31,7 @@
 #ifndef QDOT_NORMAL_ZEROS_H
 #define QDOT_NORMAL_ZEROS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 #include "num/interval.h"
 
 enum { QDOT_ZEROS_MOST_UNKNOWNS = 6 };

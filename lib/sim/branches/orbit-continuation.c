@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/symbol.h"
 #include "sim/branches/orbit-bifurcation.h"
 
 /* A curve whose period has grown so many times, and goes on to do nothing else, leads to an orbit without one. */

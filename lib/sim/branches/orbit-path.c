@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
 #include "normal/prove/decide.h"

@@ -5,7 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "tape/derivative.h"
 
 /* Of a direction of unit length: below, it has no part along p. Below, of the entries of Gamma: no damping. */

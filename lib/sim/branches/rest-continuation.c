@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/symbol.h"
 #include "mech/study/equilibrium-set.h"
 #include "sim/branches/branch-points.h"
 #include "sim/branches/rest-bifurcation.h"

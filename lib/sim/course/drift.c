@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/symbol.h"
 #include "series/lanes.h"
 #include "sim/form/residual.h"
 #include "sim/model/absent.h"

@@ -1,4 +1,6 @@
 /* piece-chatter.c -- where a motion about a surface is too fast to be followed (sim/course/chatter.h): it slides. */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/course/piece.h"
 
 #include <float.h>

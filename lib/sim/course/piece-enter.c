@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "ode/companion.h"
 #include "series/taylor.h"
 #include "sim/course/piece.h"

@@ -1,5 +1,7 @@
 /* piece-layer.c -- checks that a layer about a branch point (sim/model/layer.h) may be passed, and finds what
  * comes to rest in one. */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/course/piece.h"
 
 #include <float.h>

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "sim/course/piece.h"
 #include "sim/model/constrained.h"

@@ -4,10 +4,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/model/sliding.h"
 #include "tape/rounding.h"
+
+bool
+qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_node(pool, e)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
+}
 
 void
 qdot_reader_clear(qdot_reader *r)

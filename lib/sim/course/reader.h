@@ -22,11 +22,7 @@ typedef struct {
 } qdot_reading;
 
 /* Whether e holds q'' or a multiplier. */
-static inline bool
-qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e)
-{
-    return qdot_expr_node(pool, e)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
-}
+bool qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e);
 
 /* The state of one course: where it is read, and its place among the inputs of the tape. */
 typedef struct {

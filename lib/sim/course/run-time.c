@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
 #include "num/two.h"
 
 double

@@ -1,5 +1,8 @@
 /* stage-events.c -- the events of a run, with parameter values; those of a run back in time. */
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "sim/course/stage.h"
 #include "sim/model/massless.h"

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "sim/course/stage.h"
 #include "sim/model/puck.h"
 

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "sim/course/stage.h"
 #include "sim/model/layer.h"
 #include "sim/model/term-magnitude.h"

@@ -4,7 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"

@@ -7,6 +7,8 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/digits/precise-hold.h"
 
 #define RN MPFR_RNDN

@@ -1,4 +1,5 @@
 /* runs.c -- a scene lowered with some parameters left open; members and companions. */
+#include "expr/symbol.h"
 #include "sim/ensemble/ensemble.h"
 
 #include <math.h>

@@ -2,8 +2,10 @@
 #include "sim/form/canonical.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 #include "sim/model/switch.h"

@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "sim/form/derived.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"

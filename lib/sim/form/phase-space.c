@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "num/ldlt.h"
 #include "sim/model/substitute.h"
 

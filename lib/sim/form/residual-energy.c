@@ -1,7 +1,11 @@
 /* residual-energy.c -- energy along the residual's tree, and what does not stand in it. */
 #include "sim/form/residual-energy.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/dalembert.h"
 #include "sim/model/absent.h"
 

@@ -3,8 +3,11 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
 #include "series/program.h"

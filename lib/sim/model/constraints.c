@@ -3,7 +3,10 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "sim/model/massless.h"

@@ -3,7 +3,10 @@
 
 #include <stdio.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/model/substitute.h"
 
 /* Whether u moves with time and its speed jumps: there the motion would meet the event anew. */

@@ -6,6 +6,7 @@
 
 #include "expr/constant.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "sim/model/parameter-states.h"
 
 void

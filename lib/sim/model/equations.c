@@ -3,6 +3,8 @@
 
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/model/quotient.h"
 #include "sim/model/substitute.h"
 #include "tape/rounding.h"

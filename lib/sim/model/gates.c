@@ -3,7 +3,10 @@
 
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "sim/model/layer.h"
 

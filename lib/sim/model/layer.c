@@ -3,7 +3,12 @@
 
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 /* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */

@@ -2,7 +2,9 @@
 #include "sim/model/massless-jump.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/solve/linear.h"
 

@@ -2,6 +2,8 @@
 #include "sim/model/massless.h"
 
 #include "base/memory.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/model/substitute.h"

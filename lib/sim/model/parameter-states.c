@@ -7,7 +7,9 @@
 
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 /* --- the request ---------------------------------------------------------------------- */

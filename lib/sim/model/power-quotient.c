@@ -1,6 +1,9 @@
 /* power-quotient.c -- rewrites the factors of every product. */
 #include "sim/model/power-quotient.h"
 
+#include "expr/build.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 
 /* Whether a sum is c + k b^p; parts: k, c, and b^-p. */

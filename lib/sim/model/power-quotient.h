@@ -9,7 +9,7 @@
 #ifndef QDOT_SIM_POWER_QUOTIENT_H
 #define QDOT_SIM_POWER_QUOTIENT_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* Rewrite all such quotients in e. Nil: the pool keeps the failure. */
 qdot_expr qdot_power_quotient(qdot_pool *pool, qdot_expr e);

@@ -1,6 +1,10 @@
 /* quotient.c -- common factors by their exponents, term by term. */
 #include "sim/model/quotient.h"
 
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+
 /* The integer exponent of `base` in a term; 0 if it is not a factor. */
 static long
 exponent(const qdot_pool *pool, qdot_expr term, qdot_expr base)

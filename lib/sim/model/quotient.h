@@ -6,7 +6,7 @@
 #ifndef QDOT_SIM_QUOTIENT_H
 #define QDOT_SIM_QUOTIENT_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* f/M so. Nil: the pool keeps the failure. */
 qdot_expr qdot_quotient(qdot_pool *pool, qdot_expr f, qdot_expr M);

@@ -2,6 +2,11 @@
 #include "sim/model/rates.h"
 
 #include "base/memory.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 typedef struct {

@@ -15,7 +15,7 @@
 #ifndef QDOT_SIM_RATES_H
 #define QDOT_SIM_RATES_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* For e in t and coordinates, with constant q'. Nil without a failure of the pool if nothing is
  * gained (all powers in e are positive integers), or if e has functions other than sine and

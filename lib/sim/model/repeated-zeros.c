@@ -3,9 +3,12 @@
 
 #include <math.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "sim/model/simple-zeros.h"
 

@@ -16,7 +16,7 @@
 #ifndef QDOT_SIM_REPEATED_ZEROS_H
 #define QDOT_SIM_REPEATED_ZEROS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 typedef struct {
     qdot_expr u;    /* g itself where it is none of these, or holds accelerations or multipliers */

@@ -1,7 +1,10 @@
 /* simple-zeros.c -- lowers the exponents of a product. */
 #include "sim/model/simple-zeros.h"
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/exact.h"
+#include "expr/node.h"
 
 /* Whether the exponent is a whole number. *n out: 1 if it is odd, 2 if it is even, with its sign. */
 static bool

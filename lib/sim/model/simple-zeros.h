@@ -11,7 +11,7 @@
 #ifndef QDOT_SIM_SIMPLE_ZEROS_H
 #define QDOT_SIM_SIMPLE_ZEROS_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The factors of g with exponent 1 in place of an odd one, 2 in place of an even one, -1 and -2 of
  * poles; others as they are. A number far from 1, in all terms, is divided out. Nil absorbs. */

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/model/puck.h"
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"

@@ -5,6 +5,8 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "ode/scale.h"
 
 typedef struct {

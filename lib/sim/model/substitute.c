@@ -3,6 +3,9 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 
 enum { MOST_NESTING = 64 };

@@ -2,7 +2,7 @@
 #ifndef QDOT_SIM_SUBSTITUTE_H
 #define QDOT_SIM_SUBSTITUTE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* e with symbols[i] replaced by values[i]. If a symbol is an undefined function of its declared
  * arguments, x(s, t), the value defines the function: every x(a, b) and every derivative of it is

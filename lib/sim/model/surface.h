@@ -7,7 +7,7 @@
 
 #include <limits.h>
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* The side of a surface along which the motion slides (sim/model/sliding.h): u is held at 0. */
 #define QDOT_SIDE_SLIDES LONG_MAX

@@ -1,4 +1,8 @@
 /* switch-freeze.c -- expressions on one side of every surface. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "sim/model/switch.h"
 
 #include <string.h>

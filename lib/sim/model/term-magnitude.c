@@ -1,7 +1,9 @@
 /* term-magnitude.c -- adds the absolute values of the terms. */
 #include "sim/model/term-magnitude.h"
 
+#include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/node.h"
 
 qdot_expr
 qdot_term_magnitude(qdot_pool *pool, qdot_expr e)

@@ -9,7 +9,7 @@
 #ifndef QDOT_SIM_TERM_MAGNITUDE_H
 #define QDOT_SIM_TERM_MAGNITUDE_H
 
-#include "expr/expr.h"
+#include "expr/id.h"
 
 /* That sum, as an expression; nil absorbs. */
 qdot_expr qdot_term_magnitude(qdot_pool *pool, qdot_expr e);

@@ -5,7 +5,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "normal/field/normal-form.h"
 #include "normal/solve/linear.h"

@@ -2,6 +2,8 @@
 #include "sim/plan/geometric.h"
 
 #include "expr/constant.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "ode/geometric/geometric.h"
 #include "sim/form/phase-space.h"
 

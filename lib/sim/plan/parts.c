@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "sim/form/derived.h"
 #include "sim/plan/form.h"

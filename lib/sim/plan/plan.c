@@ -4,8 +4,12 @@
 #include <string.h>
 
 #include "base/spelling.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/integrated.h"
 #include "ode/leading.h"
+#include "series/program.h"
 #include "sim/form/motion-of-constraints.h"
 #include "sim/model/constraints.h"
 #include "sim/model/massless.h"
@@ -17,7 +21,6 @@
 #include "sim/plan/parts.h"
 #include "sim/plan/routh.h"
 #include "sim/plan/tree-alone.h"
-#include "series/program.h"
 
 /* The method that `auto` is, and where the equations switch and so have no series: see
  * ode/method.h for when each fits. */

@@ -3,15 +3,17 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "ode/leading.h"
 #include "sim/form/derived.h"
 #include "sim/form/residual-energy.h"
 #include "sim/form/residual-tree.h"
-#include "sim/plan/cost.h"
-#include "sim/plan/routh.h"
 #include "sim/form/tree-series.h"
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
+#include "sim/plan/cost.h"
+#include "sim/plan/routh.h"
 #include "tape/disc.h"
 
 static bool

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "expr/print.h"
+#include "expr/symbol.h"
 
 void
 qdot_in_chart_clear(qdot_in_chart *in)

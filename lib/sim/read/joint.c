@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "sim/course/run-state.h"
 
 void

@@ -7,10 +7,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/function.h"
+#include "expr/node.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
-#include "sim/error/companion.h"
 #include "sim/course/run-time.h"
+#include "sim/error/companion.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
 #include "sim/read/in-chart.h"

@@ -4,7 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "sim/course/reader.h"
 #include "sim/run/chart-run.h"
 #include "sim/run/chart-start.h"

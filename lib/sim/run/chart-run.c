@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "sim/course/reader.h"
 
 /* An angle is followed in steps below `sure`; a stretch ends where it is `far` from its quarters.

@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/symbol.h"
 #include "sim/model/substitute.h"
 
 qdot_expr

@@ -4,9 +4,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/scene.h"

@@ -1,5 +1,7 @@
 /* describe.c -- prints a plan in words. */
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 #include "ode/companion.h"
 #include "ode/taylor.h"
 #include "ode/written.h"

@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
 #include "expr/walk.h"
 
 /* Times so many lengths of the run away from 0 are counted from its start. */

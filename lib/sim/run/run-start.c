@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/node.h"
 #include "sim/digits/digits.h"
 #include "sim/model/massless.h"
 #include "sim/start/start.h"

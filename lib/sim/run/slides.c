@@ -3,7 +3,9 @@
 
 #include <math.h>
 
+#include "expr/node.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
 
 /* The most time spans that are listed; the others are counted. */
 enum { MOST_LISTED = 3 };

@@ -4,6 +4,7 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "num/cholesky.h"
 #include "num/ldlt.h"

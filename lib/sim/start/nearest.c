@@ -7,6 +7,7 @@
 
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/refute/ball.h"
 

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "num/row-space.h"

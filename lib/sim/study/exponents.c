@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
+#include "expr/exact.h"
 #include "ode/integrate.h"
 #include "sim/course/course.h"
 #include "sim/model/massless.h"

@@ -5,7 +5,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/integrated.h"
 #include "num/balance.h"
 #include "num/eigenvalues.h"

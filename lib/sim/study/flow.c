@@ -6,7 +6,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "num/balance.h"
 
 /* Below, a motion has not grown: one segment does. How much it may grow in one, of a guess that is far off, of an

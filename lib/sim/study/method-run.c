@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/exact.h"
 #include "sim/model/constrained.h"
 #include "sim/plan/plan.h"
 #include "sim/start/start.h"

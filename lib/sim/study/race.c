@@ -6,8 +6,11 @@
 
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "mech/coordinates/minimal.h"
 #include "sim/course/run-state.h"
 #include "sim/model/substitute.h"

@@ -8,6 +8,8 @@
 #include "base/progress.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "sim/course/course.h"
 #include "sim/course/reader.h"
 #include "sim/model/massless.h"

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/constant.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "num/zero.h"
 #include "tape/derivative.h"

@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/integrated.h"
 #include "sim/model/massless.h"
 #include "sim/model/substitute.h"

@@ -1,7 +1,9 @@
 /* variation-parts.c -- symbols of a scene with slopes; derivatives in its directions. */
 #include "sim/study/variation-parts.h"
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/symbol.h"
 #include "sim/model/substitute.h"
 
 qdot_expr

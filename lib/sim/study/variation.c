@@ -4,7 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "sim/model/quotient.h"

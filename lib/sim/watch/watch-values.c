@@ -1,4 +1,6 @@
 /* watch-values.c -- the watched functions: their tapes, values and rounding errors. */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "sim/watch/watch-parts.h"
 
 #include <fenv.h>

@@ -1,6 +1,7 @@
 /* test_numeric.c -- numeric(E, n) is as near to E as it says; decimals beside symbols. */
 #include <math.h>
 
+#include "expr/build.h"
 #include "lang/reading.h"
 
 #include "lang/session/bind.h"

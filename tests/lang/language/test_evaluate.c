@@ -1,4 +1,6 @@
 /* test_evaluate.c -- what words mean: primes, functions, sums, values of a scene. */
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "lang/reading.h"
 
 static void

@@ -1,4 +1,6 @@
 /* test_read.c -- the grammar: precedence, brackets, readers of operands, errors. */
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "lang/reading.h"
 
 #include "lang/language/compiled.h"

@@ -1,5 +1,8 @@
 /* test_session.c -- a conversation: what is said, what is answered, what is left after
  * a failure. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "lang/talk.h"
 
 #include <math.h>

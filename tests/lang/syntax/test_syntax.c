@@ -1,4 +1,5 @@
 /* test_syntax.c -- statements read by the usages of their rows. */
+#include "expr/exact.h"
 #include "lang/reading.h"
 
 #include "base/memory.h"

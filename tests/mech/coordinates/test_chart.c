@@ -1,4 +1,7 @@
 /* Scenes in other coordinates: which there are, and that the motion is the same in them. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "expr/constant.h"

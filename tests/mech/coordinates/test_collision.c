@@ -1,4 +1,7 @@
 /* Scenes in which a collision is regular: which pairs there are, and that the motion is the same. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "expr/constant.h"

@@ -1,4 +1,5 @@
 /* Velocity constraints that are holonomic in disguise: their integrals, and where these are used. */
+#include "expr/build.h"
 #include "mech/kit.h"
 
 #include "mech/dynamics/integrated.h"

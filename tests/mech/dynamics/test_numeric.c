@@ -5,8 +5,13 @@
  * by central differences of eighth order. M a - f must be that less the work of the
  * applied forces.
  */
-#include "mech/kit.h"
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/kit.h"
 #include "mech/scene/access.h"
 
 enum { MOST = 6 };

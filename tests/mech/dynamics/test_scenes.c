@@ -1,6 +1,9 @@
 /* The rows of the scenes that define the mission, each a decision. */
-#include "mech/kit.h"
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/kit.h"
 
 static qdot_expr
 Q(kit *k, const char *q)

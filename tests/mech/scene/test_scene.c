@@ -2,8 +2,12 @@
  * */
 #include <time.h>
 
-#include "mech/kit.h"
+#include "expr/build.h"
+#include "expr/function.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/dynamics/quantity.h"
+#include "mech/kit.h"
 #include "sanitized.h"
 
 static void

@@ -1,4 +1,5 @@
 /* Rests that dry friction holds: intervals, their ends, what is stable. */
+#include "expr/build.h"
 #include "mech/kit.h"
 
 #include "base/memory.h"

@@ -1,4 +1,7 @@
 /* Equilibria and the modes about them. */
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "mech/dynamics/generic.h"

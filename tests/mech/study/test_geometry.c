@@ -1,5 +1,9 @@
 /* Geometry and the vector operators, each against a formula of the books and, for the operators,
  * against the same field in Cartesian coordinates. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"

@@ -1,4 +1,6 @@
 /* Hamilton's and Routh's functions against the textbooks', and against each other's equations. */
+#include "expr/build.h"
+#include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"

@@ -1,4 +1,7 @@
 /* Conserved quantities: which are found, and that each is constant by the equations of motion. */
+#include "expr/build.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
 #include "mech/kit.h"
 
 #include "mech/dynamics/quantity.h"

@@ -1,4 +1,5 @@
 /* Distances that never change: rods of r(q), rods of constraints, points fixed in bodies. */
+#include "expr/build.h"
 #include "mech/kit.h"
 
 #include "mech/study/rods.h"

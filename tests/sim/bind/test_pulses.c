@@ -1,4 +1,6 @@
 /* test_pulses.c -- forces that act for less than a step, seen in one look at the step. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

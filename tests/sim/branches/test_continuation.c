@@ -1,4 +1,5 @@
 /* test_continuation.c -- branches of equilibria and their bifurcations, against closed forms. */
+#include "expr/build.h"
 #include "sim/scenes.h"
 
 #include <math.h>

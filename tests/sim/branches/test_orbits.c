@@ -1,4 +1,5 @@
 /* test_orbits.c -- branches of periodic orbits, against published numbers and closed forms. */
+#include "expr/build.h"
 #include "sim/scenes.h"
 
 #include <math.h>

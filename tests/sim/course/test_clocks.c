@@ -1,5 +1,9 @@
 /* test_clocks.c -- events at multiples of two periods, near t = 0 and far from it, against integers: every occurrence
  * once, those of one instant in the order of their statements. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,8 @@
 /* test_contacts.c -- bounces without end against the closed form: on a table of any height, between blocks of any
  * mass; a longer run says the same; on plates that are driven, until these fall away. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,8 @@
 /* test_precise.c -- runs with `digits`: against closed forms, and against reference
  * states of independent programs. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
 /* test_ensemble-constraints.c -- members under constraints against runs of their own. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/ensembles.h"
 
 #include "base/memory.h"

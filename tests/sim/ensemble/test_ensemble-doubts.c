@@ -1,4 +1,6 @@
 /* test_ensemble-doubts.c -- steps of a lane that a run alone has to be asked about. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include "sim/plan/plan.h"

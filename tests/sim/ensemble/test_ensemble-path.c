@@ -1,4 +1,6 @@
 /* test_ensemble-path.c -- the way of a member against that of a run of its own. */
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "sim/ensembles.h"
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
 /* test_ensemble-steps.c -- what is seen of members on their way. */
+#include "expr/exact.h"
 #include "sim/ensembles.h"
 
 #include <stdlib.h>

@@ -1,4 +1,7 @@
 /* test_ensemble.c -- members against runs of their own. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/ensembles.h"
 
 #include <stdlib.h>

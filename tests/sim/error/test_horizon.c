@@ -1,5 +1,8 @@
 /* test_horizon.c -- where runs of chaotic scenes end to mean anything, against runs with
  * `digits`; and that regular scenes have no horizon. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,9 @@
 /* test_bordered.c -- multipliers solved for by machine code against those of the kernels; when it
  * is not asked. Where there is no such code all of them are the kernels'. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include "expr/calculus.h"

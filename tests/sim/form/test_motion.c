@@ -1,5 +1,7 @@
 /* test_motion.c -- M q'' = f, d'Alembert's residual and Hamilton's equations as programs: the same
  * series in MPFR, and of the first two in two doubles as far as these hold. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* test_phase-space.c -- canonical momenta of a particle in polar coordinates, in a magnetic field. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,7 @@
 /* test_residual-sweeps.c -- d'Alembert's residual as a tree, and orders by elimination along it
  * against M q'' = f. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

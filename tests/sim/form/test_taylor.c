@@ -1,5 +1,8 @@
 /* test_taylor.c -- runs by Taylor series: both forms of the equations, references, what
  * has no series. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,9 @@
 /* test_constraints.c -- runs of scenes with constraints against minimal coordinates and
  * closed forms; drift, redundancy, what is refused. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include "sim/bind/bind.h"

@@ -1,5 +1,7 @@
 /* test_equations.c -- accelerations and Jacobians against differences of the positions
  * alone. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

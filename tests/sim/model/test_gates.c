@@ -1,4 +1,7 @@
 /* test_gates.c -- branches that are not taken hold no switch, and need not be defined. */
+#include "expr/build.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <stdlib.h>

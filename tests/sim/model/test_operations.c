@@ -5,6 +5,10 @@
  * with numbers for the parameters through sympy.cse, counted by count_ops), SymPy 1.11;
  * its lagrange and kane give as many or more.
  */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "sim/scenes.h"
 
 #include <math.h>

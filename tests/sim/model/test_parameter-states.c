@@ -1,5 +1,9 @@
 /* test_parameter-states.c -- runs whose events set parameters, against closed forms, against the
  * same run cut by hand, by every method. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* test_puck.c -- velocities whose direction is in a force: found, held, read. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "sim/scenes.h"
 
 #include "expr/calculus.h"

@@ -1,4 +1,6 @@
 /* test_repeated-zeros.c -- in place of functions with jumps stand those without that have the same zeros. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "sim/scenes.h"
 
 #include "expr/elementary.h"

@@ -1,4 +1,8 @@
 /* test_simple-zeros.c -- exponents go down to 1 and 2, and what only touches 0 is told apart. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/node.h"
 #include "sim/scenes.h"
 
 #include "sim/model/simple-zeros.h"

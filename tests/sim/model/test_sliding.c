@@ -1,5 +1,8 @@
 /* test_sliding.c -- dry friction that holds: swings by all methods against the closed form; states
  * brought back onto the surfaces along which the motion slides. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,8 @@
 /* test_switch.c -- switches inside switches: random nestings of t, q and q' against the same
  * motion followed here, piece by piece, by another evaluation of them. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

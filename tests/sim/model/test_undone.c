@@ -1,4 +1,5 @@
 /* test_undone.c -- what undoes an event, against the event itself. */
+#include "expr/build.h"
 #include "sim/scenes.h"
 
 #include "expr/elementary.h"

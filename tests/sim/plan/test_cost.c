@@ -1,4 +1,6 @@
 /* test_cost.c -- the models of costs: what they say of each form, and that the plan decides by them. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "sim/scenes.h"
 
 #include <math.h>

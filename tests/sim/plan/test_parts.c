@@ -1,4 +1,7 @@
 /* test_parts.c -- coordinates that know nothing of each other take steps of their own. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

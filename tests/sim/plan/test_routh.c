@@ -1,5 +1,8 @@
 /* test_routh.c -- momenta kept in place of velocities: the same motion, coefficient by
  * coefficient and run by run, and what is not kept. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

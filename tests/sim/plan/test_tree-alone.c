@@ -1,5 +1,8 @@
 /* test_tree-alone.c -- long chains, whose M and f are never derived: the same motion, and work
  * that grows with the text; plans kept with their scene. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,5 +1,7 @@
 /* test_far.c -- runs far from t = 0 against the same ones from 0 on: a ball comes to rest on a table, also where the
  * pull changes with time; what is asked and told is in t, the scene stays as it is declared. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "sim/scenes.h"
 
 #include <math.h>

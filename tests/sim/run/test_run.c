@@ -1,4 +1,8 @@
 /* test_run.c -- runs against closed forms and reference values, and what may go wrong. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,8 @@
 /* test_start.c -- starts brought onto constraints, against closed forms. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

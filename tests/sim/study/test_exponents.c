@@ -1,4 +1,7 @@
 /* test_exponents.c -- Lyapunov exponents of motions whose exponents are known. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

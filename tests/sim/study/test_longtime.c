@@ -1,4 +1,6 @@
 /* test_longtime.c -- how the error of the energy of an anharmonic oscillator grows. */
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
 /* test_response.c -- values and slopes at given times, against closed forms and differences of runs. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

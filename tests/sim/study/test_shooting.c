@@ -1,4 +1,6 @@
 /* test_shooting.c -- unstable orbits by multiple shooting, against closed forms. */
+#include "expr/build.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* test_tangents.c -- states and directions on constraints, against closed forms. */
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "sim/scenes.h"
 
 #include <math.h>

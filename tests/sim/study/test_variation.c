@@ -1,4 +1,7 @@
 /* test_variation.c -- slopes of motions by parameters and initial values, against closed forms. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
 #include "sim/scenes.h"
 
 #include <math.h>

@@ -1,4 +1,8 @@
 /* test_workprecision.c -- the ladder of an oscillator, whose end is known. */
+#include "expr/build.h"
+#include "expr/exact.h"
+#include "expr/function.h"
+#include "expr/symbol.h"
 #include "sim/scenes.h"
 
 #include <math.h>

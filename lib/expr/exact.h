@@ -1,0 +1,25 @@
+/* exact.h -- exact rational numbers as expressions.
+ *
+ * Tests  tests/expr/test_pool.c, tests/expr/test_rational.c
+ */
+#ifndef QDOT_EXPR_EXACT_H
+#define QDOT_EXPR_EXACT_H
+
+#include <flint/fmpq.h>
+
+#include "expr/id.h"
+
+/* The rational of a NUM; NULL for any other kind. Valid until the next constructor call. */
+const fmpq *qdot_expr_rational(const qdot_pool *pool, qdot_expr e);
+/* Whether e is an integer that fits; *value it. */
+bool qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value);
+
+qdot_expr qdot_expr_int(qdot_pool *pool, long n);
+qdot_expr qdot_expr_ratio(qdot_pool *pool, long n, long d);
+qdot_expr qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x);
+/* "9.81" is 981/100, "1e-3" is 1/1000; more than 10^6 digits: QDOT_ELIMIT. */
+qdot_expr qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length);
+/* The rational that a finite double is. */
+qdot_expr qdot_expr_of_double(qdot_pool *pool, double x);
+
+#endif

@@ -1,0 +1,45 @@
+/* node.h -- what a node of an expression is, and reading it.
+ *
+ * Tests  tests/expr/test_pool.c, tests/expr/test_order.c
+ */
+#ifndef QDOT_EXPR_NODE_H
+#define QDOT_EXPR_NODE_H
+
+#include "expr/id.h"
+
+/* What is known of a sign; a set. Zero is QDOT_GE0 | QDOT_LE0. */
+enum { QDOT_GE0 = 1, QDOT_LE0 = 2, QDOT_NE0 = 4 };
+#define QDOT_POS (QDOT_GE0 | QDOT_NE0)
+#define QDOT_NEG (QDOT_LE0 | QDOT_NE0)
+
+typedef struct {
+    uint8_t kind; /* qdot_kind */
+    uint8_t sign; /* QDOT_GE0 ... */
+    uint16_t op;  /* by kind, see above */
+    uint32_t n;   /* number of args */
+    uint32_t at;  /* index of the first arg; for NUM and SYM the index in its table */
+    uint32_t holds; /* QDOT_HAS_PARAM ... (symbol.h) */
+    uint32_t hash;
+    uint32_t touches; /* a hash set of its symbols: a symbol whose bit is not set does not occur
+                          */
+    uint32_t height;  /* of the tree: 0 for a NUM or SYM */
+    uint32_t size;    /* operations as a tree, at most 2^32 - 1: ask qdot_expr_size() */
+} qdot_node;
+
+const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
+/* The bits QDOT_GE0, QDOT_LE0, QDOT_NE0 that its node knows of e; nil: 0. */
+uint8_t qdot_expr_sign(const qdot_pool *pool, qdot_expr e);
+/* The args [n]; valid until the next constructor call. */
+const qdot_expr *qdot_expr_args(const qdot_pool *pool, qdot_expr e);
+qdot_kind qdot_expr_kind(const qdot_pool *pool, qdot_expr e);
+qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);
+uint32_t qdot_expr_count(const qdot_pool *pool, qdot_expr e);
+
+bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* NUM ... UFUN, no words */
+/* Total, structural order, the same on every machine: <0, 0, >0. The order of factors. */
+int qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b);
+
+/* Whether a minus sign would be printed in front. */
+bool qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e);
+
+#endif

@@ -1,0 +1,99 @@
+/* symbol.h -- symbols, with what was declared of them, and undefined functions.
+ *
+ * Tests  tests/expr/test_pool.c
+ */
+#ifndef QDOT_EXPR_SYMBOL_H
+#define QDOT_EXPR_SYMBOL_H
+
+#include "expr/id.h"
+
+/* Classes of symbols; the order is the order in which factors are printed. */
+typedef enum {
+    QDOT_CONST,        /* pi, true, false */
+    QDOT_PARAM,        /* a parameter */
+    QDOT_FORMAL,       /* a formal argument, an index, an unknown */
+    QDOT_TIME,         /* t */
+    QDOT_COORD,        /* a coordinate or, with order > 0, its time derivative q', q'' ... */
+    QDOT_MOMENTUM,     /* p[q], the independent variable of a Hamiltonian or Routhian */
+    QDOT_MULTIPLIER,   /* lambda[rod], lambda[pin, 1] */
+    QDOT_DIFFERENTIAL, /* dq, dt */
+    QDOT_DELTA,        /* delta[q], a virtual displacement */
+    QDOT_WORDS         /* a text, what latex(e) gives: its name as it stands; no number */
+} qdot_class;
+
+/* What an expression contains; a set, in qdot_node.holds (node.h). */
+enum {
+    QDOT_HAS_PARAM = 1 << QDOT_PARAM,
+    QDOT_HAS_FORMAL = 1 << QDOT_FORMAL,
+    QDOT_HAS_TIME = 1 << QDOT_TIME,
+    QDOT_HAS_COORD = 1 << QDOT_COORD, /* a coordinate itself, order 0 */
+    QDOT_HAS_MOMENTUM = 1 << QDOT_MOMENTUM,
+    QDOT_HAS_MULTIPLIER = 1 << QDOT_MULTIPLIER,
+    QDOT_HAS_DIFFERENTIAL = 1 << QDOT_DIFFERENTIAL,
+    QDOT_HAS_DELTA = 1 << QDOT_DELTA,
+    QDOT_HAS_WORDS = 1 << QDOT_WORDS,
+    QDOT_HAS_VELOCITY = 1 << 10,     /* order 1 */
+    QDOT_HAS_ACCELERATION = 1 << 11, /* order 2 or more */
+    QDOT_HAS_UFUN = 1 << 12,
+    QDOT_HAS_FUN = 1 << 13
+};
+
+typedef struct {
+    qdot_class class;
+    const char *name;  /* plain: "theta[1]", "theta[1]'", "dr", "lambda[rod]", "delta[r]" */
+    qdot_expr base;    /* of a jet, momentum, differential, delta: the coordinate (or t) */
+    uint32_t order;    /* of a jet: 0 q, 1 q', 2 q'' */
+    uint32_t rank;     /* order of declaration; a jet has its coordinate's */
+    qdot_expr lo, hi;  /* declared domain, nil where there is none */
+    bool lo_open, hi_open;
+    bool hidden;       /* not to be found by its name */
+    uint8_t sign;
+} qdot_symbol;
+
+/* The symbol of a class by its name, made if new. class: CONST, PARAM, FORMAL, COORD,
+ * MULTIPLIER, WORDS. */
+qdot_expr qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name);
+/* Hide x from its name: qdot_symbol_get will make a new symbol, about which nothing is known.
+ * Expressions with x stay as they are; one expression must not contain both symbols. */
+void qdot_symbol_hide(qdot_pool *pool, qdot_expr x);
+/* Give x its name back; another symbol of that name is hidden. */
+void qdot_symbol_show(qdot_pool *pool, qdot_expr x);
+/* Whether a parameter, coordinate, formal argument or multiplier has that name. */
+bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
+/* The same without formal arguments. */
+bool qdot_symbol_is_declared(const qdot_pool *pool, const char *name);
+/* The order-th time derivative of a coordinate (order 0: itself) or of a time derivative. */
+qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
+/* dq or dt, p[q], delta[q]. class: DIFFERENTIAL, MOMENTUM, DELTA. */
+qdot_expr qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate);
+/* Declare lo < x < hi (nil: no bound; open: strict). Before x is used. */
+void qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open,
+                        qdot_expr hi, bool hi_open);
+/* NULL unless e is a SYM. Valid until the next constructor call. */
+const qdot_symbol *qdot_expr_symbol(const qdot_pool *pool, qdot_expr e);
+bool qdot_expr_is_class(const qdot_pool *pool, qdot_expr e, qdot_class class);
+/* Whether e is the coordinate itself (order 0). */
+bool qdot_expr_is_coordinate(const qdot_pool *pool, qdot_expr e);
+
+/* --- undefined functions -------------------------------------------------------------- */
+
+typedef struct {
+    const char *name;
+    uint32_t arity;
+    qdot_expr formals; /* a LIST of the declared arguments, symbols */
+} qdot_ufun;
+
+/* Declare x(formals); the same name twice with the same formals is the same function. */
+QDOT_MUST_CHECK qdot_status qdot_ufun_declare(qdot_pool *pool, const char *name,
+                                              uint32_t arity, const qdot_expr *formals,
+                                              uint32_t *id);
+/* Declare the function `id` with other arguments, as many: an argument that was a symbol of its
+ * own now means a coordinate. Expressions built before keep their arguments. */
+QDOT_MUST_CHECK qdot_status qdot_ufun_redeclare(qdot_pool *pool, uint32_t id,
+                                                qdot_expr formals);
+const qdot_ufun *qdot_ufun_get(const qdot_pool *pool, uint32_t id);
+/* x(args), derivatives of the given orders (NULL: none). */
+qdot_expr qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args,
+                          const uint32_t *orders);
+
+#endif
