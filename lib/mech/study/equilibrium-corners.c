@@ -19,6 +19,7 @@
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
+#include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
@@ -142,10 +143,11 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
 
 /* --- corners ------------------------------------------------------------------------------ */
 
-/* The branch in which the jumps of the bits of `which` are at 0. */
+/* The branch in which the jumps of the bits of `which` are at 0, where nothing in their LISTs in `apart` is: there two
+ * sides depend on each other. */
 static qdot_status
-corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_expr *u, size_t n,
-              unsigned which)
+corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_expr *u, size_t n, unsigned which,
+              const qdot_expr *apart)
 {
     qdot_pool *pool = r->pool;
     uint32_t count = qdot_expr_count(pool, forces);
@@ -175,6 +177,8 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
             continue;
         back = push_back(r, count, G, side_symbol(pool, MOST_CORNERS + k), u[k], 0);
         b.equations = qdot_list_appended(pool, b.equations, 1, &u[k]);
+        for (uint32_t j = 0; j < qdot_expr_count(pool, apart[k]) && b.conditions != QDOT_FALSE; j++)
+            b.conditions = qdot_conditions_and_nonzero(pool, b.conditions, qdot_expr_arg(pool, apart[k], j));
         if (b.conditions != QDOT_FALSE && back != QDOT_NIL)
             b.conditions = qdot_conditions_and(pool, b.conditions,
                                                qdot_rel(pool, QDOT_LT, QDOT_ZERO, back));
@@ -185,6 +189,124 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
     if (status == QDOT_OK && b.conditions != QDOT_FALSE)
         status = qdot_vec_push(&r->system.todo, b);
     return status;
+}
+
+/* Whether u, as a function of the coordinates, has kinks of its own. */
+static bool
+has_kinks(const qdot_rest *r, qdot_expr u)
+{
+    static const qdot_fun_id kinked[] = {QDOT_ABS, QDOT_SIGN, QDOT_MAX, QDOT_MIN, QDOT_IF};
+    bool yes = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(r->pool, u, &w) != QDOT_OK)
+        return true;
+    for (size_t i = 0; i < w.n && !yes; i++)
+        for (size_t f = 0; f < sizeof kinked / sizeof *kinked && !yes; f++)
+            yes = qdot_expr_is_function(r->pool, w.at[i], kinked[f]) &&
+                  (qdot_mech_holds(r->s, w.at[i]) & QDOT_HAS_COORD) != 0;
+    qdot_walk_end(&w);
+    return yes;
+}
+
+/* Whether the jumps of two kinks simply add where both are at q = at: no product of both signs is in the forces, and
+ * each is proved to push back. Then any two sides give a force between those left and right of the place. */
+static bool
+jumps_add(const qdot_rest *r, qdot_expr forces, const qdot_expr u[2], qdot_expr q, qdot_expr at)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_expr side[2] = {side_symbol(pool, MOST_CORNERS), side_symbol(pool, MOST_CORNERS + 1)},
+                    sign[2] = {qdot_fun1(pool, QDOT_SIGN, u[0]), qdot_fun1(pool, QDOT_SIGN, u[1])};
+    qdot_expr G = qdot_subs(pool, qdot_expr_arg(pool, forces, 0), 2, sign, side);
+
+    if (qdot_expr_count(pool, forces) != 1 || has_kinks(r, u[0]) || has_kinks(r, u[1]) || G == QDOT_NIL ||
+        qdot_expand(pool, qdot_diff(pool, qdot_diff(pool, G, side[0]), side[1])) != QDOT_ZERO)
+        return false;
+    for (size_t k = 0; k < 2; k++) {
+        qdot_expr back = qdot_subs(pool, push_back(r, 1, &G, side[k], u[k], 0), 1, &q, &at);
+        qdot_decision d;
+
+        if (back == QDOT_NIL || qdot_decide_less(pool, QDOT_ZERO, qdot_simplify(pool, back, &r->facts), true, &r->facts,
+                                                 &d) != QDOT_OK ||
+            d.verdict != QDOT_PROVED)
+            return false;
+    }
+    return true;
+}
+
+/* Whether u and v are 0 at one place of a coordinate, whatever the parameters are, and their jumps do not simply add. */
+static qdot_status
+kinks_coincide(const qdot_rest *r, qdot_expr forces, qdot_expr u, qdot_expr v, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_expr pair[2] = {u, v};
+
+    *yes = false;
+    for (size_t c = 0; c < r->s->coordinates.n && !*yes; c++) {
+        qdot_expr q = r->s->coordinates.at[c];
+        qdot_solutions zero = {0};
+        qdot_status status;
+
+        if (!qdot_expr_contains(pool, v, q))
+            continue;
+        status = qdot_solve(pool, v, q, &r->facts, &zero);
+        for (size_t k = 0; k < zero.root.n && status == QDOT_OK && !*yes; k++) {
+            qdot_expr at = zero.root.at[k].value, gap = qdot_subs(pool, u, 1, &q, &at);
+
+            *yes = gap != QDOT_NIL && qdot_is_zero(pool, gap, &r->facts) && !jumps_add(r, forces, pair, q, at);
+            status = qdot_pool_check(pool);
+            if (status == QDOT_EDOMAIN)
+                status = QDOT_OK;
+        }
+        qdot_solutions_clear(&zero);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+/* To the LISTs apart [n] for each of the u [n] what is 0 where it is, whatever the parameters are, with a jump that does
+ * not simply add: others of the u, and what its own kinks lie at. Such places are not searched. */
+static qdot_status
+coincidences_find(qdot_rest *r, qdot_expr forces, size_t n, const qdot_expr *u, qdot_expr *apart)
+{
+    qdot_pool *pool = r->pool;
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < n; i++)
+        apart[i] = qdot_list(pool, 0, NULL);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            bool yes = false;
+
+            if (j != i)
+                QDOT_TRY(kinks_coincide(r, forces, u[i], u[j], &yes));
+            if (!yes)
+                continue;
+            apart[i] = qdot_list_appended(pool, apart[i], 1, &u[j]);
+            apart[j] = qdot_list_appended(pool, apart[j], 1, &u[i]);
+            r->unresolved = true;
+        }
+    for (size_t i = 0; i < n; i++) {
+        qdot_walk w;
+
+        QDOT_TRY(qdot_walk_begin(pool, u[i], &w));
+        for (size_t k = 0; k < w.n && status == QDOT_OK; k++) {
+            bool yes = false;
+            qdot_expr v;
+
+            if (!qdot_expr_is_function(pool, w.at[k], QDOT_ABS) && !qdot_expr_is_function(pool, w.at[k], QDOT_SIGN))
+                continue;
+            v = qdot_expr_arg(pool, w.at[k], 0);
+            status = kinks_coincide(r, forces, u[i], v, &yes);
+            if (yes) {
+                apart[i] = qdot_list_appended(pool, apart[i], 1, &v);
+                r->unresolved = true;
+            }
+        }
+        qdot_walk_end(&w);
+        QDOT_TRY(status);
+    }
+    return qdot_pool_check(pool);
 }
 
 /* Add what is 0 where the u [n] of two kinks of the only coordinate q are 0 at one place: for other values of parameters
@@ -226,6 +348,7 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
     qdot_expr u[MOST_CORNERS + 1], forces;
+    qdot_expr apart[MOST_CORNERS];
     size_t n = 0;
 
     QDOT_TRY(qdot_rest_by_signs(r, equations, &equations));
@@ -239,10 +362,11 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
     }
     if (r->s->coordinates.n == 1)
         QDOT_TRY(meetings_add(r, r->s->coordinates.at[0], n, u));
+    QDOT_TRY(coincidences_find(r, forces, n, u, apart));
     for (size_t k = 0; k < n; k++)
         QDOT_TRY(qdot_vec_push(&r->system.unknowns, side_symbol(pool, MOST_CORNERS + k)));
     for (unsigned which = 1; which < 1u << n; which++)
-        QDOT_TRY(corner_branch(r, equations, forces, u, n, which));
+        QDOT_TRY(corner_branch(r, equations, forces, u, n, which, apart));
     return QDOT_OK;
 }
 

@@ -10,6 +10,7 @@
  * sqrt(x^2 + y^2). No rest is there if they point away from it, as at the end of a spring with a natural length.
  */
 #include <math.h>
+#include <stdio.h>
 
 #include "expr/build.h"
 #include "expr/elementary.h"
@@ -23,6 +24,7 @@
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
+#include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/prove/rewrite.h"
 #include "normal/simplify/simplify.h"
@@ -50,7 +52,19 @@ condition_gap(qdot_pool *pool, qdot_expr condition)
                     qdot_expr_arg(pool, condition, 0));
 }
 
-/* Whether e is proved to vanish wherever u does. */
+/* A symbol for a sign: where its argument is 0, the sign may have any value, not 0 alone. */
+static qdot_expr
+sign_as_symbol(qdot_pool *pool, qdot_expr e, void *user)
+{
+    char name[32];
+
+    if (!qdot_expr_is_function(pool, e, QDOT_SIGN) || !holds_coordinate(user, e))
+        return e;
+    snprintf(name, sizeof name, "(side of %lu)", (unsigned long)e);
+    return qdot_symbol_get(pool, QDOT_FORMAL, name);
+}
+
+/* Whether e is proved to vanish wherever u does, its signs having any value there. */
 static qdot_status
 vanishes_with(const qdot_rest *r, qdot_expr e, qdot_expr u, bool *yes)
 {
@@ -65,6 +79,8 @@ vanishes_with(const qdot_rest *r, qdot_expr e, qdot_expr u, bool *yes)
             x = r->s->coordinates.at[i];
     if (*yes || x == QDOT_NIL)
         return QDOT_OK;
+    e = e == QDOT_NIL ? QDOT_NIL : qdot_walk_replace(pool, e, QDOT_FUN, sign_as_symbol, (void *)r);
+    QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve(pool, u, x, &r->facts, &found);
     *yes = status == QDOT_OK && found.complete && found.divisor.n == 0;
     for (size_t i = 0; *yes && i < found.root.n; i++) {
@@ -176,6 +192,15 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
     return half_of(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
 }
 
+/* Whether e > 0 is proved. */
+static bool
+ratio_is_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    qdot_decision d;
+
+    return qdot_decide_less(pool, QDOT_ZERO, e, true, facts, &d) == QDOT_OK && d.verdict == QDOT_PROVED;
+}
+
 /* The sign of u / v, where v > 0 (up) or v < 0, |v| and sign v put in; 0: it is not known. */
 static int
 sign_beside(qdot_pool *pool, qdot_expr u, qdot_expr v, bool up, const qdot_facts *facts)
@@ -187,9 +212,11 @@ sign_beside(qdot_pool *pool, qdot_expr u, qdot_expr v, bool up, const qdot_facts
     for (int i = 0; i < MOST_NESTED && ratio != QDOT_NIL; i++) /* |4 x + |x||, |5 x|, 5 |x|, 5 x */
         ratio = qdot_subs(pool, qdot_simplify(pool, ratio, facts), 2, from, to);
     ratio = qdot_simplify(pool, qdot_div(pool, ratio, v), facts);
-    if (ratio == QDOT_NIL || (qdot_expr_node(pool, ratio)->sign & QDOT_NE0) == 0)
+    if (ratio == QDOT_NIL)
         return 0;
-    return qdot_expr_node(pool, ratio)->sign & QDOT_GE0 ? 1 : qdot_expr_node(pool, ratio)->sign & QDOT_LE0 ? -1 : 0;
+    if (ratio_is_positive(pool, ratio, facts))
+        return 1;
+    return ratio_is_positive(pool, qdot_neg(pool, ratio), facts) ? -1 : 0;
 }
 
 /* By sign v alone the sign of a u that is v times another number on either side of v = 0: sign(x) for
