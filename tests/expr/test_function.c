@@ -336,7 +336,7 @@ ends_hold_all_values(void **state)
     for (int id = 0; id < QDOT_FUNCTION_COUNT; id++) {
         qdot_fun_ends((qdot_fun_id)id, &lo, &hi);
         for (int k = -400; k <= 400 && qdot_fun_facts_of((qdot_fun_id)id)->most == 1; k++) {
-            const long double x = k / 40.0L * (k % 5 == 0 ? 1e6L : 1), v = function_value((qdot_fun_id)id, &x);
+            const long double x[2] = {k / 40.0L * (k % 5 == 0 ? 1e6L : 1)}, v = function_value((qdot_fun_id)id, x);
 
             assert_true(isnan(v) || (v >= lo && v <= hi));
         }
