@@ -138,18 +138,18 @@ void qdot_formula_share(qdot_formula *f, qdot_formula_id to, qdot_formula_id of)
 /* A SPAN with one child that is no SPAN, which may be filled later, becomes that child. */
 void qdot_formula_unwrap(qdot_formula *f, qdot_formula_id id);
 
-/* A node by its number; nil has no children. */
+/* A node by its number, which is not nil. */
 static inline const qdot_formula_node *
 qdot_formula_at(const qdot_formula *f, qdot_formula_id id)
 {
     return f->nodes.at + id;
 }
 
-/* The child after `child`, 0: the first one; 0 behind the last. */
+/* The child after `child`, 0: the first one; 0 behind the last. Nil has no children. */
 static inline qdot_formula_id
 qdot_formula_child(const qdot_formula *f, qdot_formula_id parent, qdot_formula_id child)
 {
-    const qdot_formula_id last = qdot_formula_at(f, parent)->child;
+    const qdot_formula_id last = parent == 0 ? 0 : qdot_formula_at(f, parent)->child;
 
     return child == last ? 0 : qdot_formula_at(f, child != 0 ? child : last)->next;
 }

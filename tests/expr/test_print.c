@@ -50,9 +50,11 @@ is_mathml(const char *text)
                 strncmp(open[depth], text + 2, n - 2) != 0)
                 return false;
         } else {
-            if (depth == 64 || n > 15)
+            const size_t name = strcspn(text + 1, " >"); /* attributes stand behind it */
+
+            if (depth == 64 || name > 15)
                 return false;
-            snprintf(open[depth++], 16, "%.*s", (int)(n - 1), text + 1);
+            snprintf(open[depth++], 16, "%.*s", (int)name, text + 1);
         }
         text += n + 1;
     }
