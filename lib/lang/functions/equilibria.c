@@ -239,22 +239,23 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     return status;
 }
 
-/* A word, where the square of a frequency is neither proved nor refuted to be negative. */
+/* A word on each mode the square of whose frequency is not proved to be positive. */
 static qdot_status
 modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
 {
     const qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_status status = QDOT_OK;
 
-    for (size_t k = 0; k < modes->n; k++) {
+    for (size_t k = 0; k < modes->n && status == QDOT_OK; k++) {
         qdot_expr square = qdot_session_bind(session, qdot_pow_int(session->pool, modes->frequency[k], 2));
         qdot_decision d;
 
         QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_decide_less(session->pool, QDOT_ZERO, square, false, &facts, &d));
         if (d.verdict != QDOT_PROVED)
-            return qdot_answer_notice_once(session, "modes[%zu] is real only where its square is not negative", k + 1);
+            status = qdot_answer_notice_once(session, "modes[%zu] is real only where its square is not negative", k + 1);
     }
-    return QDOT_OK;
+    return status;
 }
 
 /* The first place that is not unstable. */
@@ -281,15 +282,12 @@ static qdot_status
 modes_judge_place(qdot_session *session, qdot_equilibrium *place)
 {
     const qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_status status;
 
     place->exists = qdot_conditions_of_domain(session->pool, place->equations, QDOT_NIL);
     place->exists = qdot_conditions_at(session->pool, place->exists, 0, NULL, NULL, &facts);
     place->exists = place->exists == QDOT_FALSE ? QDOT_NIL : qdot_conditions_generic(session->pool, place->exists);
     QDOT_TRY(qdot_pool_check(session->pool));
-    status = qdot_equilibrium_judge(session->scene, bind, session, place);
-    place->exists = QDOT_NIL; /* told with the place, where that is taken from a list */
-    return status;
+    return qdot_equilibrium_judge(session->scene, bind, session, place);
 }
 
 qdot_status
