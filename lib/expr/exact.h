@@ -9,7 +9,7 @@
 
 #include "expr/id.h"
 
-/* The rational of a NUM; NULL for any other kind. Valid until the next constructor call. */
+/* The rational of a NUM; NULL for any other kind. It stays where it is as long as the pool. */
 const fmpq *qdot_expr_rational(const qdot_pool *pool, qdot_expr e);
 /* Whether e is an integer that fits; *value it. */
 bool qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value);

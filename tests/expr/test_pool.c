@@ -35,7 +35,6 @@ built_alike_is_the_same_id(void **state)
     assert_int_equal(qdot_pool_count(p.pool), count + 1);
 }
 
-/* 200,000 numbers of all sizes: the table grows, every one is found again. */
 /* The rational of a number stays where it is, and what it is, whatever is made later. */
 static void
 numbers_stay_where_they_are(void **state)
@@ -51,6 +50,7 @@ numbers_stay_where_they_are(void **state)
     assert_true(fmpq_cmp_si(large_one, 1000000) > 0 && fmpz_get_si(fmpq_denref(small_one)) == 3);
 }
 
+/* 200,000 numbers of all sizes: the table grows, every one is found again. */
 static void
 numbers_are_interned_by_value(void **state)
 {

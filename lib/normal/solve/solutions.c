@@ -81,7 +81,7 @@ qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions, qdot_wind
         c = slope == QDOT_NIL ? NULL : qdot_expr_rational(pool, slope);
         if (c == NULL || fmpq_is_zero(c))
             continue;
-        rises = fmpq_sgn(c); /* c is the pool's: it may move with the next node */
+        rises = fmpq_sgn(c);
         end = qdot_simplify(pool, qdot_sub(pool, x, qdot_div(pool, gap, slope)), facts);
         if (end == QDOT_NIL || !qdot_is_constant(pool, end))
             continue;
