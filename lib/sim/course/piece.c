@@ -138,7 +138,7 @@ note(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     qdot_occurrence o = {w->index, root->t, way_of(x, root),
-                         root->within, root->bend, root->way == 0 || root->stays ? root->blur : 0};
+                         root->within, root->bend, (root->way == 0 || root->stays ? root->blur : 0) + root->moved};
 
     if (w->kind != QDOT_WATCH_EVENT)
         return QDOT_OK;
@@ -154,7 +154,7 @@ qdot_piece_meet(qdot_piece *x, const qdot_root *root)
         return QDOT_OK;
     QDOT_TRY(note(x, root));
     if (qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_EVENT)
-        x->c->occurrences.at[x->c->occurrences.n - 1].blur = root->blur;
+        x->c->occurrences.at[x->c->occurrences.n - 1].blur = root->blur + root->moved;
     return qdot_vec_push(&x->roots, *root);
 }
 

@@ -18,6 +18,7 @@ typedef struct {
      * run: not negative. */
     double late, blur;
     double rounding; /* of a function of t alone: so far rounding of its operations may move the root */
+    double moved;    /* so far t was put later, to that of another root of the same instant */
     /* Of a touch: the tolerance under which |g| counts as 0, 0 if rounding makes it so; and g''. */
     double within, bend;
 } qdot_root;

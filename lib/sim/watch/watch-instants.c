@@ -46,20 +46,29 @@ how_much_later(const qdot_watch *w, const qdot_root *a, const qdot_root *b)
     return w->direction * (a->t - b->t) - (a->late - b->late);
 }
 
+/* The doubles of t by which rounding may move a root that is said to be of the same instant as another. Where a function
+ * has hardly any slope rounding moves its root by far more: that tells nothing of where it is. */
+static const double most_doubles = 16;
+
+/* Whether a root is a crossing of a function of t alone, known to a few doubles of t. */
 static bool
-is_crossing_of_clock(const qdot_watch *w, const qdot_root *root)
+is_known_crossing_of_clock(const qdot_watch *w, const qdot_root *root)
 {
-    return w->clock[root->function] && root->way != 0 && !root->stays && !root->pole;
+    const double step = nextafter(fabs(root->t), INFINITY) - fabs(root->t);
+
+    return w->clock[root->function] && root->way != 0 && !root->stays && !root->pole
+           && root->rounding <= most_doubles * step;
 }
 
-/* Put the earlier of two roots at the time of the other. */
+/* Put the earlier of two roots at the time of the other, where both functions have changed their signs. */
 static void
 set_same_time(qdot_root *a, qdot_root *b, double direction)
 {
     qdot_root *earlier = direction * (b->t - a->t) > 0 ? a : b;
-    const double t = (earlier == a ? b : a)->t;
+    const double t = (earlier == a ? b : a)->t, by = fabs(t - earlier->t);
 
-    earlier->late += fabs(t - earlier->t);
+    earlier->late += by;
+    earlier->moved += by;
     earlier->t = t;
 }
 
@@ -70,18 +79,19 @@ qdot_watch_join_instants(qdot_watch *w)
     bool any = false;
 
     for (size_t i = 0; i < w->roots.n; i++)
-        most = fmax(most, w->roots.at[i].rounding);
+        if (is_known_crossing_of_clock(w, &w->roots.at[i]))
+            most = fmax(most, w->roots.at[i].rounding);
     for (size_t i = 1; i < w->roots.n; i++) {
         qdot_root *root = &w->roots.at[i];
 
-        if (!is_crossing_of_clock(w, root))
+        if (!is_known_crossing_of_clock(w, root))
             continue;
         for (size_t k = i; k-- > 0;) {
             qdot_root *other = &w->roots.at[k];
 
             if (fabs(root->t - other->t) > root->late + root->rounding + most)
                 break;
-            if (is_crossing_of_clock(w, other) && other->t != root->t
+            if (is_known_crossing_of_clock(w, other) && other->t != root->t
                 && fabs(how_much_later(w, root, other)) <= root->rounding + other->rounding) {
                 set_same_time(root, other, w->direction);
                 any = true;

@@ -56,6 +56,21 @@ qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noi
 }
 
 qdot_status
+qdot_watch_operations_within(qdot_watch *w, const qdot_watch_part *p, bool exact, size_t i, double *noise)
+{
+    *noise = 0;
+    for (int j = QDOT_WATCH_LEAST_NODES / 2 - 1; j <= QDOT_WATCH_LEAST_NODES / 2; j++) {
+        const double t = qdot_watch_time(p, qdot_chebyshev_node(QDOT_WATCH_LEAST_NODES, j));
+        double here;
+
+        QDOT_TRY(w->reader.read(t, w->in, w->reader.user));
+        QDOT_TRY(qdot_watch_operations(w, t, exact, i, &here));
+        *noise = fmax(*noise, here);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i, double *noise)
 {
     double up, down;
@@ -146,7 +161,7 @@ seen_size(const qdot_watch *w, size_t i)
     return largest;
 }
 
-/* The rounding of all g at time t and the state in w->z, where that is less than noise [m], or this is
+/* The rounding of all g, but those of t alone in two doubles, at time t and the state in w->z, where that is less than noise [m], or this is
  * NaN. Beside rounding of the state there is that of the series, no more than that of g at the end of the step or at
  * the nodes of the part. */
 static qdot_status
@@ -155,7 +170,7 @@ lessen_noise(qdot_watch *w, double t, double *noise)
     for (size_t i = 0; i < w->m; i++) {
         double here;
 
-        if (!w->live[i])
+        if (!w->live[i] || (w->clock[i] && qdot_watch_is_fine(w, i)))
             continue;
         if (qdot_watch_is_fine(w, i)) {
             QDOT_TRY(qdot_watch_noise_two(w, t, w->z, i, &here));
@@ -190,8 +205,11 @@ qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p)
         w->fine = fine;
         QDOT_TRY(status);
     }
-    for (size_t i = 0; i < w->m; i++)
+    for (size_t i = 0; i < w->m; i++) {
         w->noise[i] = qdot_watch_is_fine(w, i) ? 0 : w->first_noise[i];
+        if (w->live[i] && w->clock[i] && qdot_watch_is_fine(w, i)) /* no state makes it grow along the step */
+            QDOT_TRY(qdot_watch_operations_within(w, p, true, i, w->noise + i));
+    }
     if (p->a != w->t) {
         QDOT_TRY(w->reader.read(p->a, w->z, w->reader.user));
         QDOT_TRY(lessen_noise(w, p->a, w->noise));

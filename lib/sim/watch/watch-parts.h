@@ -230,6 +230,11 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
 /* What rounding of its operations, in two doubles if `exact`, makes of g_i at the state in w->in. */
 QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise);
 
+/* The same within the part: at two places beside its middle, the larger. (Some functions have none at a single place, and
+ * at an end there may be a pole, where they have no bound.) */
+QDOT_MUST_CHECK qdot_status qdot_watch_operations_within(qdot_watch *w, const qdot_watch_part *p, bool exact, size_t i,
+                                                         double *noise);
+
 /* What rounding of the state y [2n], of t, of the terms and of the operations of g_i may make of it. */
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);
@@ -311,8 +316,8 @@ double qdot_watch_negligible_rounding(const qdot_root *root, double step);
 /* If rounding does not tell such a root from the double before root->t, it is there. */
 void qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdot_root *root);
 
-/* Among the roots in order of time, those of functions of t alone that are no farther apart than rounding of their
- * operations are given the same t; whether there are any, so that the order is another one. */
+/* Among the roots in order of time, those of functions of t alone that rounding moves by a few doubles of
+ * t, and that are no farther apart than that, are given the same t; whether there are any, so that the order is another one. */
 bool qdot_watch_join_instants(qdot_watch *w);
 
 /* --- touches (watch-touches.c) ------------------------------------------------------- */

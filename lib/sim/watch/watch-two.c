@@ -198,8 +198,7 @@ find_far_clocks(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
 
         if (!w->live[i] || !w->clock[i] || w->wants[i] || w->now.blurred[i] || !qdot_watch_can_two(w, i))
             continue;
-        QDOT_TRY(w->reader.read(p->b, w->in, w->reader.user));
-        QDOT_TRY(qdot_watch_operations(w, p->b, false, i, &noise));
+        QDOT_TRY(qdot_watch_operations_within(w, p, false, i, &noise));
         w->wants[i] = noise > shown * sampled_size(w, i, nodes);
         *any = *any || w->wants[i];
     }
