@@ -7,9 +7,11 @@
 
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "normal/simplify/positive.h"
 #include "normal/solve/conditions.h"
@@ -117,14 +119,14 @@ static qdot_status
 add_walls(qdot_equilibrium_set *set, qdot_expr g)
 {
     const qdot_equilibrium_curve *c = set->c;
-    const double least = set->wall.at[0], most = set->wall.at[1];
-    const qdot_zeros_range range = {.lo = qdot_expr_of_double(c->pool, least), .hi = qdot_expr_of_double(c->pool, most)};
+    const qdot_zeros_range range = {.lo = qdot_expr_of_double(c->pool, set->least),
+                                    .hi = qdot_expr_of_double(c->pool, set->most)};
     qdot_zeros zeros;
     qdot_status status;
 
+    QDOT_TRY(qdot_pool_check(c->pool));
     if (!qdot_expr_contains(c->pool, g, c->parameter))
         return QDOT_OK;
-    QDOT_TRY(qdot_pool_check(c->pool));
     status = qdot_zeros_find(c->pool, 1, &g, &c->parameter, &range, BUDGET, &zeros);
     if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) {
         set->complete = false;
@@ -155,15 +157,89 @@ add_walls_of(qdot_equilibrium_set *set, qdot_expr relations)
     return QDOT_OK;
 }
 
+/* The integers k = u are walls. */
 static qdot_status
-add_walls_of_member(qdot_equilibrium_set *set, const qdot_equilibrium_member *one)
+add_walls_at_integers(qdot_equilibrium_set *set, qdot_expr u)
 {
     qdot_pool *pool = set->c->pool;
 
-    for (uint32_t i = (uint32_t)set->c->n; i < qdot_expr_count(pool, one->value); i++)
-        QDOT_TRY(add_walls(set, qdot_expr_arg(pool, one->value, i)));
-    QDOT_TRY(add_walls_of(set, qdot_conditions_of_domain(pool, one->value, QDOT_NIL)));
-    return add_walls_of(set, qdot_conditions_of_divisors(pool, one->value, QDOT_NIL));
+    return add_walls(set, qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, u)));
+}
+
+/* Add the values of p at which a function or relation jumps or has a kink; poles and the ends of domains are not among
+ * them. */
+static qdot_status
+add_walls_of_jump(qdot_equilibrium_set *set, qdot_expr node)
+{
+    qdot_pool *pool = set->c->pool;
+    const uint32_t count = qdot_expr_count(pool, node);
+    const qdot_expr first = count > 0 ? qdot_expr_arg(pool, node, 0) : QDOT_NIL,
+                    second = count > 1 ? qdot_expr_arg(pool, node, 1) : QDOT_NIL;
+
+    if (qdot_expr_kind(pool, node) == QDOT_REL)
+        return add_walls(set, qdot_sub(pool, first, second));
+    if (qdot_expr_kind(pool, node) != QDOT_FUN)
+        return QDOT_OK;
+    switch (qdot_expr_node(pool, node)->op) {
+    case QDOT_ABS:
+    case QDOT_SIGN:
+    case QDOT_ATAN2: /* (y, x): where y = 0 and x <= 0 */
+        return add_walls(set, first);
+    case QDOT_MIN:
+    case QDOT_MAX:
+        for (uint32_t i = 1; i < count; i++)
+            for (uint32_t k = 0; k < i; k++)
+                QDOT_TRY(add_walls(set, qdot_sub(pool, qdot_expr_arg(pool, node, i), qdot_expr_arg(pool, node, k))));
+        return QDOT_OK;
+    case QDOT_FLOOR:
+        return add_walls_at_integers(set, first);
+    case QDOT_MOD:
+        QDOT_TRY(add_walls(set, second));
+        return add_walls_at_integers(set, qdot_div(pool, first, second));
+    default:
+        return QDOT_OK;
+    }
+}
+
+static qdot_status
+add_walls_of_jumps(qdot_equilibrium_set *set, qdot_expr value)
+{
+    qdot_status status = QDOT_OK;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(set->c->pool, value, &w));
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
+        if (qdot_expr_contains(set->c->pool, w.at[i], set->c->parameter))
+            status = add_walls_of_jump(set, w.at[i]);
+    qdot_walk_end(&w);
+    return status;
+}
+
+/* Walls of a LIST of formulas: where one may jump, has a pole, or ends, and the zeros of those behind the first `n`.
+ * *known: these are all. */
+static qdot_status
+add_walls_of_list(qdot_equilibrium_set *set, qdot_expr list, size_t n, bool *known)
+{
+    qdot_pool *pool = set->c->pool;
+    const bool complete = set->complete;
+
+    set->complete = true;
+    QDOT_TRY(add_walls_of_jumps(set, list));
+    for (uint32_t i = (uint32_t)n; i < qdot_expr_count(pool, list); i++)
+        QDOT_TRY(add_walls(set, qdot_expr_arg(pool, list, i)));
+    QDOT_TRY(add_walls_of(set, qdot_conditions_of_domain(pool, list, QDOT_NIL)));
+    QDOT_TRY(add_walls_of(set, qdot_conditions_of_divisors(pool, list, QDOT_NIL)));
+    *known = set->complete;
+    set->complete = complete;
+    return QDOT_OK;
+}
+
+static qdot_status
+add_walls_of_member(qdot_equilibrium_set *set, qdot_equilibrium_member *one)
+{
+    QDOT_TRY(add_walls_of_list(set, one->value, set->c->n, &one->known));
+    set->complete = set->complete && one->known;
+    return QDOT_OK;
 }
 
 static int
@@ -227,7 +303,7 @@ qdot_equilibrium_set_begin(qdot_equilibrium_set *set, qdot_equilibrium_curve *c,
     qdot_rest rest;
     qdot_status status;
 
-    *set = (qdot_equilibrium_set){.c = c};
+    *set = (qdot_equilibrium_set){.c = c, .least = least, .most = most};
     QDOT_TRY(qdot_vec_push(&set->wall, least));
     QDOT_TRY(qdot_vec_push(&set->wall, most));
     status = qdot_rest_begin(&rest, c->s);
@@ -293,6 +369,21 @@ judge_member(qdot_equilibrium_set *set, qdot_equilibrium_member *one)
     QDOT_TRY(append_gaps(c, one->place.stable_when, &one->when, &known));
     if (!known)
         one->place.stability = QDOT_STABILITY_UNDECIDED;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_equilibrium_set_add_verdicts(qdot_equilibrium_set *set, size_t k)
+{
+    qdot_equilibrium_member *one = &set->member.at[k];
+    bool known;
+
+    if (!one->judged)
+        QDOT_TRY(judge_member(set, one));
+    QDOT_TRY(add_walls_of_list(set, one->when, 0, &known));
+    if (!known)
+        one->place.stability = QDOT_STABILITY_UNDECIDED;
+    qdot_equilibrium_set_sort_walls(set);
     return QDOT_OK;
 }
 

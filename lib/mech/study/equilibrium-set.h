@@ -2,9 +2,10 @@
  *
  *     u_i = f_i(p)   wherever   g_1(p) > 0, g_2(p) > 0 ...
  *
- * each a member. Between two neighbouring zeros of the g, of denominators and of the ends of the domains of roots
- * and logarithms, a member exists throughout or nowhere: the values of p that separate such cells are found by
- * exclusion (normal/solve/zeros.h). So where the set is complete, so are places in every cell.
+ * each a member. Between two neighbouring zeros of the g and of denominators, ends of the domains of roots and
+ * logarithms, steps and kinks of sign, floor, mod, atan2, abs, min, max and relations, a member exists throughout or
+ * nowhere, and does not jump: the values of p that separate such cells are found by exclusion (normal/solve/zeros.h).
+ * So where the set is complete, so are places in every cell.
  *
  * Tests  tests/mech/study/test_equilibrium-set.c
  */
@@ -17,12 +18,14 @@ typedef struct {
     qdot_equilibrium place;
     qdot_expr value; /* a LIST: f [n], then g */
     bool corner;     /* forces jump there, so that it is no zero of the equations at rest */
+    bool known;      /* proved: all its walls are known, so that it does not jump within a cell */
     bool judged;     /* place.stability holds where all of `when` are positive, elsewhere it is undecided */
     qdot_expr when;  /* a LIST */
 } qdot_equilibrium_member;
 
 typedef struct {
     const qdot_equilibrium_curve *c; /* borrowed */
+    double least, most;              /* of p */
     qdot_vec(qdot_equilibrium_member) member;
     qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
     /* proved: at every p, but for single values, all equilibria are members, all walls are known */
@@ -45,6 +48,8 @@ void qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set);
  * values. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_place(const qdot_equilibrium_set *set, size_t k, double *y,
                                                        bool *exists);
+/* Walls where the verdict on member k may change. Where they cannot all be found it becomes undecided. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_verdicts(qdot_equilibrium_set *set, size_t k);
 /* The verdict on member k at p. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_judge(qdot_equilibrium_set *set, size_t k, double p,
                                                        qdot_stability *verdict);

@@ -1,9 +1,11 @@
 /* rest-continuation.c -- where curves of equilibria begin, and those that are known exactly alone. */
 #include "sim/branches/rest-continuation.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/study/equilibrium-set.h"
 #include "sim/branches/branch-points.h"
@@ -17,6 +19,9 @@ enum { PARTS = sizeof parts / sizeof *parts };
 /* Steps over a cell of an exact curve, closer to its walls; places that are one. */
 enum { STEPS = 64 };
 static const double same = 1e-6;
+/* Parts of a cell at which an exact curve is compared with others. */
+static const double inner[] = {0.4871, 0.2113, 0.8312, 0.0371, 0.9573};
+enum { INNER = sizeof inner / sizeof *inner };
 /* Cells narrower than this part of the range of p are not searched. */
 static const double narrow = 1e-12;
 
@@ -144,66 +149,174 @@ leave_out_member(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t 
     return QDOT_OK;
 }
 
-/* Points of member k over cell i, both walls among them, to the branch. */
+/* Member k as p goes to a wall from within its cell: y, its limit. */
+typedef struct {
+    double *y;     /* [n + 1] */
+    bool finite;   /* else it grows beyond bounds, as far as is known */
+    double error;  /* of each unknown, about */
+} limit;
+
+/* The limit at wall w of cell i, from values of p nearer and nearer to it: their differences shrink. */
+static qdot_status
+limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, size_t w, limit *to)
+{
+    const size_t n = set->c->n;
+    const double p = set->wall.at[w], width = set->wall.at[i + 1] - set->wall.at[i], inward = w == i ? 1 : -1,
+                 least = fmax(1e-11 * width, 32 * DBL_EPSILON * fabs(p)),
+                 step[] = {fmin(65536 * least, width / 4), fmin(256 * least, width / 16), least};
+    double *room = qdot_calloc(2 * (n + 1), sizeof *room), *far = room, *near = room ? room + (n + 1) : NULL;
+    double change[2] = {0};
+    bool exists, finite = room != NULL;
+    qdot_status status = room ? QDOT_OK : QDOT_ENOMEM;
+
+    for (int j = 0; j < 3 && status == QDOT_OK; j++) {
+        near[n] = p + inward * step[j];
+        status = qdot_equilibrium_set_place(set, k, near, &exists);
+        for (size_t q = 0; q < n; q++) {
+            finite = finite && isfinite(near[q]);
+            if (j > 0)
+                change[j - 1] = fmax(change[j - 1], fabs(near[q] - far[q]) / s->all->size[q]);
+        }
+        memcpy(far, near, (n + 1) * sizeof *far);
+    }
+    to->finite = finite && (change[1] < fmin(0.6 * change[0], 0.05) || change[1] < 1e-9);
+    to->error = 4 * change[1] + 1e-9;
+    if (status == QDOT_OK) {
+        to->y[n] = p; /* its value there, if that is the limit, too */
+        status = qdot_equilibrium_set_place(set, k, to->y, &exists);
+        for (size_t q = 0; q < n; q++)
+            if (!(fabs(to->y[q] - near[q]) <= to->error * s->all->size[q]))
+                to->y[q] = near[q];
+    }
+    qdot_free(room);
+    return status;
+}
+
+/* Whether member k goes on from cell i to the next one. y: room for [2 (n + 1)]. */
+static qdot_status
+is_continuous(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *yes)
+{
+    limit left = {.y = y}, right = {.y = y + set->c->n + 1};
+
+    QDOT_TRY(limit_find(s, set, k, i, i + 1, &left));
+    QDOT_TRY(limit_find(s, set, k, i + 1, i + 1, &right));
+    *yes = left.finite && right.finite;
+    for (size_t q = 0; q < set->c->n; q++)
+        *yes = *yes && fabs(left.y[q] - right.y[q]) <= fmax(left.error, right.error) * s->all->size[q];
+    return QDOT_OK;
+}
+
+/* The limit of member k at wall w of cell i to the branch; *finite: there is one. */
+static qdot_status
+add_limit(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, size_t w, qdot_stability verdict,
+          double *y, qdot_branch *branch, bool *finite)
+{
+    limit at = {.y = y};
+
+    QDOT_TRY(limit_find(s, set, k, i, w, &at));
+    *finite = at.finite;
+    return at.finite ? qdot_branch_add(s->x, branch, y, verdict, 0) : QDOT_OK;
+}
+
+/* Points of member k over cell i, both walls among them, to the branch, and how it ends there. */
 static qdot_status
 add_cell(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, double *y, qdot_branch *branch)
 {
     const size_t n = set->c->n;
     const double lo = set->wall.at[i], hi = set->wall.at[i + 1];
+    qdot_stability verdict;
+    bool exists, finite;
 
-    for (int j = branch->n > 0; j <= STEPS; j++) {
-        qdot_stability verdict = QDOT_STABILITY_UNDECIDED;
-        bool exists, finite = true;
-
-        y[n] = j == STEPS ? hi : lo + (hi - lo) * (1 - cos(M_PI * j / STEPS)) / 2;
+    QDOT_TRY(qdot_equilibrium_set_judge(set, k, lo + inner[0] * (hi - lo), &verdict));
+    if (branch->n == 0) {
+        QDOT_TRY(add_limit(s, set, k, i, i, verdict, y, branch, &finite));
+        branch->end[0] = !finite ? QDOT_END_FAR : i == 0 ? QDOT_END_RANGE : QDOT_END_NO_REST;
+    } else if (branch->stability[branch->n - 1] != verdict) {
+        branch->stability[branch->n - 1] = QDOT_STABILITY_UNDECIDED;
+    }
+    for (int j = 1; j < STEPS; j++) {
+        y[n] = lo + (hi - lo) * (1 - cos(M_PI * j / STEPS)) / 2;
         QDOT_TRY(qdot_equilibrium_set_place(set, k, y, &exists));
-        for (size_t q = 0; q < n; q++)
-            finite = finite && isfinite(y[q]);
-        if (!finite)
+        if (exists)
+            QDOT_TRY(qdot_branch_add(s->x, branch, y, verdict, 0));
+    }
+    QDOT_TRY(add_limit(s, set, k, i, i + 1, verdict, y, branch, &finite));
+    branch->end[1] = !finite ? QDOT_END_FAR : i + 2 == set->wall.n ? QDOT_END_RANGE : QDOT_END_NO_REST;
+    return QDOT_OK;
+}
+
+/* Whether another member lies so near y, a place of member k, that curves do not tell them apart. y: room for
+ * [2 (n + 1)]. */
+static qdot_status
+has_neighbour(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *yes)
+{
+    const size_t n = set->c->n;
+    double *other = y + n + 1;
+
+    *yes = false;
+    for (size_t l = 0; l < set->member.n && !*yes; l++) {
+        bool exists, same_formula = true;
+
+        for (uint32_t q = 0; q < n; q++)
+            same_formula = same_formula && qdot_expr_arg(set->c->pool, set->member.at[l].value, q) ==
+                                               qdot_expr_arg(set->c->pool, set->member.at[k].value, q);
+        if (l == k || same_formula)
             continue;
-        QDOT_TRY(qdot_equilibrium_set_judge(set, k, y[n], &verdict));
-        QDOT_TRY(qdot_branch_add(s->x, branch, y, verdict, 0));
+        other[n] = y[n];
+        QDOT_TRY(qdot_equilibrium_set_place(set, l, other, &exists));
+        *yes = exists && qdot_path_distance(s->x, y, other) < 2 * same;
     }
     return QDOT_OK;
 }
 
-/* Whether member k is a place at rest in cell i that no curve holds yet. */
+/* Whether member k is a place at rest in cell i that no curve holds yet: but for one place, where it may cross a curve.
+ * Where that is in doubt, *whole becomes false. */
 static qdot_status
-is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *yes)
+is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *whole,
+           bool *yes)
 {
-    bool known = false;
+    const qdot_equilibrium_member *one = &set->member.at[k];
+    size_t exist = 0, inside = 0, known = 0, beside = 0;
 
-    y[set->c->n] = set->wall.at[i] + (set->wall.at[i + 1] - set->wall.at[i]) / 2;
-    QDOT_TRY(qdot_equilibrium_set_place(set, k, y, yes));
-    *yes = *yes && qdot_path_is_inside(s->x, y);
-    if (*yes && !set->member.at[k].corner)
-        QDOT_TRY(qdot_continuation_knows(s, y, &known));
-    *yes = *yes && !known;
+    for (size_t j = 0; j < INNER; j++) {
+        bool exists, knows = false, near = false;
+
+        y[set->c->n] = set->wall.at[i] + inner[j] * (set->wall.at[i + 1] - set->wall.at[i]);
+        QDOT_TRY(qdot_equilibrium_set_place(set, k, y, &exists));
+        exist += exists;
+        if (!exists || !qdot_path_is_inside(s->x, y))
+            continue;
+        inside++;
+        if (!one->corner)
+            QDOT_TRY(qdot_continuation_knows(s, y, &knows));
+        if (knows)
+            QDOT_TRY(has_neighbour(s, set, k, y, &near));
+        known += knows;
+        beside += near;
+    }
+    *yes = one->known && exist == INNER && inside == exist && known <= 1;
+    *whole = *whole && (*yes || known == inside) && beside <= 1;
     return QDOT_OK;
 }
 
-/* Add member k as a branch over each sequence of cells in which it lies on no curve that was followed. */
+/* Add member k as a branch over each sequence of cells in which it lies on no curve that was followed: `missing`. */
 static qdot_status
-draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *y)
+draw_cells(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const bool *missing, double *y)
 {
     const size_t cells = set->wall.n - 1;
     qdot_branch branch = {0};
     qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < cells && status == QDOT_OK; i++) {
-        bool here, next = false;
+        bool next = i + 1 < cells && missing[i] && missing[i + 1];
 
-        status = is_missing(s, set, k, i, y, &here);
-        if (status != QDOT_OK || !here)
+        if (!missing[i])
             continue;
-        if (branch.n == 0)
-            branch.end[0] = i == 0 ? QDOT_END_RANGE : QDOT_END_NO_REST;
         status = add_cell(s, set, k, i, y, &branch);
-        if (status == QDOT_OK && i + 1 < cells)
-            status = is_missing(s, set, k, i + 1, y, &next);
+        if (status == QDOT_OK && next)
+            status = is_continuous(s, set, k, i, y, &next);
         if (status != QDOT_OK || next)
             continue;
-        branch.end[1] = i + 1 == cells ? QDOT_END_RANGE : QDOT_END_NO_REST;
         status = qdot_vec_push(&s->all->branches, branch);
         if (status == QDOT_OK)
             branch = (qdot_branch){0};
@@ -211,6 +324,40 @@ draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *
             status = leave_out_member(s, set, k, y);
     }
     qdot_branch_clear(&branch);
+    return status;
+}
+
+/* Find the cells in which member k is missing, *any: there are such. */
+static qdot_status
+find_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *missing, bool *whole,
+             bool *any)
+{
+    *any = false;
+    for (size_t i = 0; i + 1 < set->wall.n; i++) {
+        QDOT_TRY(is_missing(s, set, k, i, y, whole, &missing[i]));
+        *any = *any || missing[i];
+    }
+    return QDOT_OK;
+}
+
+/* Add what is missing of member k; its verdict changes at walls. */
+static qdot_status
+draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *y, bool *whole)
+{
+    const size_t walls = set->wall.n;
+    bool *missing = qdot_calloc(walls, sizeof *missing), any = false;
+    qdot_status status = missing ? find_missing(s, set, k, y, missing, whole, &any) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && any)
+        status = qdot_equilibrium_set_add_verdicts(set, k);
+    if (status == QDOT_OK && any && set->wall.n != walls) {
+        qdot_free(missing);
+        missing = qdot_calloc(set->wall.n, sizeof *missing);
+        status = missing ? find_missing(s, set, k, y, missing, whole, &any) : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK && any)
+        status = draw_cells(s, set, k, missing, y);
+    qdot_free(missing);
     return status;
 }
 
@@ -238,13 +385,16 @@ ends_are_walls(const qdot_branch_search *s, const qdot_equilibrium_set *set)
     return true;
 }
 
-/* Draw the exact curves that are not followed: at corners, and of several equilibria that are one. */
+/* Draw the exact curves that are not followed: at corners, and of several equilibria that are one.
+ * y: room for [2 (n + 1)]. */
 static qdot_status
 draw_exact(qdot_branch_search *s, qdot_equilibrium_set *set, double *y)
 {
+    bool whole = set->complete && ends_are_walls(s, set);
+
     for (size_t k = 0; k < set->member.n && !s->all->interrupted; k++)
-        QDOT_TRY(draw_member(s, set, k, y));
-    s->all->complete = set->complete && !s->all->interrupted && s->all->left.n == 0 && ends_are_walls(s, set);
+        QDOT_TRY(draw_member(s, set, k, y, &whole));
+    s->all->complete = whole && !s->all->interrupted && s->all->left.n == 0;
     s->all->corners = !set->complete;
     s->all->families = set->families;
     return QDOT_OK;
@@ -256,7 +406,7 @@ static qdot_status
 follow_all(qdot_equilibrium_curve *c, qdot_equilibrium_set *set, qdot_branch_search *s)
 {
     starts from = {.m = c->n + 1};
-    double *y = qdot_calloc(c->n + 1, sizeof *y);
+    double *y = qdot_calloc(2 * (c->n + 1), sizeof *y);
     qdot_status status = y ? find_starts(c, set, y, &from) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {

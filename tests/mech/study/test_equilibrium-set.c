@@ -29,6 +29,12 @@ static const row rows[] = {
     {"abs(x) + x^2/2 - alpha*x/2", true, "2", 3, "0.5", "s"},
     /* a divisor is a wall */
     {"x^2/2 - x/(alpha - 2)", true, "2", 1.5, "-2", "s"},
+    /* so is where a formula jumps or has a kink */
+    {"x^2/2 - sign(alpha - 2)*x", true, "2", 1.5, "-1", "s"},
+    {"x^2/2 - floor(alpha)*x", true, "2 3", 2.5, "2", "s"},
+    {"x^2/2 - mod(alpha, 3/2)*x", true, "1.5 3", 2.5, "1", "s"},
+    {"x^2/2 - atan2(alpha - 2, -1)*x", true, "2", 3, "2.35619449", "s"},
+    {"x^2/2 - max(alpha, 3)*x", true, "3", 2, "3", "s"},
     /* not solved for: the walls are where curves turn */
     {"x^3/3 + ((alpha - 2)^2 - 1/4000000)*x + exp(x)/10000000", false, "", 2, "", ""},
 };
