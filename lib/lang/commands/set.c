@@ -49,9 +49,8 @@ read_momentum(qdot_cursor *c, qdot_expr *symbol)
     return qdot_pool_check(c->session->pool);
 }
 
-/* Whether `p[` is that of a momentum, at the token `p`. */
-static bool
-is_momentum(const qdot_session *session, const qdot_token *p)
+bool
+qdot_set_is_momentum(const qdot_session *session, const qdot_token *p)
 {
     return qdot_token_is_word(p, "p") && p[1].glued && qdot_token_is(p + 1, "[") &&
            !qdot_names_is_family(session->names, "p");
@@ -83,7 +82,7 @@ qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
     const qdot_token *start = c->at;
     const char *name;
 
-    if (is_momentum(c->session, start))
+    if (qdot_set_is_momentum(c->session, start))
         return read_momentum(c, symbol);
     QDOT_TRY(qdot_read_name(c, &name));
     return parameter_of(c, start, name, symbol);
@@ -113,7 +112,7 @@ qdot_set_find_parameter(qdot_record *r, const qdot_filled *part, qdot_expr *symb
 {
     const char *name;
 
-    if (is_momentum(r->cursor.session, part->from)) {
+    if (qdot_set_is_momentum(r->cursor.session, part->from)) {
         QDOT_TRY(find_momentum(r, part, symbol));
     } else {
         QDOT_TRY(qdot_record_name(r, part, &name));
@@ -318,6 +317,8 @@ qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
     const qdot_name *known;
     const char *name;
 
+    if (qdot_set_is_momentum(r->cursor.session, part->from))
+        return qdot_set_find_parameter(r, part, symbol); /* its index is a coordinate, no number */
     QDOT_TRY(qdot_record_name(r, part, &name));
     known = qdot_names_find(r->cursor.session->names, name);
     return known != NULL && known->kind == QDOT_NAME_COORD ? qdot_set_find_jet(r, part, symbol)

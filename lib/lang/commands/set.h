@@ -15,6 +15,8 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_f
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *value);
+/* Whether p[NAME] at the token is a momentum: `p` is no name of the script. */
+bool qdot_set_is_momentum(const qdot_session *session, const qdot_token *p);
 /* A parameter, p[NAME], q or q'. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
 /* Numbers of runs in a value become rationals; what they make it is off by is kept, for who writes it

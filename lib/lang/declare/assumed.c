@@ -209,9 +209,11 @@ qdot_assumed_add(qdot_record *r, const qdot_filled *part, qdot_assumed *f)
     qdot_session *session = r->cursor.session;
     const char *label;
     qdot_expr e;
+    const qdot_status named = qdot_record_bare_name(r, part, 0, &label);
 
-    QDOT_TRY(qdot_record_bare_name(r, part, 0, &label));
-    if (label != NULL && qdot_names_find(session->names, label) == NULL) {
+    if (named != QDOT_OK && named != QDOT_ETYPE) /* eom[x]: an index that is no integer belongs to no label */
+        return named;
+    if (named == QDOT_OK && label != NULL && qdot_names_find(session->names, label) == NULL) {
         bool found = strcmp(label, "eom") == 0;
 
         qdot_record_blame(r, part);

@@ -129,10 +129,26 @@ write_sections(page *p)
 
 /* --- the statement ------------------------------------------------------------------ */
 
+/* No more runs are named than a page compares. */
+static qdot_status
+check_number(qdot_record *r)
+{
+    size_t n = 0;
+
+    for (const qdot_filled *part = qdot_record_hole(r, NULL, "RUN"); part != NULL;
+         part = qdot_record_next(r, part, "RUN")) {
+        qdot_record_blame(r, part);
+        if (++n > QDOT_REPORT_RUNS)
+            return qdot_fail(QDOT_EINVAL, "a report compares %d runs at most", QDOT_REPORT_RUNS);
+    }
+    return QDOT_OK;
+}
+
 /* The runs named, or the latest; none without a name is no failure. */
 static qdot_status
 find_runs(qdot_record *r, page *p)
 {
+    QDOT_TRY(check_number(r));
     for (const qdot_filled *part = qdot_record_hole(r, NULL, "RUN"); part != NULL;
          part = qdot_record_next(r, part, "RUN")) {
         qdot_named_run *run;
@@ -141,8 +157,6 @@ find_runs(qdot_record *r, page *p)
         QDOT_TRY(qdot_record_name(r, part, &name));
         QDOT_TRY(qdot_record_no_prime(r, part, "`,` or `to`"));
         qdot_record_blame(r, part);
-        if (p->n == QDOT_REPORT_RUNS)
-            return qdot_fail(QDOT_EINVAL, "a report compares %d runs at most", QDOT_REPORT_RUNS);
         QDOT_TRY(qdot_runs_find(p->session, name, &run));
         for (size_t i = 0; i < p->n; i++)
             if (p->runs[i] == run)

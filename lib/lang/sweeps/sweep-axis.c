@@ -104,7 +104,22 @@ find_options(const qdot_filled *values, const qdot_filled *to)
 static qdot_status
 refuse_option(qdot_record *r, const qdot_filled *word)
 {
-    return word == NULL ? QDOT_OK : qdot_record_expected(r, word->from, "`,` or `run T0..T1`");
+    if (word == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, word);
+    return qdot_fail(QDOT_ESYNTAX, "expected `,` or `run T0..T1`, found `%s`", word->from->text);
+}
+
+/* One value stands where a range belongs: what is wrong with it, else that. */
+static qdot_status
+fail_single(qdot_record *r, const qdot_filled *part, const qdot_sweep_axis *x)
+{
+    qdot_expr value;
+
+    QDOT_TRY(qdot_record_scalar(r, part, &value));
+    qdot_record_blame(r, part);
+    (void)qdot_fail(QDOT_ESYNTAX, "a sweep runs over a range `a..b` or a list, not over one value");
+    return qdot_hint("%s = 0..1 count 11", x->label);
 }
 
 static qdot_status
@@ -114,7 +129,7 @@ ladder_find(qdot_record *r, const qdot_filled *range, const axis_options *o, qdo
     double a, b;
 
     if (range->n < 2)
-        return qdot_record_expected(r, range->to, "a range `a..b`");
+        return fail_single(r, range, x);
     QDOT_TRY(qdot_record_range(r, range, &from, &to));
     qdot_record_blame(r, range);
     QDOT_TRY(constant(r->cursor.session, from, &x->from, &a));

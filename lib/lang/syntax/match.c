@@ -200,7 +200,8 @@ read_domain(matcher *m, const qdot_hole *hole, qdot_filled *part)
 
 /* --- a hole -------------------------------------------------------------------------- */
 
-/* Where what is read of the part so far is a name that means nothing, that is told. */
+/* Where what is read of the part so far is a name that means nothing, or that of a function without
+ * its argument, that is told. */
 static qdot_status
 tell_unknown(matcher *m, const qdot_filled *part)
 {
@@ -208,7 +209,7 @@ tell_unknown(matcher *m, const qdot_filled *part)
     qdot_expr value;
 
     return m->c->at == name + 1 && name->kind == QDOT_TOKEN_NAME &&
-                   !qdot_cursor_knows(m->c->session, name->text)
+                   (!qdot_cursor_knows(m->c->session, name->text) || qdot_builtin_find(name->text) != NULL)
                ? qdot_compiled_value(m->c, &m->r->compiled.at[part->first], &value)
                : QDOT_OK;
 }
@@ -345,13 +346,14 @@ class_suits(const matcher *m, const qdot_usage_node *node)
     }
 }
 
-/* Whether `to "FILE"`, which comes behind the expression of the hole, stands in its place. */
+/* Whether `to "FILE"`, which comes behind the expression or the name of the hole, stands in its place. */
 static bool
 is_file_in_place(const matcher *m, const qdot_usage_node *node)
 {
     const qdot_token *t = m->c->at;
 
-    return node_class(node) == QDOT_HOLE_VALUE && qdot_token_is_word(t, "to") &&
+    return (node_class(node) == QDOT_HOLE_VALUE || node_class(node) == QDOT_HOLE_COORDINATE) &&
+           qdot_token_is_word(t, "to") &&
            t[1].kind == QDOT_TOKEN_STRING && leads_to(m->u, node->next, t);
 }
 
@@ -436,6 +438,46 @@ go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
     return QDOT_OK;
 }
 
+/* Whether the usage has that word, which is no name of the session. */
+static bool
+is_usage_word(const matcher *m, const qdot_token *t)
+{
+    for (int i = 0; i < m->u->n; i++)
+        if (m->u->node[i].kind == QDOT_USAGE_WORD && qdot_token_is_word(t, m->u->node[i].text))
+            return !qdot_cursor_knows(m->c->session, t->text);
+    return false;
+}
+
+/* Whether a factor may go on at the token: a value stands before it, and neither is a word of the usage. */
+static bool
+may_be_factor(const matcher *m)
+{
+    const qdot_filled *last = m->r->parts.n > 0 ? &m->r->parts.at[m->r->parts.n - 1] : NULL;
+
+    if (last == NULL || last->node == NULL || last->node->kind != QDOT_USAGE_HOLE ||
+        is_usage_word(m, m->c->at) || (last->to == last->from + 1 && is_usage_word(m, last->from)))
+        return false;
+    switch (node_class(last->node)) {
+    case QDOT_HOLE_SIDE:
+    case QDOT_HOLE_VALUE:
+    case QDOT_HOLE_VALUES:
+    case QDOT_HOLE_RANGE:
+    case QDOT_HOLE_BODY:
+    case QDOT_HOLE_CONDITION:
+    case QDOT_HOLE_EQUATION:
+    case QDOT_HOLE_COMPARISON: return true;
+    default: return false;
+    }
+}
+
+/* Whether what was told last is that a product lacks its sign. */
+static bool
+tells_product(void)
+{
+    return strcmp(qdot_last_error()->message, "a `*` is missing") == 0 ||
+           strncmp(qdot_last_error()->hint, "a product ", 10) == 0;
+}
+
 /* Fail at the token: nothing of the usage fits it. */
 static qdot_status
 fail_at_token(matcher *m)
@@ -454,13 +496,11 @@ fail_at_token(matcher *m)
         return qdot_last_error()->status;
     hint = qdot_expected_words(&list, what);
     status = qdot_cursor_expected(m->c, what);
-    if (hint == NULL)
-        return status;
-    if (strncmp(qdot_last_error()->message, "expected ", 9) != 0) { /* a sign between two names, which may be a comma */
+    if (tells_product() && (hint != NULL || !may_be_factor(m))) {
         m->c->error_at = m->c->at->start;
-        (void)qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.100s`", what, m->c->at->text);
+        status = qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.100s`", what, m->c->at->text);
     }
-    return qdot_last_error()->hint[0] == '\0' ? qdot_hint("%s", hint) : status;
+    return hint != NULL && qdot_last_error()->hint[0] == '\0' ? qdot_hint("%s", hint) : status;
 }
 
 /* Whether the word has an operand, where a value of that name may stand too: `conserved E` and

@@ -212,8 +212,7 @@ is_clause(const compiler *c, int i, int to)
            strcmp(c->piece[i].text, c->word) != 0;
 }
 
-/* Clauses from i on, with the options among them; i: there are less than two, and no single one that ends the
- * usage behind several options. */
+/* Clauses from i on, with the options among them; i: there are less than two. */
 static int
 gather_clauses(compiler *c, int i, int to, members *m)
 {
@@ -234,8 +233,6 @@ gather_clauses(compiler *c, int i, int to, members *m)
         clauses++;
         i = k;
     }
-    if (c->piece[start].kind == OPEN)
-        return clauses == 1 && m->n > 2 && i == to ? i : start;
     return clauses < 2 ? start : i;
 }
 
@@ -406,7 +403,7 @@ compile_sequence(compiler *c, int i, int to)
         const piece *p = &c->piece[i];
         const int comma = p->kind == HOLE ? end_of_list(c, i, to) : i;
         members m = {.n = 0};
-        int fork, behind = (p->kind == WORD || (p->kind == OPEN && !stands_first(c, i))) && c->depth == 0 ? gather_clauses(c, i, to, &m) : i;
+        int fork, behind = p->kind == WORD && c->depth == 0 ? gather_clauses(c, i, to, &m) : i;
 
         if (behind > i) {
             if (behind == to)

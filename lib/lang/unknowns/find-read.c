@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/commands/set.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -79,6 +80,8 @@ symbol_find(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
     const char *name;
 
     *x = (qdot_slope_name){.place = part->from};
+    if (qdot_set_is_momentum(f->c->session, part->from))
+        return qdot_slope_name_find(f->record, part, x);
     QDOT_TRY(qdot_record_name(f->record, part, &name));
     return qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to &&
                    such_names(f->record, name)
