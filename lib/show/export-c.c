@@ -41,7 +41,7 @@ static const char values_text[] =
     "    $code$\n"
     "}\n";
 
-const qdot_export_syntax qdot_export_c = {
+const qdot_export_language qdot_export_c = {
     .comment = " *",
     .reserved =
         " auto break case char const continue default do double else enum extern float for goto if "
@@ -78,7 +78,7 @@ const qdot_export_syntax qdot_export_c = {
     .effect_end = "}\n",
     .operation =
         {
-#define X(op, c, python, julia, matlab) [QDOT_OP_##op] = c,
+#define X(op, c, ...) [QDOT_OP_##op] = c,
 #include "show/export-operation.def"
         },
     .system = system_text,

@@ -189,7 +189,7 @@ operation_form(const writer *w, const value *v)
 {
     uint32_t op = v->op == QDOT_OP_SINCOS ? v->second ? QDOT_OP_COS : QDOT_OP_SIN : v->op;
 
-    return w->frame->syntax->operation[op];
+    return w->frame->language->operation[op];
 }
 
 static int
@@ -238,7 +238,7 @@ declare(writer *w, const char *word, bool truth, const char *text)
 {
     qdot_text line = {0};
 
-    add_formatted(&line, truth ? w->frame->syntax->truth : w->frame->syntax->number, word);
+    add_formatted(&line, truth ? w->frame->language->truth : w->frame->language->number, word);
     if (line.failed) {
         w->out->failed = true; /* a format cut short has no place for the text */
     } else {
@@ -341,7 +341,7 @@ write_values(writer *w)
 static void
 set_element(writer *w, const qdot_export_block *b, size_t k, const char *text)
 {
-    const qdot_export_syntax *s = w->frame->syntax;
+    const qdot_export_language *s = w->frame->language;
     qdot_text line = {0};
 
 #pragma GCC diagnostic push
@@ -382,7 +382,7 @@ write_outputs(writer *w, const qdot_export_function *f)
         size_t size = block->rows * (block->columns == 0 ? 1 : block->columns);
 
         if (block->array == NULL) {
-            set_target(w, w->frame->syntax->result, w->values[w->outputs[at++]].text);
+            set_target(w, w->frame->language->result, w->values[w->outputs[at++]].text);
             continue;
         }
         for (size_t k = 0; k < size; k++, at++)

@@ -43,7 +43,7 @@ static const char values_text[] =
     "    return out\n"
     "end\n";
 
-const qdot_export_syntax qdot_export_julia = {
+const qdot_export_language qdot_export_julia = {
     .comment = "#",
     .reserved =
         " baremodule begin break catch const continue do else elseif end export false finally for "
@@ -82,7 +82,7 @@ const qdot_export_syntax qdot_export_julia = {
     .effect_end = "end\n",
     .operation =
         {
-#define X(op, c, python, julia, matlab) [QDOT_OP_##op] = julia,
+#define X(op, c, python, julia, ...) [QDOT_OP_##op] = julia,
 #include "show/export-operation.def"
         },
     .system = system_text,

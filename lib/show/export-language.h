@@ -13,10 +13,10 @@
 #define QDOT_SHOW_EXPORT_LANGUAGE_H
 
 #include "base/text.h"
-#include "show/export-parts.h"
+#include "show/export.h"
 #include "tape/instruction.h"
 
-typedef struct {
+struct qdot_export_language {
     const char *comment; /* begins a line of comment */
     bool exact_name;     /* the file's name must be a name of the language */
     const char *reserved; /* words that are no names, a blank before and after each */
@@ -51,17 +51,14 @@ typedef struct {
 
     /* Templates: a motion (in two parts; motion NULL: in one), an expression, several. */
     const char *system, *motion, *value, *values;
-} qdot_export_syntax;
-
-extern const qdot_export_syntax qdot_export_c, qdot_export_python, qdot_export_julia,
-    qdot_export_matlab;
+};
 
 /* The statements that compute a function. `words` [inputs] name the inputs of the tape, `sources`
  * say where they come from (NULL: they are there). targets, if not NULL, [outputs]: the statements
  * (printf of the value) that use the outputs, instead of the blocks. Each line begins with `indent`.
  * temporary: what the names of intermediate values begin with. */
 typedef struct {
-    const qdot_export_syntax *syntax;
+    const qdot_export_language *language;
     const char *const *words, *const *sources;
     const char *indent, *temporary;
     const char *const *targets;

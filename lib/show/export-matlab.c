@@ -35,7 +35,7 @@ static const char values_text[] =
     "end\n"
     CHOOSE;
 
-const qdot_export_syntax qdot_export_matlab = {
+const qdot_export_language qdot_export_matlab = {
     .comment = "%",
     .exact_name = true,
     .reserved =
@@ -73,7 +73,7 @@ const qdot_export_syntax qdot_export_matlab = {
     .effect_end = "end\n",
     .operation =
         {
-#define X(op, c, python, julia, matlab) [QDOT_OP_##op] = matlab,
+#define X(op, c, python, julia, matlab, ...) [QDOT_OP_##op] = matlab,
 #include "show/export-operation.def"
         },
     .system = system_text,

@@ -9,7 +9,7 @@
 typedef qdot_export_writer writer;
 
 static bool
-ends_statements(const qdot_export_syntax *s)
+ends_statements(const qdot_export_language *s)
 {
     return strchr(s->number, ';') != NULL;
 }
@@ -30,7 +30,7 @@ declare_parameters(writer *w, const char *indent)
         qdot_export_write_number(w, w->system->parameters[i].value);
         w->out = out;
         qdot_text_add(out, indent);
-        qdot_text_format(out, w->syntax->declared, w->words[at + i], qdot_text_str(&value),
+        qdot_text_format(out, w->language->declared, w->words[at + i], qdot_text_str(&value),
                          w->system->parameters[i].name);
         qdot_text_char(out, '\n');
         out->failed |= value.failed;
@@ -45,7 +45,7 @@ checks(writer *w, const char *indent)
 {
     for (size_t i = 0; i < w->system->k; i++) {
         qdot_text_add(w->out, indent);
-        qdot_text_format(w->out, w->syntax->check,
+        qdot_text_format(w->out, w->language->check,
                          w->words[qdot_export_first_parameter(w->system) + i],
                          w->system->parameters[i].name);
         qdot_text_char(w->out, '\n');
@@ -67,7 +67,7 @@ event_effect(writer *w, size_t k, const char *indent)
     if (e->effect == NULL)
         return QDOT_OK;
     qdot_text_add(w->out, indent);
-    qdot_text_format(w->out, w->syntax->effect_begin, k + w->syntax->first);
+    qdot_text_format(w->out, w->language->effect_begin, k + w->language->first);
     qdot_text_format(&deep, "%s    ", indent);
     if ((targets = qdot_calloc(e->n_targets, sizeof *targets)) == NULL)
         status = QDOT_ENOMEM;
@@ -76,7 +76,7 @@ event_effect(writer *w, size_t k, const char *indent)
         qdot_text line = {0};
 
         qdot_text_format(&line, "%s = %%s%s", w->sources[to < 2 * n ? 1 + to : own + to - 2 * n],
-                         ends_statements(w->syntax) ? ";" : "");
+                         ends_statements(w->language) ? ";" : "");
         status = qdot_text_status(&line);
         targets[i] = line.at;
     }
@@ -84,8 +84,8 @@ event_effect(writer *w, size_t k, const char *indent)
         status = qdot_text_status(&deep);
     if (status == QDOT_OK)
         status = qdot_export_write_code(w, &f, deep.at, (const char *const *)targets);
-    if (*w->syntax->effect_end != '\0')
-        qdot_text_format(w->out, "%s%s", indent, w->syntax->effect_end);
+    if (*w->language->effect_end != '\0')
+        qdot_text_format(w->out, "%s%s", indent, w->language->effect_end);
     for (size_t i = 0; targets != NULL && i < e->n_targets; i++)
         qdot_text_clear(&(qdot_text){.at = targets[i]});
     qdot_free(targets);
@@ -118,7 +118,7 @@ effects(writer *w, const char *indent)
 static void
 separate(const writer *w, size_t i)
 {
-    qdot_text_add(w->out, i > 0 ? w->syntax->separator : "");
+    qdot_text_add(w->out, i > 0 ? w->language->separator : "");
 }
 
 /* "theta", "x" between quotes, separated. */
@@ -197,7 +197,7 @@ numbers(writer *w, size_t n, const double *x, const char *indent)
 {
     for (size_t i = 0; i < n; i++) {
         if (i % A_LINE == 0 && i > 0)
-            qdot_text_format(w->out, "%s\n%s", w->syntax->line_end, indent);
+            qdot_text_format(w->out, "%s\n%s", w->language->line_end, indent);
         qdot_export_number(x[i], w->out);
         qdot_text_add(w->out, i + 1 == n ? "" : (i + 1) % A_LINE == 0 ? "," : ", ");
     }
@@ -207,9 +207,9 @@ static qdot_status
 matrix(writer *w, size_t rows, size_t columns, const double *x, const char *indent)
 {
     for (size_t i = 0; i < rows; i++) {
-        qdot_text_format(w->out, "%s%s", indent, w->syntax->row_begin);
+        qdot_text_format(w->out, "%s%s", indent, w->language->row_begin);
         numbers(w, columns, x + i * columns, indent);
-        qdot_text_format(w->out, "%s\n", w->syntax->row_end);
+        qdot_text_format(w->out, "%s\n", w->language->row_end);
     }
     return QDOT_OK;
 }
@@ -220,7 +220,7 @@ list(writer *w, size_t n, const double *x, const char *indent)
 {
     qdot_text_add(w->out, indent);
     numbers(w, n, x, indent);
-    qdot_text_format(w->out, "%s\n", w->syntax->line_end);
+    qdot_text_format(w->out, "%s\n", w->language->line_end);
     return QDOT_OK;
 }
 

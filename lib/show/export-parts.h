@@ -12,13 +12,6 @@
 
 #include "tape/tape.h"
 
-typedef enum {
-    QDOT_EXPORT_C,
-    QDOT_EXPORT_PYTHON,
-    QDOT_EXPORT_JULIA,
-    QDOT_EXPORT_MATLAB
-} qdot_export_language;
-
 /* A name of the scene and, of a parameter, its value (NaN: none). */
 typedef struct {
     const char *name; /* plain: "theta[1]" */

@@ -29,7 +29,7 @@ static const char values_text[] =
     "    $code$\n"
     "    return out\n";
 
-const qdot_export_syntax qdot_export_python = {
+const qdot_export_language qdot_export_python = {
     .comment = "#",
     .reserved =
         " and as assert async await break class continue def del elif else except finally for from "
@@ -66,7 +66,7 @@ const qdot_export_syntax qdot_export_python = {
     .effect_end = "",
     .operation =
         {
-#define X(op, c, python, julia, matlab) [QDOT_OP_##op] = python,
+#define X(op, c, python, ...) [QDOT_OP_##op] = python,
 #include "show/export-operation.def"
         },
     .system = system_text,

@@ -9,7 +9,7 @@
 #include "show/export-language.h"
 
 typedef struct {
-    const qdot_export_syntax *syntax;
+    const qdot_export_language *language;
     const qdot_export_system *system;    /* or */
     const qdot_export_expression *value; /* the other is NULL */
     size_t inputs;

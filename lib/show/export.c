@@ -9,13 +9,6 @@
 #include "base/memory.h"
 #include "show/export-writer.h"
 
-static const qdot_export_syntax *const languages[] = {
-    [QDOT_EXPORT_C] = &qdot_export_c,
-    [QDOT_EXPORT_PYTHON] = &qdot_export_python,
-    [QDOT_EXPORT_JULIA] = &qdot_export_julia,
-    [QDOT_EXPORT_MATLAB] = &qdot_export_matlab,
-};
-
 typedef qdot_export_writer writer;
 
 /* --- names ------------------------------------------------------------------------------ */
@@ -38,7 +31,7 @@ as_word(const char *name, qdot_text *out)
 }
 
 static bool
-is_reserved(const qdot_export_syntax *s, const char *word)
+is_reserved(const qdot_export_language *s, const char *word)
 {
     char between[80];
 
@@ -54,7 +47,7 @@ word_is_taken(const writer *w, size_t n, const char *word)
     for (size_t i = 0; i < n; i++)
         if (strcmp(w->words[i], word) == 0)
             return true;
-    return is_reserved(w->syntax, word);
+    return is_reserved(w->language, word);
 }
 
 /* Name input i by what it is called, with _ behind it while that is taken. */
@@ -88,7 +81,7 @@ add_element(writer *w, size_t i, const char *name, const char *primes, const cha
     if (status == QDOT_OK)
         status = add_word(w, i, text.at);
     qdot_text_truncate(&text, 0);
-    qdot_text_format(&text, format, k + w->syntax->first);
+    qdot_text_format(&text, format, k + w->language->first);
     if (status == QDOT_OK)
         status = qdot_text_status(&text);
     if (status == QDOT_OK && (w->sources[i] = qdot_strdup(text.at)) == NULL)
@@ -104,7 +97,7 @@ export_add_parameter(writer *w, size_t i, const char *name)
     qdot_status status;
 
     QDOT_TRY(add_word(w, i, name));
-    qdot_text_format(&text, w->syntax->parameter, w->words[i]);
+    qdot_text_format(&text, w->language->parameter, w->words[i]);
     status = qdot_text_status(&text);
     if (status == QDOT_OK && (w->sources[i] = qdot_strdup(text.at)) == NULL)
         status = QDOT_ENOMEM;
@@ -123,18 +116,18 @@ name_system(writer *w)
     if ((w->words[0] = qdot_strdup("t")) == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_element(w, 1 + i, x->q[i].name, "", w->syntax->state, i));
+        QDOT_TRY(add_element(w, 1 + i, x->q[i].name, "", w->language->state, i));
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_element(w, 1 + n + i, x->q[i].name, "'", w->syntax->state, n + i));
+        QDOT_TRY(add_element(w, 1 + n + i, x->q[i].name, "'", w->language->state, n + i));
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(add_element(w, 1 + 2 * n + i, x->q[i].name, "''", w->syntax->acceleration, i));
+        QDOT_TRY(add_element(w, 1 + 2 * n + i, x->q[i].name, "''", w->language->acceleration, i));
     for (size_t i = 0; i < x->m; i++)
-        QDOT_TRY(add_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->syntax->multiplier, i));
+        QDOT_TRY(add_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->language->multiplier, i));
     for (size_t i = 0; i < x->k; i++)
         QDOT_TRY(export_add_parameter(w, qdot_export_first_parameter(x) + i, x->parameters[i].name));
     for (size_t i = 0; i < x->s; i++)
         QDOT_TRY(add_element(w, qdot_export_first_parameter(x) + x->k + i, "side", "",
-                             w->syntax->side, i));
+                             w->language->side, i));
     return QDOT_OK;
 }
 
@@ -181,13 +174,13 @@ choose_name(writer *w, const char *file)
         changed |= !fits;
     }
     /* a motion in C has names that only begin with it */
-    if ((w->system == NULL || w->syntax != &qdot_export_c) &&
-        is_reserved(w->syntax, qdot_text_str(&name))) {
+    if ((w->system == NULL || w->language != &qdot_export_c) &&
+        is_reserved(w->language, qdot_text_str(&name))) {
         qdot_text_char(&name, '_');
         changed = true;
     }
     status = qdot_text_status(&name);
-    if (status == QDOT_OK && changed && w->syntax->exact_name) {
+    if (status == QDOT_OK && changed && w->language->exact_name) {
         (void)qdot_fail(QDOT_EINVAL, "`%.100s` is no name of a function, which the file of a function "
                                      "of Matlab has to bear", file);
         status = qdot_hint("letters, digits and _, as in \"%.100s.m\"", name.at);
@@ -204,7 +197,7 @@ qdot_status
 qdot_export_write_code(writer *w, const qdot_export_function *f, const char *indent,
                        const char *const *targets)
 {
-    const qdot_export_frame frame = {.syntax = w->syntax,
+    const qdot_export_frame frame = {.language = w->language,
                                      .words = (const char *const *)w->words,
                                      .sources = (const char *const *)w->sources,
                                      .indent = indent,
@@ -218,7 +211,7 @@ void
 qdot_export_write_number(const writer *w, double x)
 {
     if (isnan(x))
-        qdot_text_add(w->out, w->syntax->nan);
+        qdot_text_add(w->out, w->language->nan);
     else
         qdot_export_number(x, w->out);
 }
@@ -229,18 +222,18 @@ static qdot_status
 write_arguments(writer *w, bool more)
 {
     if (w->value->k == 0 && !more)
-        qdot_text_add(w->out, w->syntax->no_argument);
+        qdot_text_add(w->out, w->language->no_argument);
     for (size_t i = 0; i < w->value->k; i++) {
         double x = w->value->arguments[i].value;
 
         qdot_text_add(w->out, i > 0 ? ", " : "");
         if (isnan(x)) {
-            qdot_text_format(w->out, w->syntax->argument, w->words[i]);
+            qdot_text_format(w->out, w->language->argument, w->words[i]);
         } else {
             qdot_text value = {0};
 
             qdot_export_number(x, &value);
-            qdot_text_format(w->out, w->syntax->argument_value, w->words[i],
+            qdot_text_format(w->out, w->language->argument_value, w->words[i],
                              qdot_text_str(&value));
             w->out->failed |= value.failed;
             qdot_text_clear(&value);
@@ -259,9 +252,9 @@ shape(writer *w)
     const qdot_export_block *b = &w->value->value.block[0];
 
     if (b->columns == 0)
-        qdot_text_format(w->out, w->syntax->vector_shape, b->rows);
+        qdot_text_format(w->out, w->language->vector_shape, b->rows);
     else
-        qdot_text_format(w->out, w->syntax->matrix_shape, b->rows, b->columns);
+        qdot_text_format(w->out, w->language->matrix_shape, b->rows, b->columns);
 }
 #pragma GCC diagnostic pop
 
@@ -272,7 +265,7 @@ comments(writer *w, const char *text)
     while (*text != '\0') {
         size_t n = strcspn(text, "\n");
 
-        qdot_text_add(w->out, w->syntax->comment);
+        qdot_text_add(w->out, w->language->comment);
         qdot_text_add(w->out, n > 0 ? " " : "");
         qdot_text_add_n(w->out, text, n);
         qdot_text_char(w->out, '\n');
@@ -392,8 +385,8 @@ export_write_file(writer *w, const char *file, const char *text)
     if (status == QDOT_OK) {
         choose_temporary(w);
         status = write_template(w, text);
-        if (status == QDOT_OK && w->system != NULL && w->syntax->motion != NULL)
-            status = write_template(w, w->syntax->motion);
+        if (status == QDOT_OK && w->system != NULL && w->language->motion != NULL)
+            status = write_template(w, w->language->motion);
     }
     for (size_t i = 0; w->words != NULL && w->sources != NULL && i < w->inputs; i++) {
         qdot_free(w->words[i]);
@@ -406,23 +399,23 @@ export_write_file(writer *w, const char *file, const char *text)
 }
 
 qdot_status
-qdot_export_system_write(const qdot_export_system *system, qdot_export_language language,
+qdot_export_system_write(const qdot_export_system *system, const qdot_export_language *language,
                          qdot_text *out)
 {
-    writer w = {.syntax = languages[language],
+    writer w = {.language = language,
                 .system = system,
                 .inputs = qdot_export_first_parameter(system) + system->k + system->s,
                 .out = out};
 
-    return export_write_file(&w, system->file, w.syntax->system);
+    return export_write_file(&w, system->file, w.language->system);
 }
 
 qdot_status
-qdot_export_expression_write(const qdot_export_expression *e, qdot_export_language language,
+qdot_export_expression_write(const qdot_export_expression *e, const qdot_export_language *language,
                              qdot_text *out)
 {
-    writer w = {.syntax = languages[language], .value = e, .inputs = e->k, .out = out};
+    writer w = {.language = language, .value = e, .inputs = e->k, .out = out};
 
     return export_write_file(&w, e->file,
-                             e->value.block[0].array == NULL ? w.syntax->value : w.syntax->values);
+                             e->value.block[0].array == NULL ? w.language->value : w.language->values);
 }

@@ -15,8 +15,10 @@
 #include "show/export-language.h"
 #include "show/export.h"
 
-static const qdot_export_syntax *const languages[] = {&qdot_export_c, &qdot_export_python,
-                                                      &qdot_export_julia, &qdot_export_matlab};
+static const qdot_export_language *const languages[] = {
+#define LANGUAGE(word, ending, language) &qdot_export_##language,
+#include "show/export-language.def"
+};
 
 /* + - * / and what is made of them are written by export-code.c. */
 static bool
@@ -55,7 +57,7 @@ static void
 is_in_c(qdot_pool *pool, qdot_expr x, qdot_expr e, const char *expected)
 {
     const char *const words[] = {"x"}, *const sources[] = {NULL};
-    const qdot_export_frame frame = {.syntax = &qdot_export_c,
+    const qdot_export_frame frame = {.language = &qdot_export_c,
                                      .words = words,
                                      .sources = sources,
                                      .indent = "",
@@ -105,7 +107,7 @@ failing_memory_is_told(void **state)
         qdot_status status;
 
         qdot_memory_fail_at(n);
-        status = qdot_export_expression_write(&e, QDOT_EXPORT_PYTHON, &out);
+        status = qdot_export_expression_write(&e, &qdot_export_python, &out);
         qdot_memory_fail_at(-1);
         qdot_text_clear(&out);
         if (status == QDOT_OK) {

@@ -669,7 +669,7 @@ describe(description *d)
 }
 
 qdot_status
-qdot_export_scene(qdot_session *session, const char *file, qdot_export_language language,
+qdot_export_scene(qdot_session *session, const char *file, const qdot_export_language *language,
                   qdot_text *out)
 {
     description d = {.session = session,

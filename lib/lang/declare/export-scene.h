@@ -10,11 +10,11 @@
  * and tolerance are those of the latest run of these coordinates, else of `start`, 0..10, 1e-12.
  * Errors: QDOT_EINVAL (no coordinate), QDOT_EUNSET (a function without a value), QDOT_ELIMIT. */
 QDOT_MUST_CHECK qdot_status qdot_export_scene(qdot_session *session, const char *file,
-                                              qdot_export_language language, qdot_text *out);
+                                              const qdot_export_language *language, qdot_text *out);
 
 /* Append e as a function of its symbols; equations as left - right. name: how it was typed. */
 QDOT_MUST_CHECK qdot_status qdot_export_value(qdot_session *session, const char *name, qdot_expr e,
-                                              const char *file, qdot_export_language language,
+                                              const char *file, const qdot_export_language *language,
                                               qdot_text *out);
 
 /* Of both: e with the functions that have a value replaced by it, parameters stay. */

@@ -69,7 +69,7 @@ shape_of(const qdot_pool *pool, qdot_expr e)
 
 qdot_status
 qdot_export_value(qdot_session *session, const char *name, qdot_expr e, const char *file,
-                  qdot_export_language language, qdot_text *out)
+                  const qdot_export_language *language, qdot_text *out)
 {
     qdot_pool *pool = session->pool;
     qdot_export_expression x = {.file = file, .origin = name};

@@ -13,22 +13,23 @@ static qdot_status export_write(qdot_record *r);
 QDOT_STATEMENT(export) = {
     .word = "export",
     .group = QDOT_WORKBENCH,
-    .usage = "export c|python|julia|matlab|octave|latex EXPR to \"FILE\"",
+    .usage = "export "
+#define LANGUAGE(word, ending, language) #word "|"
+#include "show/export-language.def"
+             "latex EXPR to \"FILE\"",
     .summary = "the equations of motion as functions to call (M, f, accelerations, Jacobian, constraints, "
                "events), or an expression as a function of its symbols",
     .example = "export c eom to \"eom.c\"",
     .handler = export_write,
 };
 
-enum { LATEX = -1 };
-
 static const struct language {
     const char *word, *ending;
-    int language;
+    const qdot_export_language *source; /* NULL: LaTeX, a formula and no source text */
 } languages[] = {
-    {"c", ".c", QDOT_EXPORT_C},           {"python", ".py", QDOT_EXPORT_PYTHON},
-    {"julia", ".jl", QDOT_EXPORT_JULIA},  {"matlab", ".m", QDOT_EXPORT_MATLAB},
-    {"octave", ".m", QDOT_EXPORT_MATLAB}, {"latex", ".tex", LATEX},
+#define LANGUAGE(word, ending, language) {#word, ending, &qdot_export_##language},
+#include "show/export-language.def"
+    {"latex", ".tex", NULL},
 };
 
 /* What is exported: the motion, or the value of an expression with its text. */
@@ -44,7 +45,7 @@ read_operand(qdot_record *r, const struct language *l, operand *o)
     const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
     qdot_session *session = r->cursor.session;
 
-    if (l->language != LATEX && part->to == part->from + 1 && qdot_token_is_word(part->from, "eom") &&
+    if (l->source != NULL && part->to == part->from + 1 && qdot_token_is_word(part->from, "eom") &&
         qdot_names_find(session->names, "eom") == NULL) {
         o->motion = true;
         return QDOT_OK;
@@ -104,14 +105,14 @@ export_write(qdot_record *r)
         status = read_file(r, l, &path, &name);
     if (status == QDOT_OK)
         qdot_record_blame(r, qdot_record_hole(r, NULL, "EXPR"));
-    if (status == QDOT_OK && l->language == LATEX) {
+    if (status == QDOT_OK && l->source == NULL) {
         status = write_latex(session, &o, path);
     } else if (status == QDOT_OK) {
         status = o.motion ? qdot_export_scene(session, qdot_text_str(&name),
-                                              (qdot_export_language)l->language, &source)
+                                              l->source, &source)
                           : qdot_export_value(session, qdot_text_str(&o.name), o.value,
                                               qdot_text_str(&name),
-                                              (qdot_export_language)l->language, &source);
+                                              l->source, &source);
         if (status == QDOT_OK)
             status = qdot_answer_in_file(session, path, &source);
     }
