@@ -34,6 +34,41 @@ piece_columns(piece p)
     return from < p.n ? columns + qdot_utf8_columns(p.at + from, p.n - from) : columns;
 }
 
+/* Bytes of what stands at i: a code for a colour, a mark of a cell, a letter; *columns that it takes. */
+static size_t
+bytes_at(const char *text, size_t n, size_t i, size_t *columns)
+{
+    const char *end = text[i] == '\033' ? memchr(text + i, 'm', n - i) : NULL;
+    size_t letter = qdot_utf8_length(text + i);
+
+    *columns = 0;
+    if (end != NULL)
+        return (size_t)(end - text) + 1 - i;
+    letter = letter == 0 || letter > n - i ? 1 : letter;
+    if (text[i] != QDOT_WRAP_CELL[0])
+        *columns = qdot_utf8_columns(text + i, letter);
+    return letter;
+}
+
+size_t
+qdot_wrap_cut(const char *text, size_t n, size_t room)
+{
+    size_t columns = 0, behind_sign = 0, i = 0;
+
+    while (i < n) {
+        size_t own;
+        const size_t bytes = bytes_at(text, n, i, &own);
+
+        if (columns > 0 && columns + own > room)
+            return behind_sign > 0 ? behind_sign : i;
+        columns += own;
+        i += bytes;
+        if (own > 0 && strchr(",;:)]}/*_=", text[i - 1]) != NULL && 2 * columns > room)
+            behind_sign = i;
+    }
+    return n;
+}
+
 static size_t
 blanks_at(piece p, size_t i)
 {
@@ -60,6 +95,16 @@ add_blanks(qdot_text *out, size_t n)
     qdot_text_format(out, "%*s", (int)n, "");
 }
 
+/* A line ends, without the blanks at its end, and the next one begins with so many. */
+static void
+begin_next_line(qdot_text *out, size_t indent)
+{
+    while (out->n > 0 && out->at[out->n - 1] == ' ')
+        qdot_text_truncate(out, out->n - 1);
+    qdot_text_char(out, '\n');
+    add_blanks(out, indent);
+}
+
 /* Append a piece of text without the marks of cells. */
 static void
 add_plain(qdot_text *out, piece p)
@@ -80,16 +125,17 @@ static size_t
 indent_of(piece line, size_t width)
 {
     const size_t left = blanks_at(line, 0);
+    const size_t usual = (2 * left <= width ? left : 0) + USUAL_INDENT;
 
     for (size_t i = left; i < line.n;) {
         const size_t letters = letters_at(line, i), blanks = blanks_at(line, i + letters);
         const size_t columns = piece_columns((piece){line.at, i + letters + blanks});
 
         if (blanks >= 2 && i + letters + blanks < line.n)
-            return columns + LEAST_ROOM <= width ? columns : left + USUAL_INDENT;
+            return columns + LEAST_ROOM <= width ? columns : usual;
         i += letters + blanks;
     }
-    return left + USUAL_INDENT;
+    return usual;
 }
 
 static bool
@@ -132,6 +178,23 @@ end_of_chunk(piece line, size_t i, size_t room)
     }
 }
 
+/* Append a word from `column` on, cut where it is too long for a line; the column behind it. */
+static size_t
+add_word(qdot_text *out, piece word, size_t column, size_t indent, size_t width)
+{
+    for (;;) {
+        const size_t n = qdot_wrap_cut(word.at, word.n, width > column ? width - column : 1);
+
+        qdot_text_add_n(out, word.at, n);
+        if (n == word.n)
+            return column + piece_columns(word);
+        begin_next_line(out, indent);
+        column = indent;
+        word.at += n;
+        word.n -= n;
+    }
+}
+
 /* One line, the first column of which is `column`, broken; those that follow indented. */
 static void
 add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t width)
@@ -144,20 +207,17 @@ add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t widt
         const size_t blanks = blanks_at(line, i),
                      end = end_of_chunk(line, i + blanks, room);
         const piece chunk = {line.at + i + blanks, end - i - blanks};
-        const size_t columns = piece_columns(chunk);
 
         if (chunk.n == 0) /* blanks at the end */
             break;
-        if (any && column + blanks + columns > width) {
-            qdot_text_char(out, '\n');
-            add_blanks(out, indent);
+        if ((any || column > indent) && column + blanks + piece_columns(chunk) > width) {
+            begin_next_line(out, indent);
             column = indent;
         } else {
             add_blanks(out, blanks);
             column += blanks;
         }
-        qdot_text_add_n(out, chunk.at, chunk.n);
-        column += columns;
+        column = add_word(out, chunk, column, indent, width);
         any = true;
         i = end;
     }
@@ -334,7 +394,19 @@ table_add_blocks(qdot_text *out, const table *t, size_t width)
     }
 }
 
-/* Each row as lines "name value". */
+/* Whether each word of a cell fits into so many columns. */
+static bool
+fits_by_words(piece cell, size_t room)
+{
+    for (size_t i = 0, n; i < cell.n; i += n + blanks_at(cell, i + n)) {
+        n = letters_at(cell, i);
+        if (piece_columns((piece){cell.at + i, n}) > room)
+            return false;
+    }
+    return true;
+}
+
+/* Each row as lines "name value"; a value that does not fit behind the names has a line of its own. */
 static void
 add_records(qdot_text *out, const table *t, size_t width)
 {
@@ -349,15 +421,38 @@ add_records(qdot_text *out, const table *t, size_t width)
         for (size_t k = 0; k < t->n; k++) {
             const piece name = trimmed(cell_at(t, 0, k)),
                         cell = trimmed(cell_at(t, i, k));
-            const size_t indent = k > 0 ? USUAL_INDENT : 0,
-                         column = names + 2 * USUAL_INDENT;
+            const size_t indent = k > 0 ? USUAL_INDENT : 0, own = indent + USUAL_INDENT;
+            const size_t behind = names + 2 * USUAL_INDENT;
+            const bool beside = behind < width && fits_by_words(cell, width - behind);
+            const size_t column = beside ? behind : own;
 
             add_blanks(out, indent);
-            qdot_text_add_n(out, name.at, name.n);
-            add_blanks(out, column - indent - piece_columns(name));
+            add_broken(out, name, indent, own, width);
+            if (beside)
+                add_blanks(out, column - indent - piece_columns(name));
+            else if (cell.n > 0)
+                begin_next_line(out, own);
             add_broken(out, cell, column, column, width);
             qdot_text_char(out, '\n');
         }
+}
+
+/* Whether column k, the last one, can be broken by words beside the keys. */
+static bool
+can_be_broken(const table *t, size_t k, size_t width)
+{
+    const size_t left = t->key_columns + USUAL_INDENT;
+
+    for (size_t i = 0; i < t->rows; i++) {
+        const piece cell = cell_at(t, i, k);
+        const size_t blanks = blanks_at(cell, 0);
+        const piece first = {cell.at, blanks + letters_at(cell, blanks)};
+
+        if (t->key_columns + piece_columns(first) > width || left >= width ||
+            !fits_by_words(cell, width - left))
+            return false;
+    }
+    return t->key_columns + LEAST_ROOM / 2 <= width;
 }
 
 /* Whether each column fits beside the keys; the last may be broken. */
@@ -365,7 +460,7 @@ static bool
 fits_in_blocks(const table *t, size_t width)
 {
     for (size_t k = t->keys; k < t->n; k++)
-        if (t->key_columns + (k + 1 < t->n ? t->width[k] : LEAST_ROOM / 2) > width)
+        if (t->key_columns + t->width[k] > width && (k + 1 < t->n || !can_be_broken(t, k, width)))
             return false;
     return true;
 }

@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "base/utf8.h"
+#include "base/wrap.h"
 #include "formula/draw.h"
 
 /* A line is rather broken earlier, by these parts of its length, than one bracket deeper, between
@@ -12,8 +13,9 @@
 static const double deeper = 0.35, between_factors = 0.75, before_sign = 0.15, after_word = 0.3,
                     after_label = -0.35;
 
-/* Of lines that follow, where no relation gives one; the least that is left for what stands there. */
-enum { usual_indent = 4, least_room = 16 };
+/* Of lines that follow, where no relation gives one; the least that is left for what stands there, and for the
+ * beginning of a name that is cut. */
+enum { usual_indent = 4, least_room = 16, least_cut = 8 };
 
 /* A box that is not broken, in so many brackets. */
 typedef struct {
@@ -25,6 +27,7 @@ typedef struct {
     const qdot_layout_request *request;
     size_t width, indent;
     size_t labels; /* leading items that are names or words */
+    size_t name;   /* of these, the first of the name: behind `spring s1: ` */
     bool several;  /* relations outside brackets, and words: each is one of a list */
     qdot_vec(item) todo;  /* a stack */
     qdot_vec(item) items; /* in reading order */
@@ -111,6 +114,61 @@ push_table(layout *l, const qdot_box *table, uint32_t depth)
     }
 }
 
+/* Bytes [from, from + n) of a text. */
+static void
+push_piece(layout *l, qdot_box whole, size_t from, size_t n, uint32_t depth)
+{
+    whole.first += (uint32_t)from;
+    whole.count = (uint32_t)n;
+    whole.columns = (uint32_t)qdot_utf8_columns(l->boxes.text.at + whole.first, n);
+    if (l->status == QDOT_OK)
+        l->status = qdot_vec_push(&l->boxes.box, whole);
+    layout_push(l, (uint32_t)(l->boxes.box.n - 1), depth);
+}
+
+/* Without brackets; what is a comma there is typed as _. */
+static void
+push_index(layout *l, uint32_t index, uint32_t depth)
+{
+    const qdot_box row = *box_of(l, index);
+
+    if (row.kind != QDOT_BOX_ROW)
+        layout_push(l, index, depth);
+    for (uint32_t k = row.kind == QDOT_BOX_ROW ? row.count : 0; k-- > 0;) {
+        const uint32_t child = l->boxes.children.at[row.first + k];
+        const qdot_box *x = box_of(l, child);
+
+        if (x->kind == QDOT_BOX_TEXT && x->role == QDOT_BOX_COMMA)
+            push_text(l, "_", QDOT_BOX_NAME, depth);
+        else
+            layout_push(l, child, depth);
+    }
+    push_text(l, "_", QDOT_BOX_NAME, depth);
+}
+
+/* A name and its indices in one line, as they are typed, k_long_name; a power that stands above the indices behind
+ * them. */
+static void
+push_indexed(layout *l, const qdot_box *sub, uint32_t depth)
+{
+    const uint32_t base = l->boxes.children.at[sub->first], index = l->boxes.children.at[sub->first + 1];
+    const uint32_t letters = box_of(l, base)->columns - sub->across;
+    const qdot_box whole = *box_of(l, base);
+    size_t n = 0;
+
+    if (whole.kind != QDOT_BOX_TEXT) {
+        push_index(l, index, depth);
+        push_bracketed(l, base, depth);
+        return;
+    }
+    while (n < whole.count && qdot_utf8_columns(l->boxes.text.at + whole.first, n + 1) <= letters)
+        n++;
+    if (n < whole.count)
+        push_piece(l, whole, n, whole.count - n, depth);
+    push_index(l, index, depth);
+    push_piece(l, whole, 0, n, depth);
+}
+
 static void
 push_parts(layout *l, qdot_box x, uint32_t depth)
 {
@@ -119,13 +177,14 @@ push_parts(layout *l, qdot_box x, uint32_t depth)
     switch (x.kind) {
     case QDOT_BOX_ROW: layout_push_row(l, &x, depth); break;
     case QDOT_BOX_TABLE: push_table(l, &x, depth); break;
+    case QDOT_BOX_SUB: push_indexed(l, &x, depth); break;
     case QDOT_BOX_ROOT:
         push_bracketed(l, of[0], depth);
         push_text(l, "√", QDOT_BOX_NAME, depth);
         break;
     default:
         push_bracketed(l, of[1], depth);
-        push_text(l, x.kind == QDOT_BOX_FRACTION ? "/" : x.kind == QDOT_BOX_SUB ? "_" : "^",
+        push_text(l, x.kind == QDOT_BOX_FRACTION ? "/" : "^",
                   x.kind == QDOT_BOX_FRACTION ? QDOT_BOX_OVER : QDOT_BOX_NAME, depth);
         push_bracketed(l, of[0], depth);
     }
@@ -204,10 +263,26 @@ role_of(const layout *l, size_t i)
     return b->kind == QDOT_BOX_TEXT ? (qdot_box_role)b->role : QDOT_BOX_NAME;
 }
 
+/* Whether item i, which is higher than a line, follows a relation and does not fit into a line with it: then the
+ * relation ends a line. */
+static bool
+stands_alone(const layout *l, size_t i)
+{
+    const qdot_box *b;
+
+    if (i == 0 || i >= l->items.n || role_of(l, i - 1) != QDOT_BOX_RELATION)
+        return false;
+    b = box_of(l, l->items.at[i].box);
+    return qdot_box_height(b) > 1 &&
+           box_of(l, l->items.at[i - 1].box)->columns + b->columns > l->width - l->indent;
+}
+
 /* Whether a line may begin with item i. */
 static bool
 may_begin(const layout *l, size_t i)
 {
+    if (stands_alone(l, i) || stands_alone(l, i + 1))
+        return stands_alone(l, i);
     switch (role_of(l, i)) {
     case QDOT_BOX_RELATION:
     case QDOT_BOX_SIGN:
@@ -235,11 +310,22 @@ loss(const layout *l, size_t i)
 
     if (i > 0 && role_of(l, i - 1) == QDOT_BOX_WORD)
         return ends_label(l, i - 1) ? after_label : after_word;
+    if (stands_alone(l, i))
+        return 0;
     if (role == QDOT_BOX_RELATION && l->several)
         return between_factors;
     return deeper * l->items.at[i].depth + (role == QDOT_BOX_RELATION ? 0
                                             : role == QDOT_BOX_SIGN   ? before_sign
                                                                       : between_factors);
+}
+
+/* Whether a line that begins with item `from` ends before item i in any case: behind a row of a matrix, and before
+ * the value of a name that an earlier line has begun with. */
+static bool
+must_begin(const layout *l, size_t from, size_t i)
+{
+    return role_of(l, i - 1) == QDOT_BOX_END ||
+           (i == l->labels && from > l->name && role_of(l, i) == QDOT_BOX_RELATION);
 }
 
 /* Where the line that begins with item `from` in column x ends: the number of its last item and
@@ -252,7 +338,7 @@ end_of_line(const layout *l, size_t from, size_t x)
     double least = 0;
 
     for (; i < l->items.n; i++) {
-        if (i > from && role_of(l, i - 1) == QDOT_BOX_END)
+        if (i > from && must_begin(l, from, i))
             return i;
         if (i > from && x + columns > l->indent && may_begin(l, i)) {
             const double lost = 1 - (double)columns / room + loss(l, i);
@@ -296,8 +382,9 @@ trim_first(layout *l, size_t i)
 static void
 count_labels(layout *l)
 {
-    while (l->labels < l->items.n && box_of(l, l->items.at[l->labels].box)->label)
-        l->labels++;
+    for (; l->labels < l->items.n && box_of(l, l->items.at[l->labels].box)->label; l->labels++)
+        if (role_of(l, l->labels) == QDOT_BOX_WORD && ends_label(l, l->labels))
+            l->name = l->labels + 1;
 }
 
 /* `x = 0, y = 1, stable when a > 0`: a line may end between these, seldom within one. */
@@ -311,6 +398,76 @@ count_relations(layout *l)
         words += role_of(l, i) == QDOT_BOX_WORD;
     }
     l->several = relations > 1 && words > 1;
+}
+
+/* --- lines that have no place to be broken at ---------------------------------------------------- */
+
+/* What stands on the stack replaces item i. */
+static qdot_status
+replace_item(layout *l, size_t i)
+{
+    const size_t n = l->todo.n;
+
+    QDOT_TRY(l->status);
+    for (size_t k = 1; k < n; k++)
+        QDOT_TRY(qdot_vec_push(&l->items, l->items.at[i]));
+    memmove(l->items.at + i + n, l->items.at + i + 1, (l->items.n - i - n) * sizeof *l->items.at);
+    for (size_t k = 0; k < n; k++)
+        l->items.at[i + k] = l->todo.at[n - 1 - k];
+    l->labels += i < l->labels ? n - 1 : 0;
+    l->todo.n = 0;
+    return QDOT_OK;
+}
+
+/* Item i, a name or a number, becomes two, of which the first is not wider than `room`. */
+static qdot_status
+cut_item(layout *l, size_t i, size_t room)
+{
+    const item x = l->items.at[i];
+    qdot_box whole = *box_of(l, x.box);
+    const size_t n = qdot_wrap_cut(l->boxes.text.at + whole.first, whole.count, room);
+
+    push_piece(l, whole, n, whole.count - n, x.depth);
+    whole.role = QDOT_BOX_NAME;
+    push_piece(l, whole, 0, n, x.depth);
+    return replace_item(l, i);
+}
+
+/* The widest of items [from, end) that has parts; `end` if there is none. */
+static size_t
+widest_of(const layout *l, size_t from, size_t end)
+{
+    size_t widest = end;
+
+    for (size_t i = from; i < end; i++) {
+        const qdot_box *b = box_of(l, l->items.at[i].box);
+
+        if (b->kind != QDOT_BOX_TEXT &&
+            (widest == end || b->columns > box_of(l, l->items.at[widest].box)->columns))
+            widest = i;
+    }
+    return widest;
+}
+
+/* The line of items [from, *end) from column x on is wider than the terminal: what has parts is taken apart, and the
+ * line is to be ended anew; where nothing has any it ends before the item that is too much, or within that. */
+static qdot_status
+narrow_line(layout *l, size_t from, size_t x, size_t *end)
+{
+    size_t i = widest_of(l, from, *end), columns;
+
+    if (i < *end) {
+        push_parts(l, *box_of(l, l->items.at[i].box), l->items.at[i].depth);
+        *end = 0;
+        return replace_item(l, i);
+    }
+    for (i = from; (columns = box_of(l, l->items.at[i].box)->columns) + x <= l->width; i++)
+        x += columns;
+    *end = i;
+    if (i > from && (columns + l->indent <= l->width || x + least_cut > l->width))
+        return QDOT_OK;
+    *end = 0;
+    return cut_item(l, i, l->width - x);
 }
 
 /* One line, items [from, end) from column x on; only counted if enough are drawn. */
@@ -337,6 +494,19 @@ layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, 
     return qdot_interrupt_check();
 }
 
+/* Of items [from, end) from column x on; a blank at the end is not drawn. */
+static bool
+is_too_wide(const layout *l, size_t from, size_t end, size_t x)
+{
+    const qdot_box *last = box_of(l, l->items.at[end - 1].box);
+    const bool blank = last->kind == QDOT_BOX_TEXT && last->count > 0 &&
+                       l->boxes.text.at[last->first + last->count - 1] == ' ';
+
+    for (size_t i = from; i < end; i++)
+        x += box_of(l, l->items.at[i].box)->columns;
+    return x > l->width + blank;
+}
+
 static qdot_status
 write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
 {
@@ -345,7 +515,11 @@ write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
 
         if (from > 0)
             QDOT_TRY(trim_first(l, from));
-        end = end_of_line(l, from, x);
+        do {
+            end = end_of_line(l, from, x);
+            if (is_too_wide(l, from, end, x))
+                QDOT_TRY(narrow_line(l, from, x, &end));
+        } while (end == 0);
         QDOT_TRY(layout_write_line(l, from, end, x, out, size));
     }
     return QDOT_OK;

@@ -7,7 +7,8 @@
  *
  * What is wider than the terminal is broken before = and signs, then between factors,
  * inside brackets only where it must be; the lines that follow are indented to what follows the
- * first =. Never inside a number or a name: such a line is longer.
+ * first =. No line is wider: names and numbers are cut where nothing else helps. Where the name of an
+ * answer takes several lines, its value begins on a line of its own.
  *
  * Tests  tests/formula/test_layout.c
  */

@@ -127,7 +127,53 @@ long_formulas_are_broken(void **state)
           "x = (aaaaaaaa\n"
           "    + bbbbbbbb)/c\n"
           "    + d\n");
-    draws(SPAN(NUMBER("123456789012345678901234567890")), 16, "123456789012345678901234567890\n");
+}
+
+/* What has parts is taken apart first; a name or a number is cut where it has none. What is higher than a line rather
+ * stands alone. */
+static void
+no_line_is_wider_than_the_terminal(void **state)
+{
+    const qdot_formula_id fraction = OVER(NAME("nnnnnnnnnnnnnn"), NAME("d"));
+
+    (void)state;
+    draws(SPAN(NUMBER("123456789012345678901234567890")), 16, "1234567890123456\n"
+                                                              "    789012345678\n"
+                                                              "    90\n");
+    draws(SPAN(NAME("f"), EQUALS, ROUND(NAME("aaaaa"), COMMA, NAME("bbbbbb"))), 17, "f = (aaaaa,\n"
+                                                                                   "    bbbbbb)\n");
+    draws(SPAN(NAME("abcdefghijk"), EQUALS, ROUND(NAME("aaaaa"), COMMA, NAME("bbbbb"))), 17, "abcdefghijk\n"
+                                                                                            "    = (aaaaa,\n"
+                                                                                            "    bbbbb)\n");
+    draws(SPAN(NAME("omega"), EQUALS, fraction), 18, "omega =\n"
+                                                     "    nnnnnnnnnnnnnn\n"
+                                                     "    ──────────────\n"
+                                                     "          d\n");
+    draws(SPAN(NAME("f"), EQUALS, POWER(ROUND(NAME("aaaaaaaaaaaaaaaaaaa")), NUMBER("2"))), 16,
+          "f = (aaaaaaaaaaa\n"
+          "    aaaaaaaa)²\n");
+    draws(SPAN(NAME("L"), EQUALS,
+               POWER(ROW(INDEX(DOTS(1, NAME("the")), ROW(NAME("angle"), COMMA, NAME("ofall")))), NUMBER("2"))),
+          16,
+          "L = t\u0307he_angle_\n"
+          "    ofall²\n");
+}
+
+/* The value of a name that takes several lines has its own; words before a name, or a text, are no name. */
+static void
+a_value_stands_behind_a_broken_name(void **state)
+{
+    (void)state;
+    draws(SPAN(WORDS("value("), WORDS("theta "), WORDS("+ "), WORDS("phi, "), WORDS("20)"), EQUALS, NUMBER("1")), 18,
+          "value(theta +\n"
+          "    phi, 20)\n"
+          "    = 1\n");
+    draws(SPAN(WORDS("value(theta*phi*psi,20)"), EQUALS, NUMBER("1.2345")), 16, "value(theta*phi*\n"
+                                                                              "    psi,20)\n"
+                                                                              "    = 1.2345\n");
+    draws(SPAN(WORDS("spring "), WORDS("number "), WORDS("1: "), WORDS("F"), EQUALS, NUMBER("1.5")), 17,
+          "spring number 1:\n"
+          "    F = 1.5\n");
 }
 
 /* Behind a label first, between words where that does not do; a minus behind one is no sign of two. */
@@ -274,6 +320,8 @@ main(void)
         TEST(scripts_are_raised_and_lowered),
         TEST(columns_of_matrices_are_aligned),
         TEST(long_formulas_are_broken),
+        TEST(no_line_is_wider_than_the_terminal),
+        TEST(a_value_stands_behind_a_broken_name),
         TEST(matrices_that_are_too_wide_are_broken_by_rows),
         TEST(words_before_a_formula_are_labels),
         TEST(lines_beyond_are_only_counted),

@@ -307,6 +307,40 @@ long_names_are_broken(void **state)
     setenv("LC_ALL", "C", 1);
 }
 
+/* Long names and numbers have no blanks: they are cut. The value of a name that is broken has its own line. */
+static void
+every_width_from_30_is_kept(void **state)
+{
+    static const char script[] =
+        "param the_stiffness_of_the_first_spring > 0, m > 0, J > 0\n"
+        "coord the_angle_of_the_pendulum_on_the_left, b\n"
+        "lagrangian m*the_angle_of_the_pendulum_on_the_left'^2/2 + J*b'^2/2 - "
+        "the_stiffness_of_the_first_spring*the_angle_of_the_pendulum_on_the_left*b\n"
+        "3^200\n"
+        "sqrt(the_stiffness_of_the_first_spring/m + sqrt((m*the_stiffness_of_the_first_spring - J*m)^2 + m*J))\n"
+        "lagrange_function; eom\n"
+        "[m, 1/(m*the_stiffness_of_the_first_spring + 1); 3, m*J^(the_stiffness_of_the_first_spring)]\n"
+        "set m = 1, J = 2, the_stiffness_of_the_first_spring = 3; start b = 0.1\n"
+        "run 0..2\n"
+        "value(the_angle_of_the_pendulum_on_the_left*the_angle_of_the_pendulum_on_the_left+b*b*b*b*b,1)\n"
+        "table the_angle_of_the_pendulum_on_the_left, the_angle_of_the_pendulum_on_the_left*b every 1\n"
+        "vars; scene; derive\n"
+        "nobodyhasthisname_nobodyhasthisname_nobodyhasthisname\n";
+
+    (void)state;
+    setenv("LC_ALL", "C.UTF-8", 1);
+    write_file("long-names.lag", script);
+    for (columns = 30; columns <= 100; columns += columns < 60 ? 1 : 7) {
+        start("long-names.lag");
+        finish();
+        assert_non_null(strstr(seen, "nobodyhasthisname"));
+        is_within(0, n_seen, columns);
+        assert_true(columns < 34 || columns > 60 || strstr(seen, "\n    = 0.023") != NULL);
+    }
+    columns = 120;
+    setenv("LC_ALL", "C", 1);
+}
+
 static void
 readme_shows_what_is_seen(void **state)
 {
@@ -340,6 +374,7 @@ main(void)
         cmocka_unit_test(texts_are_broken_at_blanks),
         cmocka_unit_test(wide_tables_are_folded),
         cmocka_unit_test(long_names_are_broken),
+        cmocka_unit_test(every_width_from_30_is_kept),
         cmocka_unit_test(readme_shows_what_is_seen),
     };
 
