@@ -33,6 +33,36 @@ by_style(const writer *w, const char *unicode, const char *latex)
     return w->style == QDOT_UNICODE ? unicode : latex;
 }
 
+/* What books call a value of the language in LaTeX: its letter where that is not declared, so that M is not both a mass
+ * and the mass matrix. NULL: nothing else. */
+static const char *
+symbol_of(const writer *w, const char *word)
+{
+    static const struct {
+        const char *word, *symbol;
+    } known[] = {{"mass_matrix", "M"},       {"momenta", "p"},     {"forces", "Q"},
+                 {"kinetic", "T"},           {"potential_energy", "V"}, {"lagrange_function", "L"},
+                 {"hamiltonian", "H"},       {"routhian", "R"}};
+
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(word, known[i].word) == 0 && qdot_names_find(w->session->names, known[i].symbol) == NULL)
+            return known[i].symbol;
+    return NULL;
+}
+
+/* Letters for LaTeX: a word of several, as virtual_work, is text with blanks. */
+static void
+add_upright(qdot_text *out, const char *word, bool called)
+{
+    const bool several = strchr(word, '_') != NULL;
+
+    qdot_text_add(out, called ? "\\operatorname{" : several ? "\\text{" : "\\mathrm{");
+    qdot_text_add(out, called && several ? "\\text{" : "");
+    for (; *word != '\0'; word++)
+        qdot_text_char(out, *word == '_' ? ' ' : *word);
+    qdot_text_add(out, called && several ? "}}" : "}");
+}
+
 /* A word that is not declared: of the language. */
 static void
 plain_word(writer *w, const char *word, bool called)
@@ -44,8 +74,10 @@ plain_word(writer *w, const char *word, bool called)
         const char *word, *sign;
     } joining[] = {{"and", "\\wedge"}, {"or", "\\vee"}, {"not", "\\neg"}};
 
-    if (w->style == QDOT_UNICODE || strlen(word) == 1) {
-        qdot_text_add(w->out, word);
+    const char *symbol = w->style == QDOT_LATEX ? symbol_of(w, word) : NULL;
+
+    if (w->style == QDOT_UNICODE || strlen(word) == 1 || symbol != NULL) {
+        qdot_text_add(w->out, symbol != NULL ? symbol : word);
         return;
     }
     for (size_t i = 0; i < sizeof joining / sizeof *joining; i++)
@@ -58,12 +90,7 @@ plain_word(writer *w, const char *word, bool called)
             qdot_text_format(w->out, "\\%s", word);
             return;
         }
-    qdot_text_add(w->out, called ? "\\operatorname{" : "\\mathrm{");
-    for (; *word != '\0'; word++) {
-        qdot_text_add(w->out, *word == '_' ? "\\" : "");
-        qdot_text_char(w->out, *word);
-    }
-    qdot_text_char(w->out, '}');
+    add_upright(w->out, word, called);
 }
 
 /* The length of `[1,2]` at `at`, an index that may be a member's; 0: it is none. */
