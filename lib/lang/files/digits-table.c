@@ -5,7 +5,7 @@
 #include "base/number-text.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/table-answer.h"
-#include "lang/files/data-file.h"
+#include "lang/runs/data-file.h"
 #include "lang/session/bind.h"
 
 /* The time as it is read and as files have it; texts of digits. */

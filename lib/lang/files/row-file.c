@@ -3,7 +3,7 @@
 
 #include "lang/answer/row-answer.h"
 #include "lang/figures/figure-file.h"
-#include "lang/files/data-file.h"
+#include "lang/runs/data-file.h"
 #include "lang/session/row-columns.h"
 
 qdot_row_table *

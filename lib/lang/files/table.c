@@ -11,7 +11,7 @@
 #include "lang/commands/handlers.h"
 #include "lang/declare/scene-file.h"
 #include "lang/figures/figure-file.h"
-#include "lang/files/data-file.h"
+#include "lang/runs/data-file.h"
 #include "lang/files/digits-table.h"
 #include "lang/files/row-file.h"
 #include "lang/language/read.h"

@@ -7,8 +7,8 @@
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/figures/figure-file.h"
+#include "lang/runs/data-file.h"
 #include "show/figure.h"
-#include "table/csv.h"
 #include "table/text.h"
 
 /* An error of 0 has no logarithm: it is drawn where rounding is. */
@@ -69,17 +69,18 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
 qdot_status
 qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_choice *panel)
 {
-    static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
-    bool good = false;
+    static const char *const drawn[] = {".svg", ".png", ".pdf"};
+    bool good;
 
     QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, figure, panel));
-    for (size_t i = 0; figure->path != NULL && i < sizeof known / sizeof *known; i++)
-        good = good || qdot_ends_in(figure->path, known[i]);
-    if (good || figure->path == NULL)
+    good = figure->path == NULL || qdot_data_file_is(figure->path);
+    for (size_t i = 0; !good && i < sizeof drawn / sizeof *drawn; i++)
+        good = qdot_ends_in(figure->path, drawn[i]);
+    if (good)
         return QDOT_OK;
     qdot_record_blame(r, qdot_record_hole(r, NULL, "T0..T1") + 1);
     (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold", figure->path);
-    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+    return qdot_hint("end its name in .csv, .txt, .json, .html, .h5, .svg, .png or .pdf");
 }
 
 qdot_status
@@ -139,12 +140,12 @@ tell_file(qdot_session *session, const qdot_error_study *of, const char *path)
     qdot_table t = {0};
     qdot_status status;
 
-    if (qdot_ends_in(path, ".csv")) {
+    if (!qdot_ends_in(path, ".txt")) {
         status = of->data(of->study, &t);
         if (status == QDOT_OK)
-            status = qdot_table_csv(&t, path);
+            status = qdot_data_file_write(session, NULL, &t, path);
         qdot_table_clear(&t);
-        return status == QDOT_OK ? qdot_answer_file(session, path) : status;
+        return status;
     }
     status = write_table(of, "", &text);
     if (status == QDOT_OK)
@@ -179,7 +180,7 @@ qdot_error_time_tell(qdot_session *session, const qdot_error_study *of)
     const char *path = of->figure.figure->path;
 
     QDOT_TRY(say_left_out(session, of->left_out));
-    if (path != NULL && (qdot_ends_in(path, ".csv") || qdot_ends_in(path, ".txt")))
+    if (path != NULL && qdot_data_file_is(path))
         return tell_file(session, of, path);
     QDOT_TRY(tell_table(session, of));
     if (of->interrupted && path == NULL)

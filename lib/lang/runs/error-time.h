@@ -24,7 +24,7 @@ typedef struct {
     const qdot_panel_choice *panel;
 } qdot_error_time;
 
-/* The options of such a statement; its file is a figure, .csv or .txt. Errors: QDOT_EINVAL. */
+/* The options of such a statement; its file is a figure or one of numbers. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
 /* The tolerance behind `tol`, 1e-16 to 1; 0: it was not said. */

@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/figures/figure-option.h"
+#include "lang/runs/data-file.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
 #include "lang/syntax/record.h"
@@ -56,25 +57,26 @@ exponents_answer(qdot_session *session, const qdot_exponents *x)
 }
 
 /* A row for each time: t, then the exponents up to there. */
-static void
-course(const qdot_exponents *x, bool csv, qdot_text *out)
+static qdot_status
+write_course(qdot_session *session, const qdot_exponents *x, const char *path)
 {
-    qdot_text_add(out, csv ? "t" : "# t");
-    for (size_t k = 0; k < x->n; k++) {
-        char name[40];
+    qdot_table_column *columns = qdot_calloc(x->n + 1, sizeof *columns);
+    char(*names)[40] = qdot_calloc(x->n, sizeof *names);
+    qdot_table t = {.n = x->n + 1, .rows = x->windows, .columns = columns};
+    qdot_status status = columns && names ? QDOT_OK : QDOT_ENOMEM;
 
-        exponent_name(x, k, name, sizeof name);
-        qdot_text_format(out, csv ? ",%s" : "  %s", name);
+    if (status == QDOT_OK)
+        columns[0] = (qdot_table_column){.name = "t", .values = x->t};
+    for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
+        exponent_name(x, k, names[k], sizeof names[k]);
+        columns[k + 1] = (qdot_table_column){
+            .name = names[k], .gap = 2, .values = x->course + k, .stride = x->n};
     }
-    qdot_text_char(out, '\n');
-    for (size_t w = 0; w < x->windows; w++) {
-        qdot_text_double(out, x->t[w], 17);
-        for (size_t k = 0; k < x->n; k++) {
-            qdot_text_add(out, csv ? "," : "  ");
-            qdot_text_double(out, x->course[w * x->n + k], 17);
-        }
-        qdot_text_char(out, '\n');
-    }
+    if (status == QDOT_OK)
+        status = qdot_data_file_write(session, NULL, &t, path);
+    qdot_free(names);
+    qdot_free(columns);
+    return status;
 }
 
 static qdot_status
@@ -115,19 +117,11 @@ static qdot_status
 exponents_tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 {
     const char *path = chosen->figure.path;
-    const bool csv = path != NULL && qdot_ends_in(path, ".csv");
-    qdot_text text = {0};
-    qdot_status status;
 
     QDOT_TRY(exponents_answer(session, x));
     if (path == NULL)
         return QDOT_OK;
-    if (!csv && !qdot_ends_in(path, ".txt"))
-        return figure(session, x, chosen);
-    course(x, csv, &text);
-    status = qdot_answer_in_file(session, path, &text);
-    qdot_text_clear(&text);
-    return status;
+    return qdot_data_file_is(path) ? write_course(session, x, path) : figure(session, x, chosen);
 }
 
 /* --- the statement --------------------------------------------------------------------------- */

@@ -35,4 +35,4 @@ longtime 0..1000' | qdot -
 echo 'coord x; particle a mass 1 at x; longtime 0..0' | qdot -
 echo 'coord x; particle a mass 1 at x; longtime 0..10 method euler' | qdot -
 echo 'coord x; particle a mass 1 at x; longtime 0..10 tol 2' | qdot -
-echo 'coord x; particle a mass 1 at x; longtime 0..10 to "x.h5"' | qdot -
+echo 'coord x; particle a mass 1 at x; longtime 0..10 to "x.doc"' | qdot -

@@ -48,3 +48,9 @@ qdot -q --json -e 'include "rods.lag"; lyapunov 0..300' |
 # how it settled
 qdot -q -e 'coord x; lagrangian x'"'"'^2/2 + x^2/2; lyapunov spectrum 0..60 to "saddle.csv"' 2>&1 | sed 's/±.*//'
 sed -n '1p;$p' saddle.csv | sed 's/\(\.[0-9]\{2\}\)[0-9]*/\1/g'; wc -l <saddle.csv
+# in every kind of file; the numbers are those of the .csv
+qdot -q -e 'coord x; lagrangian x'"'"'^2/2 + x^2/2; lyapunov 0..60 to "one.csv"; lyapunov 0..60 to "one.json"' \
+    -e 'lyapunov 0..60 to "one.html"; lyapunov 0..60 to "one.txt"' >/dev/null
+sed -n 1p one.txt; sed -n '/columns/p' one.json; grep -c '<tr>' one.html
+sed '1d' one.csv | tr -d ' ' >numbers
+sed -n '/rows/,$p' one.json | sed -n '2,$p' | tr -d '[]}' | sed 's/,$//' | cmp - numbers && echo the same numbers

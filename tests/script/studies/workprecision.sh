@@ -28,6 +28,6 @@ echo 'coord x; particle a mass 1 at x; workprecision 0..1' | qdot --json - |
     awk '/"kind":"row"/ { rows++ } /"kind":"row","values":\["taylor",0.001/ { print "a row of taylor" }
     END { print rows % 13, "left of rows by thirteen" }'
 # What cannot be said is refused before anything is integrated.
-echo 'coord x; particle a mass 1 at x; workprecision 0..1 to "wp.h5"' | qdot -
+echo 'coord x; particle a mass 1 at x; workprecision 0..1 to "wp.doc"' | qdot -
 echo 'coord x; particle a mass 1 at x; workprecision 0..0' | qdot -
 echo 'coord x; particle a mass 1 at x; workprecision 0..1 tol 1e-9' | qdot -

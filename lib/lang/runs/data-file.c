@@ -1,5 +1,5 @@
 /* data-file.c -- a table in a file by its ending, and the facts of its run. */
-#include "lang/files/data-file.h"
+#include "lang/runs/data-file.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,10 +28,16 @@ type_of(const char *path)
     return NONE;
 }
 
+bool
+qdot_data_file_is(const char *path)
+{
+    return type_of(path) != NONE;
+}
+
 qdot_status
 qdot_data_file_check(const char *path)
 {
-    if (type_of(path) != NONE)
+    if (qdot_data_file_is(path))
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file of numbers ends in .csv, .json, "
                                  ".txt, .html or .h5", path);
