@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <flint/ulong_extras.h>
+
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -86,6 +88,108 @@ factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, s
     return status;
 }
 
+/* --- roots of parameters ----------------------------------------------------------------- */
+
+/* Parameters written by v >= 0, v^n = base, where base^(1/n) stands: the field has no relations to factor modulo then.
+ * x^3 - 3 x^2 sqrt(c) + 3 x c - c sqrt(c) is (x - v)^3. */
+enum { MOST_ROOTS = 4, MOST_ORDER = 12 };
+
+struct roots {
+    uint32_t n;
+    qdot_expr v[MOST_ROOTS], root[MOST_ROOTS]; /* the i-th root may hold v of those before it */
+};
+
+/* A parameter of which base is a linear function, with a number as its slope; nil: there is none. */
+static qdot_expr
+linear_parameter(qdot_pool *pool, qdot_expr base, qdot_expr *slope)
+{
+    const qdot_expr atoms = qdot_expr_atoms(pool, base, true);
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++) {
+        const qdot_expr p = qdot_expr_arg(pool, atoms, i);
+
+        *slope = qdot_expr_is_class(pool, p, QDOT_PARAM) ? qdot_diff(pool, base, p) : QDOT_ZERO;
+        if (*slope != QDOT_NIL && *slope != QDOT_ZERO && qdot_expr_rational(pool, *slope) != NULL)
+            return p;
+    }
+    return QDOT_NIL;
+}
+
+/* The least n for which all powers of base in the nodes of w are those of base^(1/n), up to MOST_ORDER. */
+static ulong
+common_order(const qdot_pool *pool, const qdot_walk *w, qdot_expr base)
+{
+    ulong n = 1;
+
+    for (size_t i = 0; i < w->n; i++) {
+        const uint32_t count = qdot_expr_kind(pool, w->at[i]) == QDOT_PROD ? qdot_expr_count(pool, w->at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < count; k += 2) {
+            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, w->at[i], k + 1));
+
+            if (qdot_expr_arg(pool, w->at[i], k) == base && q != NULL && fmpz_cmp_ui(fmpq_denref(q), MOST_ORDER) <= 0)
+                n *= fmpz_get_ui(fmpq_denref(q)) / n_gcd(n, fmpz_get_ui(fmpq_denref(q)));
+        }
+    }
+    return n <= MOST_ORDER ? n : 1;
+}
+
+/* e with the first root of a linear function of a parameter written by v; e itself where there is none. */
+static qdot_expr
+without_root(qdot_pool *pool, qdot_expr e, struct roots *r)
+{
+    qdot_expr base = QDOT_NIL, p = QDOT_NIL, slope = QDOT_NIL, value, zero = QDOT_ZERO;
+    char name[24];
+    ulong order = 1;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && order == 1; i++) {
+        const uint32_t count = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < count && order == 1; k += 2) {
+            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
+
+            base = qdot_expr_arg(pool, w.at[i], k);
+            if (q == NULL || fmpz_is_one(fmpq_denref(q)))
+                continue;
+            p = linear_parameter(pool, base, &slope);
+            order = p == QDOT_NIL ? 1 : common_order(pool, &w, base);
+        }
+    }
+    qdot_walk_end(&w);
+    if (order == 1)
+        return e;
+    snprintf(name, sizeof name, "(root %u)", r->n);
+    r->v[r->n] = qdot_symbol_get(pool, QDOT_FORMAL, name);
+    qdot_symbol_domain(pool, r->v[r->n], QDOT_ZERO, false, QDOT_NIL, false);
+    r->root[r->n] = qdot_pow(pool, base, qdot_expr_ratio(pool, 1, (long)order));
+    value = qdot_sub(pool, qdot_pow_int(pool, r->v[r->n++], (long)order), qdot_subs(pool, base, 1, &p, &zero));
+    value = qdot_div(pool, value, slope);
+    return value == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, e, 1, &p, &value);
+}
+
+static qdot_expr
+without_roots(qdot_pool *pool, qdot_expr e, struct roots *r)
+{
+    qdot_expr last = QDOT_NIL;
+
+    while (e != QDOT_NIL && e != last && r->n < MOST_ROOTS) {
+        last = e;
+        e = without_root(pool, e, r);
+    }
+    return e;
+}
+
+static qdot_expr
+with_roots(qdot_pool *pool, qdot_expr e, const struct roots *r)
+{
+    for (uint32_t i = r->n; e != QDOT_NIL && i-- > 0;)
+        e = qdot_subs(pool, e, 1, &r->v[i], &r->root[i]);
+    return e;
+}
+
 /* --- guarded ----------------------------------------------------------------------------- */
 
 struct factoring {
@@ -97,16 +201,25 @@ static void
 list_factors(void *user)
 {
     struct factoring *x = user;
-    qdot_expr product = QDOT_NIL, *list = NULL;
+    struct roots roots = {0};
+    qdot_expr product = QDOT_NIL, *list = NULL, e = without_roots(x->pool, x->e, &roots);
     size_t n = 0;
-    qdot_status status = factors_of(x->pool, x->e, &product, &list, &n);
+    qdot_status status = qdot_pool_check(x->pool);
+
+    if (status == QDOT_EDOMAIN) { /* nowhere real as it stands */
+        e = x->e;
+        roots.n = 0;
+        status = QDOT_OK;
+    }
+    if (status == QDOT_OK)
+        status = factors_of(x->pool, e, &product, &list, &n);
 
     if (status != QDOT_OK)
         x->result = qdot_pool_fail(x->pool);
     else if (product == QDOT_NIL || product == QDOT_ZERO)
         x->result = qdot_list(x->pool, 1, product == QDOT_NIL ? &x->e : &product);
     else
-        x->result = qdot_list(x->pool, (uint32_t)n, list);
+        x->result = with_roots(x->pool, qdot_list(x->pool, (uint32_t)n, list), &roots);
     qdot_free(list);
 }
 
