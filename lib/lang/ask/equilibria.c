@@ -243,6 +243,8 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
 {
     qdot_text text = {0};
 
+    if (all->undefined != QDOT_NIL)
+        QDOT_TRY(answer_special(session, all->undefined, " the energy or a force has no value"));
     if (all->special != QDOT_NIL)
         QDOT_TRY(answer_special(session, all->special, " the places are others"));
     if (all->meeting != QDOT_NIL)

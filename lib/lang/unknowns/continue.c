@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"
@@ -193,6 +194,9 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
     }
     if (status == QDOT_OK && found.corners)
         status = tell_corners(session, &curve);
+    for (uint32_t i = 0; found.undefined != QDOT_NIL && i < qdot_expr_count(session->pool, found.undefined) && status == QDOT_OK; i++)
+        status = qdot_answer_notice_of(session, "where %s = 0 the energy or a force has no value",
+                                       qdot_expr_arg(session->pool, found.undefined, i));
     if (status == QDOT_OK && found.families)
         status = qdot_answer_notice(session, "some equilibria recur without end: of each such family one is followed");
     if (status == QDOT_OK)

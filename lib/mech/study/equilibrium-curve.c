@@ -297,6 +297,10 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
     }
     if (status == QDOT_OK)
         status = qdot_rest_find(&rest, bind_all, &value, &unused);
+    if (status == QDOT_EDOMAIN) { /* at this p the equations or the energy have no real value: nothing is at rest */
+        rest.found.n = 0;
+        status = QDOT_OK;
+    }
     if (status == QDOT_OK) {
         *at = qdot_calloc((rest.found.n + 1) * (c->n + 1), sizeof **at);
         status = *at ? QDOT_OK : QDOT_ENOMEM;

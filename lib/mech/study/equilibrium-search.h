@@ -99,6 +99,18 @@ QDOT_MUST_CHECK qdot_status qdot_rest_meetings(qdot_rest *r, qdot_expr *left);
 QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places,
                                               qdot_expr *special);
 
+/* Whether the conditions, a LIST, cannot hold where d = 0: put in for the first symbol that d gives.
+ * (equilibrium-special.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *yes);
+
+/* The conditions under which the energy and the forces have values, as they are written: to r->system.domain.
+ * (equilibrium-domain.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_domain(qdot_rest *r);
+/* What is 0 at single values of parameters at which the energy or a force has no value: at no place, to *everywhere (nil:
+ * there is no such value), or at one of the places found, to the LIST *special, which gets it if *everywhere has it not.
+ * (equilibrium-domain.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_undefined(const qdot_rest *r, qdot_expr *everywhere, qdot_expr *special);
+
 /* A coordinate whose open domain ends at a place that is singular in these coordinates alone (chart.h), where no rest is
  * looked for; NULL: none. (equilibrium-special.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_pole(const qdot_rest *r, const char **pole);

@@ -271,7 +271,27 @@ bind_rest(qdot_equilibrium_curve *c, qdot_rest *rest)
     rest->system.equations = c->bind(c->user, rest->system.equations);
     rest->forces = c->bind(c->user, rest->forces);
     rest->energy = rest->system.defined = c->bind(c->user, rest->energy);
-    return qdot_pool_check(c->pool);
+    QDOT_TRY(qdot_pool_check(c->pool));
+    return qdot_rest_domain(rest);
+}
+
+/* Walls at single values of p at which there is no energy or force. */
+static qdot_status
+add_walls_of_undefined(qdot_equilibrium_set *set, const qdot_rest *rest)
+{
+    qdot_pool *pool = set->c->pool;
+    qdot_expr all, unused = QDOT_NIL;
+
+    QDOT_TRY(qdot_rest_undefined(rest, &all, &unused));
+    for (uint32_t i = 0; all != QDOT_NIL && i < qdot_expr_count(pool, all); i++) {
+        const qdot_expr one = qdot_expr_arg(pool, all, i);
+        const size_t walls = set->wall.n;
+
+        QDOT_TRY(add_walls(set, one));
+        if (set->wall.n > walls)
+            set->undefined = qdot_list_appended(pool, set->undefined, 1, &one);
+    }
+    return qdot_pool_check(pool);
 }
 
 /* The equilibria with p left free, to rest->found. */
@@ -292,6 +312,8 @@ find_members(qdot_equilibrium_set *set, qdot_equilibrium_curve *c, qdot_rest *re
         status = qdot_rest_by_signs(rest, rest->forces, &c->judge->by_signs);
     for (size_t i = 0; i < rest->found.n && status == QDOT_OK; i++)
         status = member_add(set, rest, &rest->found.at[i]);
+    if (status == QDOT_OK)
+        status = add_walls_of_undefined(set, rest);
     for (size_t i = 0; i < set->member.n && status == QDOT_OK; i++)
         status = add_walls_of_member(set, &set->member.at[i]);
     return status;

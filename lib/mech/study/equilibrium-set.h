@@ -30,6 +30,7 @@ typedef struct {
     qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
     /* proved: at every p, but for single values, all equilibria are members, all walls are known */
     bool complete;
+    qdot_expr undefined;   /* a LIST of what is 0 where the energy or a force has no value, at single values in the range; or nil */
     bool families;         /* some equilibria belong to infinite families, of which one is a member of the set */
 } qdot_equilibrium_set;
 

@@ -16,9 +16,8 @@
 
 enum { MOST_SPECIAL = 8 };
 
-/* Whether the conditions cannot hold where d = 0: put in for the first symbol that d gives. */
-static qdot_status
-is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *yes)
+qdot_status
+qdot_rest_is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *yes)
 {
     qdot_pool *pool = r->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, d, true), at;
@@ -68,7 +67,7 @@ add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
             for (uint32_t m = 0; m < had && !out; m++)
                 out = qdot_expr_arg(pool, *special, m) == base;
             if (!out)
-                status = is_excluded(r, e->exists, base, &out);
+                status = qdot_rest_is_excluded(r, e->exists, base, &out);
             if (!out && status == QDOT_OK)
                 *special = qdot_list_appended(pool, *special, 1, &base);
         }

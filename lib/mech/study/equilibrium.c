@@ -368,7 +368,9 @@ qdot_rest_begin(qdot_rest *r, qdot_scene *s)
         status = QDOT_OK;
     }
     r->system.defined = r->energy;
-    return status == QDOT_OK ? find_unknowns(r) : status;
+    QDOT_TRY(status);
+    QDOT_TRY(qdot_rest_domain(r));
+    return find_unknowns(r);
 }
 
 void
@@ -466,6 +468,8 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
         status = qdot_rest_ends(&r, &out->special);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_meetings(&r, &out->meeting);
+    if (status == QDOT_OK && !first_only)
+        status = qdot_rest_undefined(&r, &out->undefined, &out->special);
     if (status == QDOT_OK && !first_only) /* behind the ends: these are not ends of what is assumed */
         status = keep_assumed(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))

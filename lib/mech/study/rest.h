@@ -33,6 +33,7 @@ typedef struct {
     double reach;         /* starts lay within +-reach if no domain is declared */
     size_t unproved;      /* starts that ended at an unproved zero within rounding */
     qdot_expr special;    /* a LIST of what values divide by: where one is 0 this is not the list; nil: none */
+    qdot_expr undefined;  /* a LIST of what is 0 where the energy or a force has no value at any place; nil: none */
     qdot_expr meeting;    /* a LIST of what is 0 where kinks meet: rests there may be others; nil: none */
     const char *pole;     /* a coordinate whose open domain ends where the chart alone is singular: a rest may be there,
                            * which is not looked for; NULL: none. The pool's */

@@ -167,6 +167,25 @@ add_domains(qdot_simultaneous *s, qdot_expr known, qdot_expr *set)
     return qdot_pool_check(pool);
 }
 
+/* The set and the conditions under which what must have a value has one as it is written, where the values of `known`
+ * are put in. */
+static qdot_expr
+add_domain_as_written(const qdot_simultaneous *s, qdot_expr known, qdot_expr set)
+{
+    qdot_pool *pool = s->pool;
+
+    if (s->domain == QDOT_NIL || s->domain == QDOT_FALSE)
+        return s->domain == QDOT_NIL ? set : QDOT_FALSE;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, s->domain) && set != QDOT_FALSE; i++) {
+        qdot_expr one = qdot_simultaneous_put(pool, qdot_expr_arg(pool, s->domain, i), known);
+
+        if (one == QDOT_NIL)
+            return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_FALSE : qdot_pool_fail(pool);
+        set = qdot_conditions_and(pool, set, qdot_solve_without_turns(pool, one));
+    }
+    return set;
+}
+
 /* Whether the equations may be 0 there: they have values (that a numerator vanishes is not enough), and none is
  * refuted inside the domains; *conditions gets where all of it is defined. */
 static qdot_status
@@ -189,6 +208,7 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
                                           qdot_conditions_of_domain(pool, there, QDOT_NIL));
         *conditions = qdot_conditions_all(pool, *conditions,
                                           qdot_conditions_of_domain(pool, also, QDOT_NIL));
+        *conditions = add_domain_as_written(s, b->known, *conditions);
         *conditions = qdot_conditions_at(pool, *conditions, 0, NULL, NULL, &s->facts);
         QDOT_TRY(qdot_pool_check(pool));
         *yes = *conditions != QDOT_FALSE;

@@ -38,6 +38,7 @@ typedef struct {
     qdot_facts facts;
     qdot_expr equations;            /* a LIST */
     qdot_expr defined;              /* what must have a value at a solution, beside them */
+    qdot_expr domain;               /* conditions (conditions.h) under which it has one, as it is written; nil: none */
     qdot_vec(qdot_expr) unknowns;   /* solved for from the last on, if nothing is easier */
     size_t places;                  /* the first of them, whose periods are looked for; the others have none */
     /* Whether the caller takes members of a family with this period, other than a turn, for alike; NULL: it does. */

@@ -37,6 +37,7 @@ typedef struct {
     bool conserved; /* of orbits: the energy is conserved */
     bool complete;  /* of equilibria, proved: there are no other branches, but for such at single values of p */
     bool families;  /* of equilibria: of those that recur without end one is followed */
+    qdot_expr undefined; /* of equilibria: a LIST of what is 0 at single p without an energy or a force; nil: none */
     bool corners;   /* of equilibria: where forces jump there may be others */
     bool interrupted;
 } qdot_continuation;

@@ -397,6 +397,7 @@ draw_exact(qdot_branch_search *s, qdot_equilibrium_set *set, double *y)
     s->all->complete = whole && !s->all->interrupted && s->all->left.n == 0;
     s->all->corners = !set->complete;
     s->all->families = set->families;
+    s->all->undefined = set->undefined;
     return QDOT_OK;
 }
 

@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
 #include "tape/derivative.h"
 
 /* Roots with real parts beyond GROWS of the fastest count as growing. */
@@ -14,6 +17,31 @@ rest_evaluate(qdot_path *path, const double *y)
     qdot_rest_path *x = (qdot_rest_path *)path;
 
     qdot_derivative_eval(x->tape, y, 0, path->n + 1, path->F, path->J, x->work);
+    if (x->energy != NULL && path->n > 0) {
+        double energy;
+
+        qdot_tape_eval(x->energy, y, &energy, x->work);
+        path->F[0] = isfinite(energy) ? path->F[0] : NAN;
+    }
+}
+
+/* The tape of the energy, where it depends on the unknowns and p alone. */
+static qdot_status
+energy_begin(qdot_rest_path *x)
+{
+    const qdot_equilibrium_curve *c = x->c;
+    const qdot_expr e = c->bind(c->user, c->rest.energy), atoms = e == QDOT_NIL ? QDOT_NIL : qdot_expr_atoms(c->pool, e, true);
+    const qdot_status status = qdot_pool_check(c->pool);
+
+    if (status != QDOT_OK)
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    for (uint32_t i = 0; i < qdot_expr_count(c->pool, atoms); i++) {
+        const qdot_expr one = qdot_expr_arg(c->pool, atoms, i);
+
+        if (!qdot_expr_is_class(c->pool, one, QDOT_CONST) && qdot_expr_place(c->n + 1, c->unknown, one) == c->n + 1)
+            return QDOT_OK;
+    }
+    return qdot_tape_new(c->pool, c->n + 1, c->unknown, 1, &e, &x->energy);
 }
 
 static qdot_status
@@ -41,6 +69,8 @@ end(const qdot_path *path, size_t i, bool upper, double p)
 qdot_status
 qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least, double most)
 {
+    size_t work;
+
     *x = (qdot_rest_path){.c = c};
     QDOT_TRY(qdot_path_begin(&x->path, c->n));
     x->path.coordinates = c->coordinates;
@@ -55,7 +85,11 @@ qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least,
     x->path.upright = 1e-14;
     x->path.dips = true;
     QDOT_TRY(qdot_tape_new(c->pool, c->n + 1, c->unknown, c->n, c->F, &x->tape));
-    x->work = qdot_malloc(qdot_derivative_work(x->tape) * sizeof *x->work);
+    QDOT_TRY(energy_begin(x));
+    work = qdot_derivative_work(x->tape);
+    if (x->energy != NULL && qdot_tape_work(x->energy) > work)
+        work = qdot_tape_work(x->energy);
+    x->work = qdot_malloc(work * sizeof *x->work);
     return x->work ? QDOT_OK : QDOT_ENOMEM;
 }
 
@@ -64,6 +98,7 @@ qdot_rest_path_end(qdot_rest_path *x)
 {
     qdot_path_end(&x->path);
     qdot_tape_free(x->tape);
+    qdot_tape_free(x->energy);
     qdot_free(x->work);
     *x = (qdot_rest_path){0};
 }

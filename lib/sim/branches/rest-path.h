@@ -13,6 +13,7 @@ typedef struct {
     qdot_path path; /* first: a pointer to it is one to this */
     qdot_equilibrium_curve *c; /* borrowed */
     qdot_tape *tape;           /* F */
+    qdot_tape *energy;         /* without a value of it there is no rest; NULL: it depends on more than u and p */
     double *work;
 } qdot_rest_path;
 

@@ -1,0 +1,150 @@
+/* equilibrium-domain.c -- where the energy and the forces have values, as they are written.
+ *
+ * Of x^2 (1 + log c) nothing is left at x = 0, and yet for c <= 0 there is no energy. So the conditions are those of
+ * each part as it stands, with the values of a place put in. What only if(...) chooses need not be defined.
+ * Parameters are generic: a place has no condition a != 0 of log(a^2) or 1/a. Such values are told with the list. */
+#include "expr/build.h"
+#include "expr/elementary.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
+#include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
+
+enum { MOST_TOLD = 8 };
+
+static qdot_expr
+choice_symbol(qdot_pool *pool)
+{
+    return qdot_symbol_get(pool, QDOT_FORMAL, "(choice)");
+}
+
+static qdot_expr
+choice_as_symbol(qdot_pool *pool, qdot_expr e, void *user)
+{
+    (void)user;
+    return qdot_expr_is_function(pool, e, QDOT_IF) ? choice_symbol(pool) : e;
+}
+
+typedef qdot_expr conditions_of(qdot_pool *pool, qdot_expr f, qdot_expr x);
+
+/* The set, and the conditions of e outside of if(...); `generic`: those of parameters alone. */
+static qdot_expr
+add_conditions(const qdot_rest *r, qdot_expr set, qdot_expr e, conditions_of *of, bool generic)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr all = qdot_walk_replace(pool, e, QDOT_FUN, choice_as_symbol, NULL);
+
+    all = all == QDOT_NIL ? QDOT_NIL : of(pool, all, QDOT_NIL);
+    for (uint32_t i = 0; all != QDOT_NIL && all != QDOT_FALSE && i < qdot_expr_count(pool, all); i++) {
+        qdot_expr one = qdot_expr_arg(pool, all, i);
+
+        if (!qdot_expr_contains(pool, one, choice_symbol(pool)) && (!generic || qdot_is_generic(pool, one)))
+            set = qdot_conditions_and(pool, set, one);
+    }
+    return set;
+}
+
+qdot_status
+qdot_rest_domain(qdot_rest *r)
+{
+    qdot_expr set = add_conditions(r, QDOT_NIL, r->energy, qdot_conditions_of_domain, false);
+
+    r->system.domain = add_conditions(r, set, r->forces, qdot_conditions_of_domain, true);
+    return qdot_pool_check(r->pool);
+}
+
+/* The set and that nothing is divided by 0. */
+static qdot_expr
+with_divisors(const qdot_rest *r, qdot_expr set)
+{
+    set = add_conditions(r, set, r->energy, qdot_conditions_of_divisors, false);
+    return add_conditions(r, set, r->forces, qdot_conditions_of_divisors, true);
+}
+
+/* What is 0 where a condition fails that generic parameters fulfil; nil: they do not, or it never fails. */
+static qdot_expr
+single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
+{
+    qdot_facts generic = *facts, exact = *facts;
+    const qdot_expr one = qdot_list(pool, 1, &condition);
+    qdot_expr left, u;
+
+    generic.exact = false;
+    exact.exact = true;
+    if (one == QDOT_NIL || qdot_conditions_at(pool, one, 0, NULL, NULL, &generic) != QDOT_NIL)
+        return QDOT_NIL;
+    left = qdot_conditions_at(pool, one, 0, NULL, NULL, &exact);
+    if (left == QDOT_NIL || left == QDOT_FALSE || qdot_expr_count(pool, left) != 1)
+        return QDOT_NIL;
+    u = qdot_conditions_nonzero(pool, qdot_expr_arg(pool, left, 0));
+    return u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
+}
+
+static bool
+has(const qdot_pool *pool, qdot_expr list, qdot_expr e)
+{
+    for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++)
+        if (qdot_expr_arg(pool, list, i) == e)
+            return true;
+    return false;
+}
+
+static void
+append_once(qdot_pool *pool, qdot_expr *list, qdot_expr e)
+{
+    if (!has(pool, *list, e) && (*list == QDOT_NIL || qdot_expr_count(pool, *list) < MOST_TOLD))
+        *list = qdot_list_appended(pool, *list, 1, &e);
+}
+
+/* What is 0 where the k-th place exists but for this condition; nil: there is no such value. */
+static qdot_status
+failure_at(const qdot_rest *r, size_t k, qdot_expr condition, qdot_expr *u)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_equilibrium *e = &r->found.at[k];
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    const qdot_facts facts = qdot_facts_and(pool, &r->facts, e->exists, room);
+    qdot_status status;
+    bool excluded = false;
+
+    *u = QDOT_NIL;
+    condition = qdot_simultaneous_put(pool, condition, e->equations);
+    if (condition != QDOT_NIL)
+        condition = qdot_solve_without_turns(pool, condition);
+    if (condition != QDOT_NIL && qdot_expr_kind(pool, condition) == QDOT_REL && qdot_is_generic(pool, condition))
+        *u = single_failure(pool, condition, &facts);
+    status = qdot_pool_check(pool);
+    if (status == QDOT_OK && *u != QDOT_NIL)
+        status = qdot_rest_is_excluded(r, e->exists, *u, &excluded);
+    if (excluded)
+        *u = QDOT_NIL;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+qdot_status
+qdot_rest_undefined(const qdot_rest *r, qdot_expr *everywhere, qdot_expr *special)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_expr set = with_divisors(r, r->system.domain);
+    qdot_expr others = *special;
+
+    *everywhere = *special = QDOT_NIL;
+    for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++)
+        for (size_t k = 0; k < r->found.n; k++) {
+            const qdot_expr condition = qdot_expr_arg(pool, set, i);
+            qdot_expr u;
+
+            if (r->found.at[k].numeric)
+                continue;
+            QDOT_TRY(failure_at(r, k, condition, &u));
+            if (u != QDOT_NIL)
+                append_once(pool, qdot_is_generic(pool, condition) ? everywhere : &others, u);
+        }
+    for (uint32_t i = 0; others != QDOT_NIL && i < qdot_expr_count(pool, others); i++)
+        if (!has(pool, *everywhere, qdot_expr_arg(pool, others, i)))
+            append_once(pool, special, qdot_expr_arg(pool, others, i));
+    return qdot_pool_check(pool);
+}
