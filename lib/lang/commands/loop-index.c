@@ -30,6 +30,7 @@ is_in_scene(const qdot_session *s, qdot_expr symbol)
         const qdot_event *event = &s->scene->events.at[i];
 
         if (is_in_any(s, event->values.n, event->values.at, symbol) ||
+            is_in_any(s, event->targets.n, event->targets.at, symbol) ||
             qdot_expr_contains(s->pool, event->left, symbol) ||
             qdot_expr_contains(s->pool, event->right, symbol))
             return true;
@@ -37,6 +38,38 @@ is_in_scene(const qdot_session *s, qdot_expr symbol)
     return is_in_any(s, s->set_values.n, s->set_values.at, symbol) ||
            is_in_any(s, s->start_values.n, s->start_values.at, symbol) ||
            qdot_scene_contains(s->scene, symbol);
+}
+
+static bool
+is_in_domains(const qdot_session *s, qdot_expr symbol)
+{
+    for (size_t i = 0; i < s->scene->coordinates.n; i++) {
+        const qdot_symbol *q = qdot_expr_symbol(s->pool, s->scene->coordinates.at[i]);
+
+        if ((q->lo != QDOT_NIL && qdot_expr_contains(s->pool, q->lo, symbol)) ||
+            (q->hi != QDOT_NIL && qdot_expr_contains(s->pool, q->hi, symbol)))
+            return true;
+    }
+    return false;
+}
+
+bool
+qdot_loop_index_is_read(const qdot_session *s, qdot_expr symbol)
+{
+    const char *name = qdot_expr_symbol(s->pool, symbol)->name;
+    const qdot_name *known;
+
+    if (!qdot_expr_is_class(s->pool, symbol, QDOT_PARAM) || is_in_scene(s, symbol) || is_in_domains(s, symbol))
+        return true;
+    for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++) {
+        if (known->kind == QDOT_NAME_VALUE && known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol))
+            return true;
+        for (const qdot_token *k = known->kind == QDOT_NAME_FUNCTION ? known->body->from : NULL;
+             k != NULL && k < known->body->to; k++)
+            if (qdot_token_is_word(k, name))
+                return true;
+    }
+    return false;
 }
 
 /* Whether the name that is no index itself stands for something with the symbol in it. */

@@ -11,4 +11,8 @@
 QDOT_MUST_CHECK qdot_status qdot_loop_index_check(qdot_cursor *c, const qdot_token *from,
                                                   const qdot_token *to, bool block);
 
+/* Whether a run may depend on the declared parameter or coordinate: what is declared, a value, the start, a definition or
+ * the end of a domain holds it. */
+bool qdot_loop_index_is_read(const qdot_session *session, qdot_expr symbol);
+
 #endif

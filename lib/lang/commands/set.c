@@ -7,6 +7,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "lang/commands/loop-index.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
@@ -311,6 +312,44 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
     return check_jet(&r->cursor, name->from, *jet);
 }
 
+/* The error that no run reads p[q]. */
+static qdot_status
+refuse_momentum(qdot_record *r, const qdot_filled *part)
+{
+    qdot_expr p;
+    const char *name;
+
+    QDOT_TRY(find_momentum(r, part, &p));
+    name = qdot_expr_symbol(r->cursor.session->pool, p)->name;
+    qdot_record_blame(r, part);
+    (void)qdot_fail(QDOT_EINVAL, "a run begins with velocities and does not read %.100s", name);
+    return qdot_hint("%.*s' = ... gives the velocity", (int)strlen(name) - 3, name + 2);
+}
+
+bool
+qdot_set_is_read(const qdot_record *r, const qdot_filled *part, qdot_expr symbol)
+{
+    const qdot_session *session = r->cursor.session;
+    const char *name = qdot_expr_symbol(session->pool, symbol)->name;
+
+    for (const qdot_token *k = r->start; k < r->cursor.at; k++)
+        if ((k < part->from || k >= part->to) && qdot_token_is_word(k, name))
+            return true;
+    return qdot_loop_index_is_read(session, symbol);
+}
+
+qdot_status
+qdot_set_need_read(qdot_record *r, const qdot_filled *part, qdot_expr symbol)
+{
+    const char *name = qdot_expr_symbol(r->cursor.session->pool, symbol)->name;
+
+    if (qdot_set_is_read(r, part, symbol))
+        return QDOT_OK;
+    qdot_record_blame(r, part);
+    (void)qdot_fail(QDOT_EINVAL, "nothing in the run depends on %.100s", name);
+    return qdot_hint("leave it out, or declare what depends on it");
+}
+
 qdot_status
 qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
 {
@@ -318,7 +357,7 @@ qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
     const char *name;
 
     if (qdot_set_is_momentum(r->cursor.session, part->from))
-        return qdot_set_find_parameter(r, part, symbol); /* its index is a coordinate, no number */
+        return refuse_momentum(r, part);
     QDOT_TRY(qdot_record_name(r, part, &name));
     known = qdot_names_find(r->cursor.session->names, name);
     return known != NULL && known->kind == QDOT_NAME_COORD ? qdot_set_find_jet(r, part, symbol)

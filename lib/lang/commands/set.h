@@ -17,8 +17,12 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_fi
                                                    qdot_expr *value);
 /* Whether p[NAME] at the token is a momentum: `p` is no name of the script. */
 bool qdot_set_is_momentum(const qdot_session *session, const qdot_token *p);
-/* A parameter, p[NAME], q or q'. */
+/* What a run is made with: a parameter, q or q'. QDOT_EINVAL of p[NAME], which no run reads. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
+/* Whether `symbol`, whose name the part is, stands elsewhere in the statement, or something in the scene depends on it;
+ * QDOT_EINVAL where neither is so. */
+bool qdot_set_is_read(const qdot_record *r, const qdot_filled *part, qdot_expr symbol);
+QDOT_MUST_CHECK qdot_status qdot_set_need_read(qdot_record *r, const qdot_filled *part, qdot_expr symbol);
 /* Numbers of runs in a value become rationals; what they make it is off by is kept, for who writes it
  * down (lang/declare/session-file). */
 QDOT_MUST_CHECK qdot_status qdot_set_keep_measured(qdot_session *session, qdot_expr *value);

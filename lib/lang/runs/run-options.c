@@ -4,6 +4,7 @@
 #include <limits.h>
 
 #include "expr/symbol.h"
+#include "lang/answer/answer.h"
 #include "lang/commands/set.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/token-text.h"
@@ -47,6 +48,10 @@ with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
     qdot_expr symbol, value;
 
     QDOT_TRY(qdot_set_find_symbol(r, part, &symbol));
+    /* of a run with a name its values can be read later: first.n */
+    if (qdot_record_word(r, "as") == NULL && !qdot_set_is_read(r, part, symbol))
+        QDOT_TRY(qdot_answer_notice(r->cursor.session, "nothing in the run depends on %.100s",
+                                    qdot_expr_symbol(r->cursor.session->pool, symbol)->name));
     QDOT_TRY(qdot_set_find_constant(r, qdot_record_next(r, part, "VALUE"), &value));
     qdot_record_blame(r, part);
     QDOT_TRY(qdot_session_in_domain(r->cursor.session, symbol, value));

@@ -202,6 +202,7 @@ symbol_find(qdot_record *r, qdot_sweep_axis *x)
     qdot_text text = {0};
 
     QDOT_TRY(qdot_set_find_symbol(r, x->place, &x->symbol));
+    QDOT_TRY(qdot_set_need_read(r, x->place, x->symbol));
     qdot_token_text(r->cursor.session, x->place->from, x->place->to, &text);
     if (qdot_text_status(&text) != QDOT_OK) {
         qdot_text_clear(&text);

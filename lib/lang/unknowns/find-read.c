@@ -83,10 +83,10 @@ symbol_find(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
     if (qdot_set_is_momentum(f->c->session, part->from))
         return qdot_slope_name_find(f->record, part, x);
     QDOT_TRY(qdot_record_name(f->record, part, &name));
-    return qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to &&
-                   such_names(f->record, name)
-               ? own_find(f, part, name, x)
-               : qdot_slope_name_find(f->record, part, x);
+    if (qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to && such_names(f->record, name))
+        return own_find(f, part, name, x);
+    QDOT_TRY(qdot_slope_name_find(f->record, part, x));
+    return qdot_set_need_read(f->record, part, x->symbol);
 }
 
 static qdot_status
