@@ -32,7 +32,7 @@ typedef struct {
     qdot_expr *e;            /* [n + slopes] residuals, then those slopes that are not 0 */
     size_t *row, *column;    /* [slopes] */
     double *lo, *hi;         /* [n] domains */
-    bool *angle;             /* [n] a full turn changes nothing */
+    bool *angle;             /* [n] no end, and a full turn changes nothing */
     double *value;           /* [n + slopes] at x */
     double *x, *try, *step;  /* [n] */
     double *rhs;             /* [n] */
@@ -58,6 +58,7 @@ static qdot_status
 problem_begin(problem *p, const qdot_rest *rest, const qdot_expr *r)
 {
     size_t n = p->n;
+    qdot_expr equations;
 
     p->e = qdot_calloc(n + n * n + 1, sizeof *p->e);
     p->row = qdot_calloc(2 * n * n + 1, sizeof *p->row);
@@ -89,9 +90,14 @@ problem_begin(problem *p, const qdot_rest *rest, const qdot_expr *r)
         }
     }
     QDOT_TRY(qdot_pool_check(p->pool));
+    equations = qdot_list(p->pool, (uint32_t)n, r);
+    QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < n; i++) {
-        p->lo[i] = domain_end(p->pool, qdot_rest_domain_end(rest, i, 0), -INFINITY);
-        p->hi[i] = domain_end(p->pool, qdot_rest_domain_end(rest, i, 1), INFINITY);
+        qdot_window w = qdot_rest_window(rest, i, equations);
+
+        p->angle[i] = w.turn;
+        p->lo[i] = w.turn ? -INFINITY : domain_end(p->pool, w.lo, -INFINITY);
+        p->hi[i] = w.turn ? INFINITY : domain_end(p->pool, w.hi, INFINITY);
     }
     return qdot_pool_check(p->pool);
 }
@@ -137,18 +143,6 @@ residual_square(const problem *p)
     for (size_t i = 0; i < p->n; i++)
         sum += p->value[i] * p->value[i];
     return sum;
-}
-
-/* Find the coordinates in which the equations are proved to repeat after a full turn. */
-static qdot_status
-find_angles(problem *p, const qdot_rest *rest)
-{
-    qdot_expr equations = qdot_list(p->pool, (uint32_t)p->n, p->e);
-
-    for (size_t k = 0; k < p->coordinates; k++)
-        p->angle[k] = isinf(p->lo[k]) && isinf(p->hi[k]) &&
-                      qdot_is_angle(rest->pool, equations, p->u[k], &rest->facts);
-    return qdot_pool_check(p->pool);
 }
 
 /* --- steps -------------------------------------------------------------------------------- */
@@ -396,8 +390,6 @@ search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 
     out->reach = ranges[RANGES - 1];
     if (status == QDOT_OK)
-        status = find_angles(&p, rest);
-    if (status == QDOT_OK)
         status = qdot_isolate_begin(&isolate, p.pool, p.n, r, p.u);
     if (status == QDOT_OK) {
         status = places_search(&p, &isolate, out);
@@ -412,8 +404,13 @@ qdot_status
 qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 {
     qdot_status status;
+    qdot_expr equations = qdot_list(rest->pool, (uint32_t)rest->searched, r);
 
     *out = (qdot_places){0};
+    QDOT_TRY(qdot_pool_check(rest->pool));
+    for (size_t k = 0; k < rest->system.places; k++)
+        rest->system.recurs = rest->system.recurs || qdot_rest_window(rest, k, equations).recurs;
+    QDOT_TRY(qdot_pool_check(rest->pool));
     out->at = qdot_calloc((MOST + 1) * rest->system.unknowns.n + 1, sizeof *out->at);
     status = out->at == NULL ? QDOT_ENOMEM : qdot_rest_exclude(rest, r, out);
     if (status == QDOT_OK && out->complete)

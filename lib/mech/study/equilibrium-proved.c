@@ -31,21 +31,38 @@ qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which)
     return end == QDOT_NIL || rest->bind == NULL ? end : rest->bind(rest->user, end);
 }
 
+qdot_window
+qdot_rest_window(const qdot_rest *rest, size_t k, qdot_expr equations)
+{
+    qdot_expr u = rest->system.unknowns.at[k];
+    const qdot_symbol *q = qdot_expr_symbol(rest->pool, u);
+    qdot_window w = {.lo = qdot_rest_domain_end(rest, k, 0),
+                     .hi = qdot_rest_domain_end(rest, k, 1),
+                     .lo_open = q->lo_open,
+                     .hi_open = q->hi_open};
+    bool angle = k < rest->system.places && (w.lo == QDOT_NIL || w.hi == QDOT_NIL) &&
+                 qdot_is_angle(rest->pool, equations, u, &rest->facts);
+
+    return angle ? qdot_window_turn(rest->pool, w) : w;
+}
+
 /* Where the k-th unknown is searched; false: its domain is not known in numbers. */
 static bool
 unknown_range(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
 {
-    const qdot_symbol *q = qdot_expr_symbol(rest->pool, rest->system.unknowns.at[k]);
+    qdot_window w;
 
     *range = (qdot_zeros_range){.group = k >= rest->system.places};
     if (k >= rest->system.places)
         return true;
-    range->lo = qdot_rest_domain_end(rest, k, 0);
-    range->hi = qdot_rest_domain_end(rest, k, 1);
-    range->lo_open = q->lo_open;
-    range->hi_open = q->hi_open;
-    range->turn = q->lo == QDOT_NIL && q->hi == QDOT_NIL &&
-                  qdot_is_angle(rest->pool, equations, rest->system.unknowns.at[k], &rest->facts);
+    w = qdot_rest_window(rest, k, equations);
+    range->turn = w.turn;
+    if (w.turn)
+        return true;
+    range->lo = w.lo;
+    range->hi = w.hi;
+    range->lo_open = w.lo_open;
+    range->hi_open = w.hi_open;
     return domain_end_is_constant(rest->pool, range->lo) && domain_end_is_constant(rest->pool, range->hi);
 }
 

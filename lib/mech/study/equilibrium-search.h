@@ -140,6 +140,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_search(qdot_rest *rest, const qdot_expr *r
 /* An end of the domain of the k-th unknown (0: the lower) with the values of parameters put in; nil: there is
  * none. */
 qdot_expr qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which);
+/* Where the k-th unknown is looked for: its domain, with the values of parameters put in; of an angle one turn of it. */
+qdot_window qdot_rest_window(const qdot_rest *rest, size_t k, qdot_expr equations);
 /* Add to *out all equilibria that are found by excluding the rest of a box; out->complete: there are no others.
  * (equilibrium-proved.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r,

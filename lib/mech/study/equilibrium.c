@@ -130,9 +130,16 @@ unset(const qdot_rest *r, qdot_expr e)
     return NULL;
 }
 
+/* Whether a value of u that is `off` from a known one is the same: of an angle in `angles`, a LIST, also turns away. */
+static bool
+value_is_known(const qdot_pool *pool, qdot_expr angles, qdot_expr u, double off)
+{
+    return fabs(qdot_expr_contains(pool, angles, u) ? remainder(off, 2 * M_PI) : off) < 1e-7;
+}
+
 /* Whether the place x [searched] is one of those known exactly. */
 static bool
-place_is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
+place_is_known(const qdot_rest *r, const double *x, qdot_expr angles, qdot_binder bind, void *user)
 {
     for (size_t i = 0; i < r->found.n; i++) {
         qdot_expr all = r->found.at[i].equations;
@@ -150,7 +157,7 @@ place_is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user
                        r->pool, 1, &e,
                        &(qdot_generic_point){r->searched, r->system.unknowns.at, x, 1},
                        &off) == QDOT_OK &&
-                   fabs(off) < 1e-7;
+                   value_is_known(r->pool, angles, qdot_expr_arg(r->pool, one, 0), off);
         }
         if (same)
             return true;
@@ -170,8 +177,20 @@ is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
     return QDOT_OK;
 }
 
+/* Of the coordinates those that are angles in `equations`, a LIST. */
+static qdot_expr
+rest_angles(const qdot_rest *r, qdot_expr equations)
+{
+    qdot_expr angles = qdot_list(r->pool, 0, NULL);
+
+    for (size_t k = 0; k < r->system.places; k++)
+        if (qdot_rest_window(r, k, equations).turn)
+            angles = qdot_list_appended(r->pool, angles, 1, &r->system.unknowns.at[k]);
+    return angles;
+}
+
 static qdot_status
-add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user)
+add_places(qdot_rest *r, const qdot_places *places, qdot_expr angles, qdot_binder bind, void *user)
 {
     size_t n = r->searched;
     qdot_expr *list = qdot_malloc((n + 1) * sizeof *list),
@@ -185,7 +204,7 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user
         status = is_defined(r, places->at + k * n, energy, &defined);
         if (status != QDOT_OK || !defined)
             continue;
-        if (place_is_known(r, places->at + k * n, bind, user))
+        if (place_is_known(r, places->at + k * n, angles, bind, user))
             continue;
         for (size_t i = 0; i < n; i++)
             list[i] = qdot_rel(r->pool, QDOT_EQ, r->system.unknowns.at[i],
@@ -248,7 +267,7 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
         out->starts = places.starts;
         out->reach = places.reach;
         out->unproved = places.unproved;
-        status = add_places(r, &places, bind, user);
+        status = add_places(r, &places, rest_angles(r, bound), bind, user);
         qdot_places_clear(&places);
     }
     qdot_free(e);
