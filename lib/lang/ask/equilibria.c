@@ -246,7 +246,8 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
     if (all->undefined != QDOT_NIL)
         QDOT_TRY(answer_special(session, all->undefined, " the energy or a force has no value"));
     if (all->special != QDOT_NIL)
-        QDOT_TRY(answer_special(session, all->special, " the places are others"));
+        QDOT_TRY(answer_special(session, all->special,
+                                all->n > 0 ? " the places are others" : " there may be equilibria"));
     if (all->meeting != QDOT_NIL)
         QDOT_TRY(answer_special(session, all->meeting, " kinks meet: the places may be others"));
     if (all->recurs)

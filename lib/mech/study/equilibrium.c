@@ -468,6 +468,24 @@ keep_assumed(qdot_rest *r)
     return qdot_pool_check(r->pool);
 }
 
+/* What of parameters alone must not be 0 for there to be none, a LIST: the forces 2 (a - 1) x exp(x) at x > 0. */
+static qdot_status
+none_but_where(qdot_rest *r, qdot_expr *special)
+{
+    for (size_t i = 0; i < r->system.special.n; i++) {
+        qdot_expr e = r->system.special.at[i];
+
+        if (qdot_expr_kind(r->pool, e) == QDOT_PROD) /* without the number in front */
+            e = qdot_div(r->pool, e, qdot_expr_arg(r->pool, e, 0));
+        QDOT_TRY(qdot_pool_check(r->pool));
+        if (*special == QDOT_NIL)
+            *special = qdot_list(r->pool, 1, &e);
+        else
+            *special = qdot_list_appended(r->pool, *special, 1, &e);
+    }
+    return qdot_pool_check(r->pool);
+}
+
 static qdot_status
 equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
 {
@@ -481,6 +499,8 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
         status = keep_assumed(&r);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, r.found.n, r.found.at, &out->special);
+    if (status == QDOT_OK && !first_only && r.found.n == 0 && r.system.complete)
+        status = none_but_where(&r, &out->special);
     if (status == QDOT_OK)
         status = rest_judge(&r, out->special, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
