@@ -503,6 +503,7 @@ qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdo
     if (x == QDOT_NIL || NODE(pool, x)->kind != QDOT_SYM)
         return;
     s = &pool->symbols.at[NODE(pool, x)->at];
+    pool->domains += s->lo != lo || s->hi != hi || s->lo_open != lo_open || s->hi_open != hi_open;
     s->lo = lo;
     s->hi = hi;
     s->lo_open = lo_open;
@@ -566,6 +567,7 @@ qdot_pool_free(qdot_pool *pool)
     qdot_free(pool->table);
     qdot_arena_free(pool->arena);
     qdot_printed_free(pool->printed);
+    qdot_free(pool->memo);
     qdot_free(pool);
 }
 

@@ -10,6 +10,8 @@
 #include "expr/rational.h"
 #include "expr/symbol.h"
 
+typedef struct qdot_memo qdot_memo;
+
 struct qdot_pool {
     qdot_vec(qdot_node) nodes;     /* [0] is nil */
     qdot_vec(qdot_expr) args;
@@ -23,6 +25,8 @@ struct qdot_pool {
     uint64_t budget;
     bool unfinished;
     struct qdot_printed *printed; /* texts, a cache: printing leaves the pool as it is */
+    qdot_memo *memo;              /* answers (expr/memo), NULL: none was kept yet */
+    uint32_t domains;             /* how often the domain of a symbol changed */
 };
 
 /* The node with these args, made if new; args may lie in the pool. Nil on failure. */

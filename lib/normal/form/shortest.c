@@ -3,10 +3,12 @@
 
 #include <math.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
+#include "expr/memo.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
@@ -525,13 +527,25 @@ qdot_shortest_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int6
     return status == QDOT_OK ? x.result : e;
 }
 
+/* What is kept of a simplification. */
+struct simplified {
+    qdot_expr result;
+    bool spent;
+};
+
 qdot_expr
 qdot_shortest(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
-    bool spent;
+    /* conditions do not matter, relations do */
+    const bool keep = (facts == NULL || facts->n_relations == 0) && !qdot_pool_failed(pool);
+    struct simplified s;
 
-    e = qdot_shortest_within(pool, e, facts, QDOT_SHORTEST_WORK, &spent);
-    if (spent)
+    if (!keep || !qdot_memo_find(pool, e, QDOT_MEMO_SHORTEST, &s, sizeof s)) {
+        s.result = qdot_shortest_within(pool, e, facts, QDOT_SHORTEST_WORK, &s.spent);
+        if (keep && s.result != QDOT_NIL && !qdot_interrupt_flag)
+            qdot_memo_keep(pool, e, QDOT_MEMO_SHORTEST, &s, sizeof s);
+    }
+    if (s.spent)
         qdot_pool_unfinished(pool);
-    return e;
+    return s.result;
 }

@@ -10,6 +10,7 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
+#include "expr/memo.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -414,14 +415,55 @@ decide_order(void *user)
     x->status = less_decide(x->pool, x->left, x->right, x->strict, x->facts, &x->d);
 }
 
+/* --- questions asked again ---------------------------------------------------------- */
+
+/* What is kept of a decision: also whether a simplification on the way stopped at its budget. */
+struct decided {
+    qdot_decision d;
+    bool unfinished;
+};
+
+/* left, right and all facts as one expression. Nil: nothing can be kept of it. */
+static qdot_expr
+question_as_list(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts)
+{
+    static const qdot_facts nothing = {0};
+    const qdot_facts *f = facts == NULL ? &nothing : facts;
+    qdot_expr all[5] = {left, right, QDOT_NIL, QDOT_NIL, f->defined};
+
+    if (left == QDOT_NIL || right == QDOT_NIL || qdot_pool_failed(pool))
+        return QDOT_NIL;
+    all[2] = qdot_list(pool, (uint32_t)f->n_conditions, f->conditions);
+    all[3] = qdot_list(pool, (uint32_t)f->n_relations, f->relations);
+    return qdot_list(pool, f->defined == QDOT_NIL ? 4 : 5, all);
+}
+
 qdot_status
 qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
                  const qdot_facts *facts, qdot_decision *d)
 {
     struct order x = {pool, left, right, strict, facts, {.verdict = QDOT_UNDECIDED}, 0};
-    qdot_status status = qdot_flint_run(pool, decide_order, &x);
+    const qdot_expr question = question_as_list(pool, left, right, facts);
+    const uint32_t asked = QDOT_MEMO_LESS | (uint32_t)strict | (uint32_t)(facts != NULL && facts->exact) << 1 |
+                           (facts == NULL ? 0 : facts->free_derivatives) << 2;
+    struct decided known;
+    bool before;
+    qdot_status status;
 
+    if (qdot_memo_find(pool, question, asked, &known, sizeof known)) {
+        if (known.unfinished)
+            qdot_pool_unfinished(pool);
+        *d = known.d;
+        return QDOT_OK;
+    }
+    before = qdot_pool_unfinished_taken(pool);
+    status = qdot_flint_run(pool, decide_order, &x);
     *d = status == QDOT_OK ? x.d : (qdot_decision){.verdict = QDOT_UNDECIDED};
+    known = (struct decided){*d, qdot_pool_unfinished_taken(pool)};
+    if (before || known.unfinished)
+        qdot_pool_unfinished(pool);
+    if (status == QDOT_OK && x.status == QDOT_OK && !qdot_pool_failed(pool) && !qdot_interrupt_flag)
+        qdot_memo_keep(pool, question, asked, &known, sizeof known);
     return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
 }
 
