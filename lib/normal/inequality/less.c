@@ -21,7 +21,7 @@
 #include "normal/inequality/inequality.h"
 #include "normal/refute/sample.h"
 
-enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200 };
+enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200, FEW_TRIES = 8 };
 
 /* --- domains moved to zero, boxes -------------------------------------------------- */
 
@@ -175,6 +175,28 @@ enough(uint8_t sign, bool strict)
     return strict ? (sign & QDOT_POS) == QDOT_POS : (sign & QDOT_GE0) != 0;
 }
 
+/* Whether d is seen to be negative at one of a few points of the declared domains: then no proof is tried, which would
+ * simplify and factor d in vain. */
+static bool
+is_negative_somewhere(qdot_pool *pool, qdot_expr d)
+{
+    bool negative = false;
+    qdot_sample s;
+
+    if (d == QDOT_NIL || qdot_sample_begin(&s, pool, 1, &d, NULL) != QDOT_OK)
+        return false;
+    for (int k = 0; s.possible && k < FEW_TRIES && !negative; k++) {
+        qdot_sample_point(&s, k);
+        if (qdot_sample_eval(&s, 64)) {
+            arb_srcptr value = qdot_ball_get(&s.ball, d);
+
+            negative = value != NULL && arb_is_negative(value);
+        }
+    }
+    qdot_sample_end(&s);
+    return negative;
+}
+
 static bool
 proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 {
@@ -182,7 +204,10 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 
     if (enough(qdot_expr_sign(pool, d), strict))
         return true;
-    s = qdot_shortest(pool, qdot_known_signs(pool, d, facts), facts);
+    d = qdot_known_signs(pool, d, facts);
+    if ((facts == NULL || facts->n_relations == 0) && is_negative_somewhere(pool, d))
+        return false;
+    s = qdot_shortest(pool, d, facts);
     if (s == QDOT_NIL)
         return false;
     if (enough(qdot_expr_sign(pool, s), strict) || enough(qdot_sign_by_factors(pool, s), strict))
