@@ -14,6 +14,7 @@
 #include "expr/walk.h"
 #include "normal/field/prepare.h"
 #include "normal/form/shortest.h"
+#include "normal/inequality/linear-rows.h"
 #include "normal/inequality/question.h"
 #include "normal/prove/decide.h"
 #include "normal/prove/domain.h"
@@ -227,6 +228,7 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
 {
     qdot_cells result = QDOT_CELLS_UNKNOWN;
     qdot_expr point = QDOT_NIL;
+    bool linear;
 
     *proved = false;
     if (!q->too_much && q->e != QDOT_NIL && qdot_is_constant(pool, q->e)) {
@@ -247,14 +249,19 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
         drop_unconnected(pool, q);
     if (q->too_much || qdot_pool_failed(pool))
         return qdot_grave(qdot_pool_check(pool));
-    QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));
+    QDOT_TRY(qdot_linear_decide(pool, q->e, q->n, q->condition, &result));
+    linear = result != QDOT_CELLS_UNKNOWN;
+    if (!linear || (q->exact && result >= QDOT_CELLS_NOT_NEGATIVE)) { /* a point may refute it */
+        linear = false;
+        QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));
+    }
     *any |= result > QDOT_CELLS_EMPTY;
     switch (result) {
     case QDOT_CELLS_EMPTY: *proved = !q->chosen; break;
     case QDOT_CELLS_POSITIVE: *proved = true; break;
     case QDOT_CELLS_NOT_NEGATIVE:
         *proved = !strict;
-        if (strict)
+        if (strict && !linear)
             QDOT_TRY(with_margin(pool, q, proved));
         break;
     case QDOT_CELLS_ZERO:

@@ -1,0 +1,237 @@
+/* linear-rows.c -- Fourier and Motzkin's elimination over the integers. */
+#include "normal/inequality/linear-rows.h"
+
+#include <flint/fmpq.h>
+#include <flint/fmpz_vec.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "expr/build.h"
+#include "expr/calculus.h"
+#include "expr/exact.h"
+#include "expr/node.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
+
+enum { MOST_SYMBOLS = 12, MOST_ROWS = 160 };
+
+/* c[0] x[0] + ... + c[width - 2] x[width - 2] + c[width - 1] > 0, or >= 0 where weak. */
+typedef struct {
+    fmpz *c; /* [width] */
+    bool weak;
+} row;
+
+typedef struct {
+    slong width;
+    qdot_vec(row) row;
+    bool wrong;    /* a row without symbols does not hold */
+    bool too_much; /* rows, or no memory */
+} rows;
+
+static void
+rows_clear(rows *s)
+{
+    for (size_t i = 0; i < s->row.n; i++)
+        _fmpz_vec_clear(s->row.at[i].c, s->width);
+    qdot_free(s->row.at);
+}
+
+/* Add a row, which is taken over: without its common factor, once. */
+static void
+rows_add(rows *s, fmpz *c, bool weak)
+{
+    const slong symbols = s->width - 1;
+    bool keep = true;
+    fmpz_t common;
+
+    fmpz_init(common);
+    _fmpz_vec_content(common, c, s->width);
+    if (!fmpz_is_zero(common))
+        _fmpz_vec_scalar_divexact_fmpz(c, c, s->width, common);
+    fmpz_clear(common);
+    if (_fmpz_vec_is_zero(c, symbols)) {
+        const int sign = fmpz_sgn(c + symbols);
+
+        s->wrong |= sign < 0 || (sign == 0 && !weak);
+        keep = false;
+    }
+    for (size_t i = 0; i < s->row.n && keep; i++)
+        if (_fmpz_vec_equal(s->row.at[i].c, c, s->width)) {
+            s->row.at[i].weak &= weak;
+            keep = false;
+        }
+    if (keep && (s->row.n >= MOST_ROWS || qdot_vec_push(&s->row, ((row){c, weak})) != QDOT_OK)) {
+        s->too_much = true;
+        keep = false;
+    }
+    if (!keep)
+        _fmpz_vec_clear(c, s->width);
+}
+
+/* The sum of two rows in which the symbol v drops out; up has a positive coefficient of it, down a negative one. */
+static void
+rows_add_without(rows *s, const row *up, const row *down, slong v)
+{
+    fmpz *c = _fmpz_vec_init(s->width);
+    fmpz_t factor;
+
+    fmpz_init(factor);
+    fmpz_neg(factor, down->c + v);
+    _fmpz_vec_scalar_mul_fmpz(c, up->c, s->width, factor);
+    _fmpz_vec_scalar_addmul_fmpz(c, down->c, s->width, up->c + v);
+    fmpz_clear(factor);
+    rows_add(s, c, up->weak && down->weak);
+}
+
+/* The symbol whose elimination makes the fewest rows; -1: no row has a symbol. */
+static slong
+rows_next_symbol(const rows *s)
+{
+    slong best = -1;
+    size_t fewest = 0;
+
+    for (slong v = 0; v < s->width - 1; v++) {
+        size_t up = 0, down = 0;
+
+        for (size_t i = 0; i < s->row.n; i++) {
+            up += fmpz_sgn(s->row.at[i].c + v) > 0;
+            down += fmpz_sgn(s->row.at[i].c + v) < 0;
+        }
+        if (up + down > 0 && (best < 0 || up * down < fewest)) {
+            best = v;
+            fewest = up * down;
+        }
+    }
+    return best;
+}
+
+/* Eliminate v. */
+static void
+rows_eliminate(rows *s, slong v)
+{
+    rows from = *s;
+
+    s->row.at = NULL;
+    s->row.n = s->row.capacity = 0;
+    for (size_t i = 0; i < from.row.n && !s->wrong && !s->too_much; i++) {
+        const row *up = &from.row.at[i];
+        const int sign = fmpz_sgn(up->c + v);
+
+        if (sign == 0) {
+            fmpz *c = _fmpz_vec_init(s->width);
+
+            _fmpz_vec_set(c, up->c, s->width);
+            rows_add(s, c, up->weak);
+        }
+        for (size_t j = 0; j < from.row.n && sign > 0 && !s->wrong && !s->too_much; j++)
+            if (fmpz_sgn(from.row.at[j].c + v) < 0)
+                rows_add_without(s, up, &from.row.at[j], v);
+    }
+    rows_clear(&from);
+}
+
+/* --- expressions as rows ---------------------------------------------------------------- */
+
+/* The coefficients of e in the symbols, then e where all of them are 0. False: e is not linear. */
+static bool
+coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbol, fmpq *q)
+{
+    qdot_expr zero[MOST_SYMBOLS];
+
+    if (e == QDOT_NIL || (qdot_expr_node(pool, e)->holds & (QDOT_HAS_FUN | QDOT_HAS_UFUN)) != 0)
+        return false;
+    for (uint32_t v = 0; v <= n; v++) {
+        const qdot_expr c = v < n ? qdot_diff(pool, e, symbol[v]) : qdot_subs(pool, e, n, symbol, zero);
+        const fmpq *x = c == QDOT_NIL ? NULL : qdot_expr_rational(pool, c);
+
+        if (x == NULL)
+            return false;
+        fmpq_set(q + v, x);
+        if (v < n)
+            zero[v] = QDOT_ZERO;
+    }
+    return true;
+}
+
+/* Add the row sign e > 0 (or >= 0), sign 1 or -1. False: e is not linear. */
+static bool
+rows_add_expression(rows *s, qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, int sign, bool weak)
+{
+    fmpq q[MOST_SYMBOLS + 1];
+    bool linear;
+
+    for (slong v = 0; v < s->width; v++)
+        fmpq_init(q + v);
+    linear = coefficients_of(pool, e, (uint32_t)s->width - 1, symbol, q);
+    if (linear) {
+        fmpz *c = _fmpz_vec_init(s->width);
+        fmpz_t common;
+
+        fmpz_init_set_si(common, 1);
+        for (slong v = 0; v < s->width; v++)
+            fmpz_lcm(common, common, fmpq_denref(q + v));
+        for (slong v = 0; v < s->width; v++) {
+            fmpz_divexact(c + v, common, fmpq_denref(q + v));
+            fmpz_mul(c + v, c + v, fmpq_numref(q + v));
+            fmpz_mul_si(c + v, c + v, sign);
+        }
+        fmpz_clear(common);
+        rows_add(s, c, weak);
+    }
+    for (slong v = 0; v < s->width; v++)
+        fmpq_clear(q + v);
+    return linear;
+}
+
+/* --- the function ------------------------------------------------------------------------ */
+
+typedef enum { NOT_KNOWN, CONTRADICTION, POSSIBLE } rows_verdict;
+
+/* Whether the conditions and, unless e is nil, -e > 0 (or >= 0) contradict each other. */
+static rows_verdict
+rows_decide(qdot_pool *pool, qdot_expr e, bool weak, size_t n, const qdot_cells_condition *condition, qdot_expr atoms)
+{
+    rows s = {.width = (slong)qdot_expr_count(pool, atoms) + 1};
+    qdot_expr symbol[MOST_SYMBOLS];
+    bool linear = true;
+    slong v;
+
+    for (slong k = 0; k + 1 < s.width; k++)
+        symbol[k] = qdot_expr_arg(pool, atoms, (uint32_t)k);
+    for (size_t i = 0; i < n && linear; i++)
+        linear = rows_add_expression(&s, pool, condition[i].gap, symbol, 1, condition[i].weak);
+    if (e != QDOT_NIL && linear)
+        linear = rows_add_expression(&s, pool, e, symbol, -1, weak);
+    while (linear && !s.wrong && !s.too_much && !qdot_interrupt_flag && (v = rows_next_symbol(&s)) >= 0)
+        rows_eliminate(&s, v);
+    rows_clear(&s);
+    return !linear || s.too_much || qdot_interrupt_flag ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
+}
+
+qdot_status
+qdot_linear_decide(qdot_pool *pool, qdot_expr e, size_t n, const qdot_cells_condition *condition, qdot_cells *result)
+{
+    qdot_expr all = e, atoms;
+    rows_verdict conditions, not_above, below;
+
+    *result = QDOT_CELLS_UNKNOWN;
+    for (size_t i = 0; i < n; i++)
+        all = qdot_list(pool, 2, (qdot_expr[]){all, condition[i].gap});
+    atoms = qdot_expr_atoms(pool, all, false);
+    if (atoms == QDOT_NIL)
+        return qdot_grave(qdot_pool_check(pool));
+    if (qdot_expr_count(pool, atoms) > MOST_SYMBOLS)
+        return QDOT_OK;
+    conditions = rows_decide(pool, QDOT_NIL, false, n, condition, atoms);
+    not_above = conditions == POSSIBLE ? rows_decide(pool, e, true, n, condition, atoms) : NOT_KNOWN;
+    below = not_above == POSSIBLE ? rows_decide(pool, e, false, n, condition, atoms) : NOT_KNOWN;
+    if (conditions == CONTRADICTION)
+        *result = QDOT_CELLS_EMPTY;
+    else if (not_above == CONTRADICTION)
+        *result = QDOT_CELLS_POSITIVE;
+    else if (below != NOT_KNOWN)
+        *result = below == CONTRADICTION ? QDOT_CELLS_NOT_NEGATIVE : QDOT_CELLS_NEGATIVE;
+    if (qdot_interrupt_flag)
+        return qdot_interrupt_check();
+    return qdot_grave(qdot_pool_check(pool));
+}
