@@ -54,6 +54,7 @@ typedef struct qdot_course {
     qdot_stage *stage; /* borrowed */
     bool shaken;
     bool no_series;   /* the method does not use Taylor series */
+    bool exact;       /* it starts where the run was said to start, known in two doubles */
     int early;        /* of companions, +-1: the sign in qdot_piece_make_up; 0: the run itself */
     double touch_tol; /* an extremum within this tolerance touches 0: that of the run, or less if
                          the run is more exact (sim/error/touches.h) */

@@ -99,7 +99,7 @@ search_piece(search *s)
     }
     qdot_watch_may_fade(w, 0, !qdot_sliding_is(&s->c->stage->switches, s->c->stage->modes.at[mode]->side));
     QDOT_TRY(qdot_watch_begin(w, &reader, tr->t[k], tr->y + k * tr->n,
-                              &(qdot_watch_known){0, &s->before, NULL, NULL, NULL, 0}, &on));
+                              &(qdot_watch_known){0, false, &s->before, NULL, NULL, NULL, 0}, &on));
     s->sign = 0;
     for (; k < last; k++) {
         if (s->direction * (tr->t[k] - s->limits[1]) > 0)

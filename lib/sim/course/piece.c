@@ -627,7 +627,8 @@ qdot_piece_begin(qdot_piece *x)
     qdot_piece_low(x, x->y);
     QDOT_TRY(qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,
-        &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual, x->y, x->largest,
+        &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1,
+                            x->c->tr.count == 1 && !x->start.jumped && x->c->exact, x->before, x->residual, x->y, x->largest,
                             !x->start.on_root                                  ? 0
                             : x->start.jumped || qdot_piece_has_massless(x) ? x->c->stage->events.n
                                                                             : qdot_piece_mode(x)->m},

@@ -255,7 +255,7 @@ begin_watch(const qdot_ensemble_steps *s, lane *a)
 
     if (status == QDOT_OK)
         status = qdot_watch_begin(a->watch, &reader, a->step.t, a->y,
-                                  &(qdot_watch_known){s->of.moved, before, NULL, NULL, NULL, 0}, on);
+                                  &(qdot_watch_known){s->of.moved, false, before, NULL, NULL, NULL, 0}, on);
     a->begun = true;
     qdot_free(before);
     qdot_free(on);

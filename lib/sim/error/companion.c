@@ -310,9 +310,10 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
             meter->spent = *spent;
         }
         memcpy(y, run->start, n * sizeof *y);
-        if (run->apart != NULL)
-            memcpy(y + n, run->start_low, n * sizeof *y);
+        memcpy(y + n, run->start_low, n * sizeof *y);
         move_by_error(run, number, 1, y, y + n);
+        options.carry = y + n;
+        c->exact = run->course.exact;
     }
     qdot_free(y);
     if (first.tr.count > 0 && qdot_grave(status) == QDOT_OK

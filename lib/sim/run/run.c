@@ -227,6 +227,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .stiff_work = run->plan->chosen ? worth_changing : 0};
     qdot_status status;
 
+    run->course.exact = run->apart == NULL;
     qdot_progress_begin(run->t0, run->t1, "run");
     status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
                              run->start);

@@ -446,10 +446,12 @@ qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader, double t, con
     return qdot_watch_value(w, t, w->g);
 }
 
-/* Whether g_i = g at a state is rounding, of its operations (in two doubles, if `exact`) or of the state. Where g_i
+/* Whether g_i = g at a state is rounding, of its operations (in two doubles, if `exact`) or of the state, unless that is
+ * `given` in two doubles. Where g_i
  * jumps from there a rounding of the state changes it as much as a larger change does: that tells nothing. */
 static qdot_status
-is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, size_t i, double g, bool *is)
+is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, bool given, size_t i, double g,
+            bool *is)
 {
     double noise, more;
 
@@ -461,6 +463,13 @@ is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, 
     }
     if (*is)
         return QDOT_OK;
+    if (exact && given) { /* but numbers in g are rounded */
+        memcpy(w->in, y, 2 * w->n * sizeof *y);
+        w->in[2 * w->n] = t;
+        qdot_tape_eval(w->sizes, w->in, w->moved, w->work);
+        if (fabs(g) > DBL_EPSILON * w->moved[i])
+            return QDOT_OK;
+    }
     QDOT_TRY(qdot_watch_noise(w, t, y, DBL_EPSILON, least, i, &noise));
     if (fabs(g) > 2 * noise)
         return QDOT_OK;
@@ -488,7 +497,8 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
         if (w->start.sharp[i] && met && i < known->left) {
             w->start.on[i] = fabs(g) <= QDOT_WATCH_NEGLIGIBLE * known->residual[i];
         } else {
-            QDOT_TRY(is_rounding(w, t, y, known->least, w->start.sharp[i] && w->smooth[i], i, g, &w->start.on[i]));
+            QDOT_TRY(is_rounding(w, t, y, known->least, w->start.sharp[i] && w->smooth[i],
+                                 known->exact && (t == 0 || !w->bounds.reads_time), i, g, &w->start.on[i]));
             w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
         }
         w->start.blurred[i] = false;

@@ -67,6 +67,7 @@ double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
                                the start was moved by a rounding of 1 */
+    bool exact;             /* y + low is no result of a run: no rounding moves it */
     const int *before;      /* [m] the signs just before; 0: none, as at the start of a run */
     const double *residual; /* [m] |g| up to which it counts as 0, if a root was located here;
                                or NULL */
