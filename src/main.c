@@ -19,6 +19,7 @@
 #include "progress-line.h"
 #include "prompt.h"
 #include "signals.h"
+#include "stream.h"
 
 enum { DONE = 0, FAILED = 1, MISUSED = 2 }; /* exit statuses */
 
@@ -159,6 +160,9 @@ tasks_carry_out(qdot_session *session, const options *o)
         return status;
     if (qdot_terminal_is(stdin)) {
         qdot_prompt_run(session, !o->quiet, !o->no_init);
+    } else if (o->interactive && o->json) {
+        qdot_signals_computing();
+        qdot_stream_run(session);
     } else {
         int last;
 

@@ -1,6 +1,7 @@
 /* number-text.c -- doubles as people read them, and for JSON. */
 #include "base/number-text.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -77,7 +78,7 @@ void
 qdot_number_text_json(qdot_text *text, double value)
 {
     if (isfinite(value))
-        qdot_text_double(text, value, 17);
+        qdot_text_double(text, value, qdot_double_digits(value, fabs(value) < DBL_MIN ? 1 : DBL_DIG));
     else
         qdot_text_add(text, "null");
 }

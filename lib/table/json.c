@@ -64,6 +64,24 @@ json_add_values(const qdot_table *t, size_t row, qdot_text *out)
 }
 
 void
+qdot_table_json_columns(const qdot_table *t, const char *name, qdot_text *out)
+{
+    const char *before = "";
+
+    qdot_text_add(out, "{\"kind\":\"columns\",\"name\":");
+    qdot_text_json(out, t->name != NULL ? t->name : name);
+    qdot_text_add(out, ",\"columns\":[");
+    for (size_t j = 0; j < t->n; j++) {
+        if (!json_is_value(t, j))
+            continue;
+        qdot_text_add(out, before);
+        qdot_text_json(out, t->columns[j].name);
+        before = ",";
+    }
+    qdot_text_add(out, "]}\n");
+}
+
+void
 qdot_table_json_row(const qdot_table *t, size_t row, qdot_text *out)
 {
     bool values = false;

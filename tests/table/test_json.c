@@ -58,7 +58,7 @@ json_has_facts_and_rows(void **state)
     assert_string_equal(text, "{\"program\":\"q & \\\"p\\\"\",\"tol\":0.25,\n"
                               "\"parameters\":{\"m[1]\":2.5},\n"
                               "\"columns\":[\"t\",\"a/b < c\",\"t\"],\n\"rows\":[\n"
-                              "[0,2.3849999999999998,2.3849999999999998],\n"
+                              "[0,2.385,2.385],\n"
                               "[0.5,null,null],\n"
                               "[1,-1e-300,-1e-300]]}\n");
     free(text);
@@ -86,6 +86,10 @@ rows_are_answers(void **state)
     qdot_text out = {0};
 
     (void)state;
+    qdot_table_json_columns(&rows, "table", &out);
+    assert_string_equal(qdot_text_str(&out),
+                        "{\"kind\":\"columns\",\"name\":\"curve\",\"columns\":[\"x\",\"y\",\"z\"]}\n");
+    qdot_text_truncate(&out, 0);
     qdot_table_json_row(&rows, 0, &out);
     qdot_table_json_row(&rows, 1, &out);
     assert_string_equal(qdot_text_str(&out),
@@ -93,7 +97,7 @@ rows_are_answers(void **state)
                         "\"0.1234567890123456789\"],\"errors\":[0,null,null],\"stable\":true,\"status\":\"done\","
                         "\"reason\":null}\n"
                         "{\"kind\":\"row\",\"name\":\"curve\",\"type\":null,\"values\":[1.25,1.25,null],"
-                        "\"errors\":[2.9999999999999998e-13,null,null],\"stable\":null,\"status\":\"failed\","
+                        "\"errors\":[3e-13,null,null],\"stable\":null,\"status\":\"failed\","
                         "\"reason\":\"no \\\"end\\\"\"}\n");
     qdot_text_truncate(&out, 0);
     rows = (qdot_table){.n = 1, .rows = 2, .columns = columns, .order = order};

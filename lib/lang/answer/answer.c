@@ -26,12 +26,12 @@ paint(const qdot_session *session, const char *code)
     return qdot_write_colours(session) ? code : "";
 }
 
-/* The end of an answer that went well or not: a line written, its text let go of. */
+/* The end of an object of JSON that went well or not: it is written, its text let go of. */
 static qdot_status
-end_line(qdot_session *session, qdot_status status, qdot_text *line)
+end_object(qdot_session *session, qdot_status status, qdot_text *line)
 {
     if (status == QDOT_OK)
-        status = qdot_write(session, session->out, line);
+        status = qdot_write_object(session, session->out, line);
     qdot_text_clear(line);
     return status;
 }
@@ -120,7 +120,7 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
                      qdot_expr_size(session->pool, value));
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
-    return end_line(session, status, &line);
+    return end_object(session, status, &line);
 }
 
 qdot_status
@@ -232,7 +232,7 @@ numbers_json(qdot_session *session, const char *name, bool several,
     qdot_text_add(&line, qdot_text_str(errors));
     qdot_text_add(&line, several ? "]}\n" : "}\n");
     line.failed = line.failed || values->failed || errors->failed;
-    return qdot_write(session, session->out, &line);
+    return qdot_write_object(session, session->out, &line);
 }
 
 static qdot_status
@@ -388,8 +388,10 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_text line = {0}, part = {0};
     qdot_status status;
 
-    qdot_text_format(&line, "{\"kind\":\"check\",\"verdict\":\"%s\",\"left\":",
-                     verdicts[decision->verdict]);
+    qdot_text_format(&line, "{\"kind\":\"check\",\"verdict\":\"%s\"", verdicts[decision->verdict]);
+    if (session->claim != NULL)
+        qdot_write_field(&line, ",\"claim\":", session->claim);
+    qdot_text_add(&line, ",\"left\":");
     status = print_side(session, left, &part);
     qdot_text_json(&line, qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
@@ -411,7 +413,7 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_text_add(&line, "}\n");
     line.failed = line.failed || part.failed;
     qdot_text_clear(&part);
-    return end_line(session, status, &line);
+    return end_object(session, status, &line);
 }
 
 qdot_status
@@ -437,8 +439,9 @@ qdot_answer_file(qdot_session *session, const char *path)
         qdot_text_add(&line, "wrote ");
         qdot_text_add(&line, path);
         qdot_text_char(&line, '\n');
+        return qdot_write(session, session->out, &line);
     }
-    return qdot_write(session, session->out, &line);
+    return qdot_write_object(session, session->out, &line);
 }
 
 qdot_status
@@ -454,6 +457,7 @@ enum { NOTICE = 4096 };
 static qdot_status
 put_notice(qdot_session *session, const char *message)
 {
+    FILE *const file = session->console != NULL ? session->console : session->out;
     qdot_text line = {0};
 
     if (session->console != NULL ? session->console_json : session->json) {
@@ -462,9 +466,9 @@ put_notice(qdot_session *session, const char *message)
     } else {
         qdot_text_format(&line, "%snotice:%s %s\n", paint(session, QDOT_YELLOW),
                          paint(session, QDOT_COLOUR_END), message);
+        return qdot_write(session, file, &line);
     }
-    return qdot_write(session, session->console != NULL ? session->console : session->out,
-                      &line);
+    return qdot_write_object(session, file, &line);
 }
 
 qdot_status
@@ -545,6 +549,8 @@ error_json(qdot_session *session, const qdot_source *source, size_t at,
         qdot_text_json(&line, error->hint);
     else
         qdot_text_add(&line, "null");
+    if (session->typed.under_way)
+        qdot_text_format(&line, ",\"statement\":%zu", session->typed.number);
     qdot_text_add(&line, "}\n");
     (void)!qdot_write(session, session->out, &line);
 }

@@ -417,7 +417,8 @@ qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *
                                        : run_text(session, name, report, &line);
 
     if (status == QDOT_OK)
-        return qdot_write(session, session->out, &line);
+        return session->json ? qdot_write_object(session, session->out, &line)
+                             : qdot_write(session, session->out, &line);
     qdot_text_clear(&line);
     return status;
 }

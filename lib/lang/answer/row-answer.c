@@ -46,6 +46,8 @@ qdot_row_answer_part(qdot_session *session, const qdot_row_table *table, size_t 
     qdot_row_columns x = {0};
     qdot_status status = qdot_row_columns_of(table, NULL, &x);
 
+    if (status == QDOT_OK && from == 0)
+        status = qdot_answer_columns(session, table->name, &x.table);
     for (size_t k = from; k < to && status == QDOT_OK; k++)
         status = qdot_answer_row(session, &x.table, k);
     qdot_row_columns_free(&x);
@@ -60,7 +62,7 @@ qdot_row_answer(qdot_session *session, const qdot_row_table *table)
     qdot_status status = qdot_row_columns_of(table, NULL, &x);
 
     if (status == QDOT_OK && session->json) {
-        status = qdot_answer_rows(session, &x.table);
+        status = qdot_answer_rows(session, table->name, &x.table);
     } else if (status == QDOT_OK) {
         status = qdot_answer_add_table(&x.table, &text);
         if (status == QDOT_OK)

@@ -7,18 +7,29 @@
 #include "table/text.h"
 
 qdot_status
+qdot_answer_columns(qdot_session *session, const char *name, const qdot_table *t)
+{
+    qdot_text line = {0};
+
+    qdot_table_json_columns(t, name, &line);
+    return qdot_write_object(session, session->out, &line);
+}
+
+qdot_status
 qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row)
 {
     qdot_text line = {0};
 
     qdot_table_json_row(t, row, &line);
-    return qdot_write(session, session->out, &line);
+    return qdot_write_object(session, session->out, &line);
 }
 
 qdot_status
-qdot_answer_rows(qdot_session *session, const qdot_table *t)
+qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t)
 {
     QDOT_TRY(qdot_table_status(t));
+    if (t->rows > 0)
+        QDOT_TRY(qdot_answer_columns(session, name, t));
     for (size_t k = 0; k < t->rows; k++)
         QDOT_TRY(qdot_answer_row(session, t, k));
     return QDOT_OK;
@@ -39,7 +50,7 @@ qdot_answer_table(qdot_session *session, const char *name, const qdot_table *t)
     qdot_status status;
 
     if (session->json)
-        return qdot_answer_rows(session, t);
+        return qdot_answer_rows(session, name, t);
     status = qdot_answer_add_table(t, &text);
     return qdot_answer_written(session, name, status, &text);
 }

@@ -8,9 +8,10 @@
 #include "lang/session/session.h"
 #include "table/table.h"
 
-/* Write one row, or all of them; JSON only. */
+/* Write what stands before the rows, one row, or both of all rows; name: of rows that have none; JSON only. */
+QDOT_MUST_CHECK qdot_status qdot_answer_columns(qdot_session *session, const char *name, const qdot_table *t);
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row);
-QDOT_MUST_CHECK qdot_status qdot_answer_rows(qdot_session *session, const qdot_table *t);
+QDOT_MUST_CHECK qdot_status qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t);
 
 /* Append the table as people read it, to be folded on a terminal (base/wrap.h). */
 QDOT_MUST_CHECK qdot_status qdot_answer_add_table(const qdot_table *t, qdot_text *out);

@@ -1,6 +1,7 @@
 /* write.c -- answers written: texts, as they stand or as JSON. */
 #include "lang/answer/write.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "base/progress.h"
@@ -56,6 +57,19 @@ qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
     return write_out(session, file, text);
 }
 
+qdot_status
+qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
+{
+    const bool answer = session->console == NULL || file == session->console; /* no file of `to` */
+
+    if (qdot_text_status(object) == QDOT_OK && answer && session->typed.under_way) {
+        qdot_text_truncate(object, object->n - strlen("}\n"));
+        qdot_text_format(object, ",\"statement\":%zu,\"line\":%" PRIu32 "}\n", session->typed.number,
+                         session->typed.line);
+    }
+    return qdot_write(session, file, object);
+}
+
 FILE *
 qdot_write_stream(const qdot_session *session)
 {
@@ -94,6 +108,8 @@ write_answer(qdot_session *session, const char *name, const char *text, bool dra
         if (n == 0 || text[n - 1] != '\n')
             qdot_text_char(&line, '\n');
     }
+    if (session->json)
+        return qdot_write_object(session, session->out, &line);
     return drawn ? write_out(session, session->out, &line) : qdot_write(session, session->out, &line);
 }
 

@@ -16,6 +16,7 @@
 #include "lang/declare/assumed.h"
 #include "lang/declare/constraints.h"
 #include "lang/functions/equilibria.h"
+#include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
@@ -552,7 +553,7 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
 }
 
 static qdot_status
-check_claim(qdot_record *r)
+answer_claim(qdot_record *r)
 {
     qdot_cursor *c = &r->cursor;
     question q = {.right = QDOT_ZERO};
@@ -576,6 +577,23 @@ check_claim(qdot_record *r)
     qdot_free(q.passed.value.at);
     qdot_free(q.passed.root.at);
     qdot_assumed_free(&f);
+    return status;
+}
+
+static qdot_status
+check_claim(qdot_record *r)
+{
+    qdot_session *session = r->cursor.session;
+    qdot_text claim = {0};
+    qdot_status status;
+
+    qdot_token_text(session, r->start, r->cursor.at, &claim);
+    status = qdot_text_status(&claim);
+    session->claim = qdot_text_str(&claim);
+    if (status == QDOT_OK)
+        status = answer_claim(r);
+    session->claim = NULL;
+    qdot_text_clear(&claim);
     return status;
 }
 

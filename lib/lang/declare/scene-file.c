@@ -229,6 +229,8 @@ put_settings(const qdot_session *s, qdot_text *out)
     qdot_text_add(out, s->timing ? "timing on\n" : "");
 }
 
+static const char history_header[] = "# statements typed in qdot\n";
+
 /* --- the file ------------------------------------------------------------------------- */
 
 static qdot_status
@@ -250,7 +252,15 @@ qdot_status
 qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 {
     qdot_text lost = {0};
-    qdot_status status = put_all(s, what == QDOT_FILE_SESSION, &lost, out);
+    qdot_status status;
+
+    if (what == QDOT_FILE_HISTORY) {
+        qdot_text_add(out, history_header);
+        qdot_text_add(out, qdot_text_str(&s->typed.all));
+        out->failed = out->failed || s->typed.all.failed;
+        return qdot_text_status(out);
+    }
+    status = put_all(s, what == QDOT_FILE_SESSION, &lost, out);
 
     if (status == QDOT_OK)
         qdot_session_remarks_lost(s, &lost, out);
@@ -260,9 +270,9 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 
 /* Refuse to overwrite a regular file that does not begin as these files do. */
 static qdot_status
-may_overwrite(const char *path)
+may_overwrite(const char *path, const char *header)
 {
-    const size_t length = strlen(qdot_session_file_header);
+    const size_t length = strlen(header);
     char begin[64] = "";
     struct stat info;
     FILE *file;
@@ -272,11 +282,11 @@ may_overwrite(const char *path)
         return QDOT_OK; /* writing tells why it cannot be */
     n = fread(begin, 1, length < sizeof begin ? length : sizeof begin - 1, file);
     fclose(file);
-    if (n == 0 || strcmp(begin, qdot_session_file_header) == 0)
+    if (n == 0 || strcmp(begin, header) == 0)
         return QDOT_OK;
-    (void)qdot_fail(QDOT_EINVAL, "`%.200s` is there and was not written by `scene to`", path);
-    return qdot_hint("another name; only files that begin with `%.*s` are overwritten", (int)length - 1,
-                     qdot_session_file_header);
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` is there and was not written by `%s to`", path,
+                    header == history_header ? "save history" : "scene");
+    return qdot_hint("another name; only files that begin with `%.*s` are overwritten", (int)length - 1, header);
 }
 
 qdot_status
@@ -293,7 +303,7 @@ qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file wh
     status = qdot_scene_file_text(c->session, what, &text);
     c->error_at = name->start;
     if (status == QDOT_OK)
-        status = may_overwrite(path);
+        status = may_overwrite(path, what == QDOT_FILE_HISTORY ? history_header : qdot_session_file_header);
     if (status == QDOT_OK)
         status = qdot_answer_in_file(c->session, path, &text);
     qdot_text_clear(&text);

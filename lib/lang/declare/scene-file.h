@@ -1,4 +1,4 @@
-/* scene-file.h -- a scene as a script: `scene to "x.lag"`, `save session to "x.lag"`.
+/* scene-file.h -- a scene as a script: `scene to "x.lag"`, `save session to "x.lag"`; what was typed, `save history`.
  *
  * The statements are made from the present declarations, not from the typed text: positions and
  * values are evaluated, in exact numbers, in the plain style. Order: parameters, functions and
@@ -24,7 +24,8 @@ bool qdot_scene_file_is(const qdot_token *token);
 
 typedef enum {
     QDOT_FILE_SCENE,   /* the scene, values, start and definitions */
-    QDOT_FILE_SESSION  /* and the style, the runs, and names that hold numbers of them */
+    QDOT_FILE_SESSION, /* and the style, the runs, and names that hold numbers of them */
+    QDOT_FILE_HISTORY  /* the statements that were typed and succeeded */
 } qdot_scene_file;
 
 /* Append what stands in such a file. */

@@ -373,9 +373,9 @@ fill_before_events(qdot_run *run, const qdot_operands *list, grid *g)
     return QDOT_OK;
 }
 
-/* `save session to "FILE.lag"`, at the name of the file. */
+/* `save session to "FILE.lag"`, `save history ...`, at the name of the file. */
 static qdot_status
-save_session(qdot_cursor *c)
+save_statements(qdot_cursor *c, qdot_scene_file what)
 {
     const qdot_token *name = c->at;
 
@@ -383,7 +383,7 @@ save_session(qdot_cursor *c)
         return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
     c->at++;
     QDOT_TRY(qdot_cursor_expect_end(c));
-    return qdot_scene_file_write(c, name, QDOT_FILE_SESSION);
+    return qdot_scene_file_write(c, name, what);
 }
 
 qdot_status
@@ -404,10 +404,9 @@ qdot_table_save(qdot_cursor *c)
         QDOT_TRY(qdot_read_name(c, &name));
     if (!qdot_cursor_accept_word(c, "to"))
         return qdot_cursor_expected(c, "`to` and the name of a file");
-    if (name != NULL && strcmp(name, "session") == 0 &&
-        (qdot_scene_file_is(c->at) ||
-         qdot_runs_find(c->session, name, &named) != QDOT_OK))
-        return save_session(c);
+    if (name != NULL && (strcmp(name, "session") == 0 || strcmp(name, "history") == 0) &&
+        (qdot_scene_file_is(c->at) || qdot_runs_find(c->session, name, &named) != QDOT_OK))
+        return save_statements(c, name[0] == 's' ? QDOT_FILE_SESSION : QDOT_FILE_HISTORY);
     file = c->at;
     QDOT_TRY(qdot_figure_file_read(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));

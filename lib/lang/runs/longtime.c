@@ -132,7 +132,7 @@ windows_json(qdot_session *session, const qdot_longtime *l, size_t k)
     qdot_status status = windows_fill(l, k, k + 1, &t);
 
     if (status == QDOT_OK)
-        status = qdot_answer_rows(session, &t);
+        status = qdot_answer_rows(session, "longtime", &t);
     qdot_table_clear(&t);
     if (status == QDOT_OK && strcmp(r->status, "done") != 0)
         status = qdot_answer_notice(session, "method %s, tol %.0e: %s", r->method, r->tol, r->status);

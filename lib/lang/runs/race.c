@@ -122,7 +122,7 @@ race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choi
     if (status == QDOT_OK)
         status = qdot_answer_text(session, "race", qdot_text_str(&text));
     if (status == QDOT_OK && session->json)
-        status = qdot_answer_rows(session, &t);
+        status = qdot_answer_rows(session, "race", &t);
     qdot_text_clear(&text);
     qdot_table_clear(&t);
     /* who stopped it does not wait for a figure unless it was asked for */

@@ -96,7 +96,7 @@ rows_json(qdot_session *session, const void *study)
     qdot_status status = study_fill(study, &t);
 
     if (status == QDOT_OK)
-        status = qdot_answer_rows(session, &t);
+        status = qdot_answer_rows(session, "workprecision", &t);
     qdot_table_clear(&t);
     return status;
 }

@@ -82,6 +82,7 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->including.n; i++)
         qdot_free(session->including.at[i]);
     qdot_free(session->including.at);
+    qdot_text_clear(&session->typed.all);
     if (session->block != NULL)
         qdot_formula_page_clear(session->block);
     qdot_free(session->block);
@@ -121,6 +122,7 @@ qdot_session_exchange(qdot_session *session, qdot_session *other)
     STAYS(failed)
     STAYS(refuted)
     STAYS(quit)
+    STAYS(typed)
     STAYS(undo)
     STAYS(undo_free)
 #undef STAYS

@@ -13,6 +13,7 @@
 #include "lang/session/conditions.h"
 #include "lang/session/names.h"
 #include "lang/session/row-table.h"
+#include "lang/session/typed.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
@@ -128,7 +129,9 @@ typedef struct qdot_session {
     qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (language/partial-sum) */
     struct qdot_undo *undo; /* NULL: no statement yet */
     void (*undo_free)(struct qdot_undo *undo); /* set with it */
+    qdot_typed typed;      /* the statement under way, and all before it (lang/workbench/statement-count) */
     qdot_passed *passed;   /* while the sides of a check are read; else NULL */
+    const char *claim;     /* while it is answered, what it says; else NULL */
 } qdot_session;
 
 qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */

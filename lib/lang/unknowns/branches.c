@@ -152,7 +152,7 @@ branch_json(qdot_session *session, const qdot_branches *b, size_t i, qdot_table_
         const qdot_table t = {
             .name = qdot_text_str(&name), .n = 2 + b->n_columns, .rows = branch->n, .columns = columns};
 
-        status = qdot_answer_rows(session, &t);
+        status = qdot_answer_rows(session, "continue", &t);
     }
     qdot_text_clear(&name);
     qdot_free(stable);
@@ -177,7 +177,7 @@ bifurcations_json(qdot_session *session, const qdot_branches *b, qdot_table_colu
             qdot_table_add_number(&t, one->y[b->columns[q]], NAN);
     }
     if (status == QDOT_OK)
-        status = qdot_answer_rows(session, &t);
+        status = qdot_answer_rows(session, "continue", &t);
     qdot_table_clear(&t);
     return status;
 }
@@ -200,7 +200,7 @@ answer_json(qdot_session *session, const qdot_branches *b)
                               .columns = columns};
 
         fill_columns(b, b->found->left.at, stride, columns);
-        status = qdot_answer_rows(session, &t);
+        status = qdot_answer_rows(session, "continue", &t);
     }
     qdot_free(columns);
     return status;

@@ -28,6 +28,7 @@
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
 #include "lang/syntax/match.h"
+#include "lang/workbench/statement-count.h"
 
 enum { FEW = 5 }; /* tokens at the begin of a statement */
 
@@ -602,6 +603,7 @@ whole(engine *x, size_t *i)
     size_t begun = qdot_undo_begin(x->session);
     qdot_status status;
 
+    qdot_typed_begin(x->session, x->source, first->start);
     do
         status = advance(x, i);
     while (status == QDOT_OK && x->frames.n > 0 && !x->session->quit);
@@ -611,6 +613,8 @@ whole(engine *x, size_t *i)
     last -= last > first;
     qdot_undo_end(x->session, begun, x->source->text + first->start,
                   last->start + last->length - first->start);
+    if (status == QDOT_OK) /* else behind its error */
+        qdot_typed_end(x->session, x->source->text + first->start, last->start + last->length - first->start, status);
     return status;
 }
 
@@ -628,6 +632,14 @@ carry_out(engine *x)
     return QDOT_OK;
 }
 
+/* The error of a statement, or of the text as a whole, which is one then. */
+static void
+report_error(engine *x)
+{
+    qdot_typed_begin(x->session, x->source, x->error_at);
+    qdot_answer_error(x->session, x->source, x->error_at);
+}
+
 /* --- a whole text ------------------------------------------------------------------- */
 
 qdot_status
@@ -638,6 +650,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
     qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
     size_t outer = qdot_undo_text_begin(session);
 
+    session->typed.texts++;
     (void)qdot_memory_ran_out(); /* before: whoever asked then has heard of it */
     if (status == QDOT_OK)
         status = qdot_session_remarks_keep(session, text, length);
@@ -655,7 +668,10 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
         qdot_loop_end(&x.frames.at[--x.frames.n].loop);
     }
     if (status != QDOT_OK && x.error_at != QDOT_SCRIPT_REPORTED)
-        qdot_answer_error(session, x.source, x.error_at);
+        report_error(&x);
+    if (status != QDOT_OK)
+        qdot_typed_end(session, "", 0, status);
+    session->typed.texts--;
     if (status == QDOT_EINTR)
         qdot_interrupt_clear();
     for (size_t i = 0; i < x.usages.n; i++)

@@ -7,7 +7,7 @@ particle p mass 1 at x
 run()
 {
     printf "%s$1\n" "$scene" | qdot -q --json - 2>/dev/null |
-        sed -n 's/.*"t":\(\[[^]]*\]\).*"status":\("[^"]*"\),"reason":\(.*\)}/\1 \2 \3/p'
+        sed -n 's/.*"t":\(\[[^]]*\]\).*"status":\("[^"]*"\),"reason":\(.*\),"statement.*/\1 \2 \3/p'
 }
 run 'potential if(x > 0, 0, 1)\nstart x = -1, x'\'' = 1\nrun 0..5'
 run 'potential floor(x) + x\nstart x = 1/2, x'\'' = 2\nrun 0..5'

@@ -10,7 +10,7 @@ find x = 0.6, x' = 0 such that returns after 2*pi/Omega
 END
 qdot -q --json duffing.lag -e 'continue orbit in Omega = 0.5..3' >out.json
 # the period is the drive's; what is unstable has a multiplier beyond the circle, what is stable none
-awk -F'[][,:}]*' '/"name":"branch/ {
+awk -F'[][,:}]*' '/"row","name":"branch/ {
         match($0, /"values":\[[^]]*/); split(substr($0, RSTART + 10, RLENGTH - 10), v, ",")
         off = v[1]*v[3] - 6.283185307179586; if (off < 0) off = -off
         if (off > 1e-12) print "another period: " $0

@@ -1,7 +1,7 @@
 # Where no error can be stated it is said to be unknown, and why; what is rounding only ends.
 known()
 {
-    sed -n 's/.*"kind":"n[ou][a-z]*",//p' | sed 's/[0-9]* steps/N steps/; s/one took [0-9]*/one took N/; s/at t = .*/at t = .../
+    sed -n 's/.*"kind":"n[ou][a-z]*",//p' | sed 's/,"statement.*}/}/; s/[0-9]* steps/N steps/; s/one took [0-9]*/one took N/; s/at t = .*/at t = .../
 s/"name":"\(.*\)","value":[^,]*,"error":\(.*\)}/\1: \2/; s/: [0-9].*/: known/'
 }
 # At rest: one step crosses 1e9 s, while a second run, moved by a rounding, would swing.

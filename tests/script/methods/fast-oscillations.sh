@@ -1,7 +1,7 @@
 #!/bin/sh
 # A spring of 1e8, 1e4 rad/s, swung by the weight: 1e-7 long, 1e-3 fast, 9.8 in accelerations. radau at 1e-4 goes over
 # that in steps of three periods, and so do its companions; the errors of what is read hold it all the same.
-qdot -q --json - <<'END' | sed -n 's/.*"name":"value.*"value":\([^,]*\),"error":\([^}]*\)}.*/\1 \2/p' |
+qdot -q --json - <<'END' | sed -n 's/.*"name":"value.*"value":\([^,]*\),"error":\([^,]*\),.*/\1 \2/p' |
 coord x, y
 particle p mass 1 at (x, y)
 spring s between p, (0, 0) stiffness 1e8 rest 1

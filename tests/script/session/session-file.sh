@@ -31,8 +31,8 @@ value(theta, 1)'
 { cat scene.lag; echo 'save session to "session.lag"'; } >whole.lag
 qdot -q whole.lag >/dev/null || echo 'not saved'
 sed 's/error [0-9.e-]*/error E/' session.lag
-qdot --json scene.lag -e "$ask" | grep -v '"run"\|"notice"' | tail -n 17 >one
-qdot --json session.lag -e "$ask" | grep -v '"run"\|"notice"' | tail -n 17 >two
+qdot --json scene.lag -e "$ask" | sed 's/,"statement.*//' | grep -v '"run"\|"notice"' | tail -n 17 >one
+qdot --json session.lag -e "$ask" | sed 's/,"statement.*//' | grep -v '"run"\|"notice"' | tail -n 17 >two
 cmp one two && grep -c . two
 qdot -q session.lag -e 'save session to "again.lag"' >/dev/null
 sed -i 's/ # .*//' session.lag again.lag

@@ -2,7 +2,7 @@
 # Numbers of --json, to five digits: value, then error (0 where it is rounding)
 numbers()
 {
-    sed '/covariance/s/\(\.[0-9]\{7\}\)[0-9]*/\1/g' | awk -F'"value":|,"error":|}' '/"kind":"number",/ { split($0, name, "\"")
+    sed '/covariance/s/\(\.[0-9]\{7\}\)[0-9]*/\1/g' | awk -F'"value":|,"error":|,"statement":' '/"kind":"number",/ { split($0, name, "\"")
         error = $3 + 0 < 1e-9 ? 0 : $3
         printf "%s = %.5g, error %s\n", name[8], $2, $3 == "null" ? $3 : sprintf("%.4g", error) }
         !/"kind":"number",/'

@@ -8,7 +8,7 @@ potential x^2/2 + w^2*y^2/2
 start x = 1, y = 1
 END
 echo '# x = cos t, y = cos(2 t): the distance from the closed form is at most sqrt(2) times each error'
-qdot -q --json two.lag -e 'run 0..1000' -e "poincare x = 0 rising : y, y', x'" | awk -F'[][,]' '
+qdot -q --json two.lag -e 'run 0..1000' -e "poincare x = 0 rising : y, y', x'" | grep '"row"' | awk -F'[][,]' '
     /"poincare"/ { n++; t = (4*n - 1)*2*atan2(1, 1)
         if (($4 - t)^2 > 2*$10^2 || ($5 + 1)^2 > 2*$11^2 || $6^2 > 2*$12^2 || ($7 - 1)^2 > 2*$13^2) bad++
         if ($10 + $11 + $12 + $13 > 1e-11) wide++ }

@@ -11,7 +11,7 @@ gravity (0, -g)
 start x1 = sin(2), y1 = -cos(2), x2 = 2*sin(2), y2 = -2*cos(2)
 race 0..2 to "race.svg"
 END
-sed -n 's/^{"kind":"row","values":\[\(.*\)\]}/\1/p' race.json | sed 's/"as given, /"as given: /' | awk -F, '
+sed -n 's/^{"kind":"row","values":\[\(.*\)\],"statement.*/\1/p' race.json | sed 's/"as given, /"as given: /' | awk -F, '
     { if (!rows[$1]++) name[++n] = $1; if ($3 < 2e-12 && $4 < 1e-11) good[$1]++ }
     $1 ~ /projected/ && $6 > 1e-14 { print "projected, yet adrift: " $0 }
     $1 ~ /none/ && $3 > 1e-5 && $6 > 1e-9 { adrift = 1 }
@@ -79,7 +79,7 @@ END
     } >sphere.lag
     qdot -q --json sphere.lag >sphere.json
     grep -o '[0-9] coordinates as given, [0-9] in minimal' sphere.json
-    sed -n 's/^{"kind":"row","values":\[\(.*\)\]}/\1/p' sphere.json |
+    sed -n 's/^{"kind":"row","values":\[\(.*\)\],"statement.*/\1/p' sphere.json |
         awk -F, '$1 ~ /minimal/ && $3 < 2e-12 && $4 < 1e-11 { good++ } END { print "minimal", good }'
 done
 # an event that changes the motion is in the coordinates as given

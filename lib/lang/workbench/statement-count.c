@@ -1,0 +1,48 @@
+/* statement-count.c -- the statements of what was typed: counted, kept, told when they are done. */
+#include "lang/workbench/statement-count.h"
+
+#include "lang/answer/write.h"
+
+void
+qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at)
+{
+    qdot_typed *typed = &session->typed;
+    uint32_t column;
+
+    if (typed->texts != 1 || typed->under_way)
+        return;
+    typed->under_way = true;
+    typed->number++;
+    typed->refuted = session->refuted;
+    session->refuted = false;
+    if (session->json && source != NULL) /* else nobody asks for it */
+        qdot_source_locate(source, at, &typed->line, &column);
+}
+
+/* 0; 1: it failed, or a check was refuted; 2: it is no statement. */
+static int
+status_of(const qdot_session *session, qdot_status status)
+{
+    return status == QDOT_ESYNTAX ? 2 : status != QDOT_OK || session->refuted ? 1 : 0;
+}
+
+void
+qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_status status)
+{
+    qdot_typed *typed = &session->typed;
+    qdot_text line = {0};
+
+    if (typed->texts != 1 || !typed->under_way)
+        return;
+    if (status == QDOT_OK) {
+        qdot_text_add_n(&typed->all, text, length);
+        qdot_text_char(&typed->all, '\n');
+    }
+    if (typed->told) {
+        qdot_text_format(&line, "{\"kind\":\"done\",\"statement\":%zu,\"status\":%d}\n", typed->number,
+                         status_of(session, status));
+        (void)!qdot_write(session, session->out, &line);
+    }
+    session->refuted = session->refuted || typed->refuted;
+    typed->under_way = false;
+}

@@ -1,0 +1,17 @@
+/* statement-count.h -- the statements of what was typed are counted, kept, and told when they are done.
+ *
+ * Tests  tests/script/files/json-stream.sh, tests/script/files/history.sh
+ */
+#ifndef QDOT_LANG_STATEMENT_COUNT_H
+#define QDOT_LANG_STATEMENT_COUNT_H
+
+#include "lang/session/session.h"
+#include "lang/source/source.h"
+
+/* A statement begins at byte `at` of the source. Does nothing within another one. */
+void qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at);
+
+/* It ends; text [length]: what it says, kept if the status is good. */
+void qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_status status);
+
+#endif

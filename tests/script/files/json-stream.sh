@@ -1,0 +1,44 @@
+# each object says which statement made it; on a pipe each statement is answered, and told when it is done
+cat >inner.lag <<'END'
+print 1
+print 2
+END
+qdot --json - <<'END'
+coord x; print "a"
+
+include "inner.lag"
+print k for k = 1..2
+{
+    print 3
+} for k = 1..1
+check x^2 == 4 when x = 2
+END
+echo "--- a pipe"
+qdot --json -i 2>/dev/null <<'END'
+coord theta
+# nothing
+param l > 0, g > 0
+
+lagrangian l*theta'^2/2 + g*cos(theta); check T == l
+nobody
+print (1 +
+  2)
+run 0..(
+x = )
+set l = 1, g = 9.8; start theta = 0.1; run 0..1
+table theta, theta' every 1
+sweep l = 1..2 step 1 run 0..1 : value(theta, 0) as res
+"no end
+quit
+print 4
+END
+echo "exit $?"
+echo "--- while it is open"
+mkfifo to from
+qdot --json -i <to >from &
+exec 3>to 4<from
+echo 'print 1' >&3
+read -r one <&4; read -r two <&4
+echo "$one"; echo "$two"
+exec 3>&-
+wait
