@@ -286,8 +286,8 @@ write_loaded(writer *w)
             v->binds = WHOLE;
         } else {
             if (!isfinite(t->constant[i - t->inputs]))
-                return qdot_fail(QDOT_EINVAL, "a number too large for a double stands in what is "
-                                              "to be exported");
+                return qdot_fail(QDOT_EINVAL, "what is to be exported contains a number too "
+                                              "large for a double");
             qdot_export_number(t->constant[i - t->inputs], &text);
             v->binds = t->constant[i - t->inputs] < 0 ? SUM : WHOLE;
         }

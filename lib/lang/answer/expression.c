@@ -33,7 +33,7 @@ check_size(const qdot_session *session, qdot_expr e)
         return QDOT_OK;
     (void)qdot_fail(QDOT_ELIMIT, "%s%" PRIu64 " operations are too many to print: more than %u",
                     size == UINT64_MAX ? "more than " : "", size, QDOT_EXPRESSION_OPERATIONS);
-    return qdot_hint("size(...) tells it; what it is used in goes on");
+    return qdot_hint("size(...) tells the size; the expression can still be used");
 }
 
 qdot_status

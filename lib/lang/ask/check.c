@@ -564,7 +564,7 @@ answer_claim(qdot_record *r)
         status = read_question(r, &q, &f);
     if (status == QDOT_OK && q.conserved && qdot_held_coordinate(c->session)) {
         c->error_at = r->start->start;
-        status = qdot_fail(QDOT_EINVAL, "what is conserved is so along the motion: no coordinate is held");
+        status = qdot_fail(QDOT_EINVAL, "conservation is a property of the motion, so no coordinate can be held");
     }
     if (status == QDOT_OK && c->session->held.n > 0)
         status = qdot_assumed_hold(c->session, &f);

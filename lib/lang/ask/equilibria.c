@@ -254,11 +254,11 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
         QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
                                              "domain each recurs after every whole turn"));
     if (all->pole != NULL && all->n > 0)
-        QDOT_TRY(qdot_answer_notice(session, "where the domain of `%.100s` ends these coordinates are singular: rests "
-                                             "there are not looked for", all->pole));
+        QDOT_TRY(qdot_answer_notice(session, "where the domain of `%.100s` ends these coordinates are singular: "
+                                             "equilibria there are not searched for", all->pole));
     if (all->jump != QDOT_NIL)
         QDOT_TRY(qdot_answer_notice_of(
-            session, "the energy jumps with %s: rests where it does are not looked for", all->jump));
+            session, "the energy jumps with %s: equilibria at the jumps are not searched for", all->jump));
     if (all->complete && all->n > 0)
         return QDOT_OK;
     if (all->complete) {

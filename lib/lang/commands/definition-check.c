@@ -254,7 +254,7 @@ tell_coordinate(assignment *a, size_t primes)
     else
         write_equation(a, a->moves ? "constraint" : "start");
     if (a->moves)
-        return tell(a, "`%.200s` is a coordinate: what it is tied to is a constraint",
+        return tell(a, "`%.200s` is a coordinate; an equation for it is a constraint",
                     known->name);
     if (primes > 0 || known->file == NULL)
         return tell(a, "`%.200s` is a coordinate: its motion follows from a start", known->name);

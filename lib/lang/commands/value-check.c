@@ -148,7 +148,7 @@ check_all(qdot_cursor *c, const qdot_pairs *values)
         c->error_at = blame(session, values, said->relation)->start;
         status = qdot_value_check_assumption(session, said);
         if (status == QDOT_EINVAL && values->symbols.n == 1 && is_shared(session, said->relation))
-            status = qdot_hint("values that go together stand in one statement: a = 2, b = 3");
+            status = qdot_hint("set values that depend on each other in one statement: a = 2, b = 3");
         QDOT_TRY(status);
     }
     return QDOT_OK;

@@ -159,7 +159,7 @@ qdot_equilibria_stability(qdot_session *session, qdot_expr equations, qdot_expr 
     while (status == QDOT_OK && at < all.n && qdot_equilibria_value(session->pool, &all.at[at]) != equations)
         at++;
     if (status == QDOT_OK && at == all.n) {
-        (void)qdot_fail(QDOT_EINVAL, "that is none of the scene's equilibria");
+        (void)qdot_fail(QDOT_EINVAL, "this is not an equilibrium of the scene");
         status = qdot_hint("stability(equilibria[1])");
     }
     if (status == QDOT_OK) {

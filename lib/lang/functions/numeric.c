@@ -93,7 +93,7 @@ qdot_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr
     if (exact == e && !(qdot_constant_is(pool, e) && is_flat(pool, e)))
         return qdot_decimals_beside_symbols(pool, e, (int)digits, value);
     if (!qdot_constant_is(pool, exact) || !is_flat(pool, e))
-        return qdot_fail(QDOT_ETYPE, "a number of a run beside what has no value");
+        return qdot_fail(QDOT_ETYPE, "the expression contains a result of a run and a symbol without value");
     o.digits = (int)digits;
     *value = qdot_value_map(pool, e, numbered, &o);
     QDOT_TRY(o.status);

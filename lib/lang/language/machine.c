@@ -130,7 +130,7 @@ qdot_machine_take(qdot_machine *m, size_t n)
         if (m->args.at[i] == QDOT_NIL ||
             !(qdot_expr_node(m->pool, m->args.at[i])->holds & QDOT_HAS_WORDS))
             continue;
-        (void)qdot_fail(QDOT_ETYPE, "a text is no number");
+        (void)qdot_fail(QDOT_ETYPE, "a text is not a number");
         return qdot_hint("latex(...) stands alone, behind `print`, in a list, by a name");
     }
     return QDOT_OK;

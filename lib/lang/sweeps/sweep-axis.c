@@ -308,7 +308,7 @@ axes_check(qdot_record *r, qdot_sweep_axes *axes)
             if (axes->at.at[k].symbol == x->symbol)
                 return qdot_fail(QDOT_EINVAL, "%s is swept twice", x->label);
         if ((x->n == 0) != axes->random)
-            return qdot_fail(QDOT_EINVAL, "a sweep is random in all it runs over, or in nothing");
+            return qdot_fail(QDOT_EINVAL, "a sweep is random in all of its parameters or in none");
     }
     if (axes->random)
         return QDOT_OK;

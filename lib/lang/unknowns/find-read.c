@@ -193,7 +193,7 @@ latest_find(qdot_find *f)
     f->run.treatment = f->latest->treatment;
     if (f->latest->digits > 0) {
         f->run.tol = 1e-12;
-        return qdot_answer_notice(session, "%s has %d digits; what is found has those of doubles", named->name,
+        return qdot_answer_notice(session, "%s has %d digits; values that are found have the digits of a double", named->name,
                                   f->latest->digits);
     }
     f->run.method = f->latest->method;

@@ -197,7 +197,7 @@ tell_notices(qdot_fit *f)
         if (f->numerical[k] > small * f->error[k] && f->error[k] > 0
             && f->numerical[k] > 1e-12 * fabs(f->u[k]))
             QDOT_TRY(qdot_answer_notice(f->session,
-                                        "the numerical error of %.100s may be %.1e: not small beside its "
+                                        "the numerical error of %.100s may be %.1e, not small compared to its "
                                         "standard error %.1e",
                                         label, f->numerical[k], f->error[k]));
     }

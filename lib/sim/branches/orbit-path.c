@@ -531,7 +531,7 @@ orbit_check(qdot_orbit_path *x)
         QDOT_TRY(events_keep_energy(x, &x->conserved));
     if (x->of.family != QDOT_ORBIT_PARAMETER && !x->conserved)
         return qdot_fail(QDOT_EINVAL, "the energy is not conserved: at one value of the parameters "
-                                      "orbits are no family");
+                                      "orbits form no family");
     return QDOT_OK;
 }
 

@@ -449,7 +449,7 @@ qdot_rest_continuation_find(qdot_equilibrium_curve *c, double least, double most
     if (out->interrupted && qdot_pool_check(c->pool) == QDOT_ENOMEM) /* the interruption is told */
         status = QDOT_ENOMEM;
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
-        status = qdot_fail(QDOT_EFAILED, out->complete ? "there is no equilibrium in this range, but at single values of %.100s"
+        status = qdot_fail(QDOT_EFAILED, out->complete ? "there is no equilibrium in this range, except at single values of %.100s"
                                                        : "no equilibrium was found that could be followed",
                            qdot_expr_symbol(c->pool, c->parameter)->name);
     qdot_equilibrium_set_end(&set);

@@ -50,7 +50,7 @@ check_constraints(const qdot_plan *p, const qdot_scene *scene, qdot_run_treatmen
     if (scene->constraints.n > 0 && !holds)
         return geometric_refuse(p, "is for scenes without constraints", "", "variational");
     if (scene->constraints.n > 0 && treatment != QDOT_RUN_PROJECT)
-        return qdot_fail(QDOT_ENOTBUILT, "%s holds the constraints in every step: there is no drift "
+        return qdot_fail(QDOT_ENOTBUILT, "%s satisfies the constraints in every step: no drift has "
                                          "to be treated", p->method->name);
     return QDOT_OK;
 }

@@ -156,7 +156,7 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
     if (status == QDOT_OK)
         status = scan_courses(&s, q, courses);
     if (status == QDOT_OK && !s.begun)
-        status = qdot_fail(QDOT_EDOMAIN, "the range holds nothing of the run");
+        status = qdot_fail(QDOT_EDOMAIN, "the range contains no part of the run");
     if (status == QDOT_OK)
         status = check_bounds(&s, q->kind);
     if (status == QDOT_OK) {

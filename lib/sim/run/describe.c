@@ -282,8 +282,7 @@ static qdot_status
 say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
 {
     if (s->modes.at[0]->m > 0) {
-        qdot_text_add(out, "parts that know nothing of each other go together, as steps of the "
-                           "whole are looked at for ");
+        qdot_text_add(out, "decoupled parts, integrated together, as each step is searched for ");
         say_watched(s, p, out);
         qdot_text_char(out, ':');
         for (size_t k = 0; k < p->n_parts; k++) {
@@ -293,7 +292,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
         qdot_text_char(out, '\n');
         return say_series_of_all(p, tol, out);
     }
-    qdot_text_add(out, "parts that know nothing of each other, each with its own steps:\n");
+    qdot_text_add(out, "decoupled parts, each with its own steps:\n");
     for (size_t k = 0; k < p->n_parts; k++) {
         const qdot_plan *r = moving(p->parts[k]);
 

@@ -160,7 +160,7 @@ find_underflow(qdot_run *run)
     if (status == QDOT_OK)
         qdot_fail_again(&before);
     return status == QDOT_OK && found
-               ? lose(run, "forces are near the least double or below it, and what is lost of them counts in this run: "
+               ? lose(run, "forces are as small as the least double or smaller, and their rounding errors matter in this run: "
                            "other units, or `digits 20`")
                : status;
 }

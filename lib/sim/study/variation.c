@@ -382,7 +382,7 @@ say_singular(const elimination *e, size_t pivot, bool constraint)
 
     if (constraint)
         return qdot_fail(QDOT_ESINGULAR,
-                         "constraint %.100s repeats others: there are no slopes",
+                         "constraint %.100s is redundant: there are no derivatives",
                          s->constraints.at[pivot].name);
     return qdot_fail(QDOT_ESINGULAR,
                      "%.100s'' is not determined: the mass matrix is singular",

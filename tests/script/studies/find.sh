@@ -99,4 +99,4 @@ start x = 0.8, y = -0.6, u = 0.8, v = -1.6
 find x = 0.7 such that value(u, 1) = 0.5
 END
 # after a run with digits
-qdot -q pendulum.lag -e "run 0..1 digits 20" -e "find theta' = 2 such that value(theta, 3) = 0" 2>&1 | grep doubles
+qdot -q pendulum.lag -e "run 0..1 digits 20" -e "find theta' = 2 such that value(theta, 3) = 0" 2>&1 | grep 'a double'
