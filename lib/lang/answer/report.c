@@ -375,7 +375,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     }
     qdot_text_add(line, "\n  cpu ");
     seconds(line, r->cpu);
-    qdot_text_add(line, ", in all cpu ");
+    qdot_text_add(line, ", total cpu ");
     seconds(line, r->cpu_total);
     for (size_t i = 0; i < r->n_drifts; i++) {
         const qdot_drift *d = &r->drifts[i];
