@@ -4,14 +4,15 @@
 #include "base/memory.h"
 #include "tape/derivative.h"
 
-/* Whether block k gives q'' itself, by the tape, or by its M that was factored once for all. */
+/* Whether the outputs of block k are q'' itself: it has one coordinate, or its constant M was
+ * factored before. */
 static bool
 is_solved(const qdot_plan_block *block)
 {
     return block->n == 1 || block->constant;
 }
 
-/* The first output behind those of block k, which begin with `row`. */
+/* The index of the first output after those of block k, whose outputs start at index `row`. */
 static size_t
 row_behind(const qdot_plan_block *block, size_t row)
 {
@@ -129,7 +130,7 @@ held_slopes(double t, const double *y, const double *a, double *z, double *dq, d
     return qdot_constrained_implicit_slopes(((qdot_bind *)user)->held, t, y, z, dq, dv, M);
 }
 
-/* M of block k from its outputs, which begin at `out`. */
+/* Copy the mass matrix of block k from the outputs of the tape, where it begins at `out`, into M. */
 static void
 put_mass(const qdot_plan *p, const qdot_plan_block *block, const double *out, double *M)
 {

@@ -1,4 +1,4 @@
-/* bind-state.h -- what a bind has, for bind.c and bind-slopes.c. */
+/* bind-state.h -- the fields of a bind (a plan ready to be integrated), shared by bind.c and bind-slopes.c. */
 #ifndef QDOT_SIM_BIND_STATE_H
 #define QDOT_SIM_BIND_STATE_H
 
@@ -41,12 +41,12 @@ struct qdot_bind {
     double *slopes_work;
     qdot_ode_mass_form mass_form; /* how M enters the Jacobian of implicit methods */
 
-    /* Of a plan with a reduced one, which is what is integrated: */
+    /* For a plan with ignorable coordinates: the reduced plan, which is the one that is integrated. */
     qdot_tape *reduced; /* a shaken copy; else NULL */
     qdot_blocks reduced_blocks;
     qdot_momenta *momenta;
 
-    /* of a plan with parts: what belongs to each part */
+    /* For a plan of decoupled parts: the bind and the system of each part. */
     qdot_bind **parts;        /* [plan->n_parts] */
     qdot_ode_system *systems; /* [n_parts] */
     qdot_ode_part *listed;    /* [n_parts] */
@@ -81,7 +81,7 @@ QDOT_MUST_CHECK qdot_status qdot_bind_accelerate(qdot_bind *b, double *a);
 qdot_status qdot_bind_jacobian(double t, const double *y, double *dfdy, double *dfdt,
                                void *user);
 
-/* Work space of slopes, and the form with M, if the method or its partner needs a Jacobian. */
+/* Allocate work space for Jacobians, and the form with M, if the method or its companion needs a Jacobian. */
 QDOT_MUST_CHECK qdot_status qdot_bind_make_slopes(qdot_bind *b);
 
 #endif

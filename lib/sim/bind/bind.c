@@ -81,7 +81,8 @@ blocks_solve(qdot_blocks *blocks, const double *out, double *a, const double **e
     return QDOT_OK;
 }
 
-/* q'' at the inputs, for a plan that has no M: from the coefficients of a series along the tree. */
+/* q'' at the inputs for a plan without a mass matrix: from the first coefficients of the series
+ * along the tree. */
 static qdot_status
 begin_elsewhere(qdot_bind *b, double *a)
 {
@@ -128,7 +129,8 @@ rhs(double t, const double *y, double *dydt, void *user)
     return qdot_bind_accelerate(b, dydt + n);
 }
 
-/* The right side by the reduced plan; cyclic coordinates, whose momenta are constant, only have rates. */
+/* The right-hand side by the reduced plan. For cyclic coordinates, whose momenta are constant, only
+ * rates are given. */
 static qdot_status
 reduced_rhs(double t, const double *y, double *dydt, void *user)
 {
@@ -164,7 +166,8 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
     return qdot_bind_accelerate(b, a);
 }
 
-/* The rounding x of f and M a of a block whose outputs are uncertain by `of`. Returns the outputs behind them. */
+/* The rounding error x of f - M a for a block, where the outputs of the tape have the errors `of`.
+ * Returns the errors of the outputs after the block's. */
 static const double *
 sum_roundings(const qdot_plan_block *block, const double *of, const double *a, double *x)
 {
@@ -244,7 +247,7 @@ margin(double t, const double *y, void *user)
     return qdot_constrained_independence(((qdot_bind *)user)->held, t, y);
 }
 
-/* Whether a step goes over forces that act for less than it (sim/bind/pulses.h). */
+/* Whether a step passes over forces that act for a shorter time than the step lasts (sim/bind/pulses.h). */
 static qdot_status
 bind_look_at_step(qdot_ode_look *step, void *user)
 {
@@ -411,7 +414,7 @@ make_held(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* Make the binds of the decoupled parts. */
+/* Make one bind for each decoupled part of the plan. */
 static qdot_status
 make_parts(qdot_bind *b, bool shaken)
 {
@@ -446,7 +449,7 @@ make_leading(qdot_bind *b, const qdot_plan *p)
     return b->plan->leading ? qdot_leading_new(p, b->series, &b->leading) : QDOT_OK;
 }
 
-/* Make the system of the reduced plan, whose momenta are kept. */
+/* Make the system of the reduced plan, in which the momenta of cyclic coordinates are constant. */
 static qdot_status
 make_reduced(qdot_bind *b, bool shaken)
 {

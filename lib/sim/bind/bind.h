@@ -61,7 +61,7 @@ qdot_constrained *qdot_bind_held(qdot_bind *bind);
  * 10.3 kB`, or `kernels` and why. */
 void qdot_bind_tell_code(const qdot_bind *bind, qdot_text *to);
 
-/* How often M was factored. */
+/* How many times M was factored so far. */
 size_t qdot_bind_factored(const qdot_bind *bind);
 
 #endif

@@ -10,7 +10,8 @@
 
 enum { MOST = QDOT_CHEBYSHEV_MOST, ELLIPSES = 3 };
 
-/* Ellipses by how many nodes there are: large ones miss less if nothing lies in them. */
+/* The ellipses that are tried, by the number of Chebyshev nodes; a large ellipse gives a small
+ * error if it holds no singularity. */
 static const struct {
     int nodes;
     double rho[ELLIPSES];
@@ -88,7 +89,7 @@ qdot_polynomial_bounds_sample(qdot_polynomial_bounds *h, int j, const double *in
     }
 }
 
-/* The error of a coefficient from rounding of the input and of the times at which it is read. */
+/* The error of a Chebyshev coefficient from rounding of the input and of the times at which it is read. */
 static double
 noise_of(const qdot_polynomial_bounds *h, size_t k, double a, double b)
 {
@@ -144,7 +145,8 @@ qdot_polynomial_bounds_box(qdot_polynomial_bounds *h)
     qdot_interval_eval(h->tape, h->span, h->box, h->span_work);
 }
 
-/* Outputs on the ellipse of rho about a ... b; false where an input is not known there. */
+/* Evaluate the outputs on the ellipse of parameter rho about the interval a ... b; false if an
+ * input is not known there. */
 static bool
 go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)
 {
@@ -197,7 +199,7 @@ qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, int n
         for (size_t i = 0; i < m; i++) {
             double most = h->out_radius[i];
 
-            /* |t - a| on the ellipse is least on its axis */
+            /* on the ellipse |t - a| is smallest on its axis */
             if (quotients && quotients[i])
                 most = 2 * (most + fabs(h->out[i] - base[i])) / (0.5 * (rho + 1 / rho) - 1);
             h->miss[i] = fmin(h->miss[i], 4 * most * pow(rho, 1 - nodes) / (rho - 1));

@@ -46,7 +46,7 @@ typedef struct {
     qdot_interval *span_work;
 } qdot_polynomial_bounds;
 
-/* For a tape whose input `time` is t. QDOT_ENOMEM; clear it in any case. */
+/* Prepare bounds for a tape whose input number `time` is t. QDOT_ENOMEM; clear h in any case. */
 QDOT_MUST_CHECK qdot_status qdot_polynomial_bounds_init(qdot_polynomial_bounds *h,
                                                         const qdot_tape *tape,
                                                         size_t time);
@@ -72,7 +72,7 @@ void qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, 
 bool qdot_polynomial_bounds_is_hollow(const qdot_polynomial_bounds *h, size_t i,
                                       double part);
 
-/* Where a part is cut if its formula may be singular in the middle (0.5). */
+/* The fraction at which an interval is cut if the formula may be singular in its middle (0.5). */
 #define QDOT_POLYNOMIAL_BOUNDS_BESIDE 0.4867
 
 /* After _look: a bound for the effect of rounding of the inputs on output 0 in the middle of the
@@ -97,7 +97,7 @@ void qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b);
  * for it: each term lies between 0 and its value at the end. */
 void qdot_polynomial_bounds_series(qdot_polynomial_bounds *h, const qdot_ode_series *series,
                                    const qdot_ode_expanded *step);
-/* Then intervals of the outputs for the same inputs, into h->box. */
+/* Compute intervals of the outputs for the same inputs, into h->box. */
 void qdot_polynomial_bounds_box(qdot_polynomial_bounds *h);
 
 #endif

@@ -1,4 +1,4 @@
-/* pulses.c -- a step halved until its equations are known between the points looked at. */
+/* pulses.c -- halves a step until no force can act unseen between the points at which it was evaluated. */
 #include "sim/bind/pulses.h"
 
 #include <float.h>
@@ -20,10 +20,10 @@ enum {
  * values and in tolerances. */
 static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it = 0.01;
 
-/* The exponent of a force e^u up to which series and differences resolve it. */
+/* The largest exponent u of a force e^u that series and differences still resolve. */
 static const double short_reach = 10;
 
-/* What may be missed of that on parts that are not known, in all and on one. */
+/* The share of the allowed error that unexamined intervals may have: all of them together, and each one. */
 static const double unknown_in_all = 0.5, unknown_on_one = 0.1;
 
 /* A part begins what is missed if it is that much shorter than the step, and its values change by
@@ -74,7 +74,7 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
     return QDOT_OK;
 }
 
-/* The mean velocity of coordinate i over the step less the mean of its velocities at both ends. */
+/* The mean velocity of coordinate i over the step, minus the mean of its velocities at both ends. */
 static double
 bend_of(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {
@@ -98,7 +98,7 @@ interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y
     }
 }
 
-/* The state at t, by what the step has. */
+/* The state at t: by the interpolation of the step if it has one, else by cubics. */
 static qdot_status
 state_at(qdot_pulses *p, qdot_pulses_step *s, double t, double *y)
 {
@@ -203,14 +203,14 @@ add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
     }
 }
 
-/* What may be missed of output i, whose integral over the step is `all`. */
+/* The largest allowed error of output i, whose integral over the step is `all`. */
 static double
 allowance(const qdot_pulses_step *s, double all)
 {
     return fmax(fmax(tolerances * s->tol, least) * all, floor_of_it * s->tol);
 }
 
-/* Set what parts of the step may leave unknown, from the values at its nodes. */
+/* Set the error that may remain for each output, from its values at the nodes of the step. */
 static void
 allow(qdot_pulses *p, const qdot_pulses_step *s)
 {
@@ -248,7 +248,7 @@ step_is_short(qdot_pulses *p, const qdot_pulses_step *s)
                             &last, bounds->work) == 0;
 }
 
-/* Whether nothing can fall off on the part a ... b alone. */
+/* Whether the interval a ... b is so short that no force can rise and fall within it. */
 static qdot_status
 is_short_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, bool *is)
 {
@@ -296,7 +296,8 @@ look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
     return QDOT_OK;
 }
 
-/* Where what was missed of output i begins: the first brief part that shows something of it. */
+/* The time at which a missed force of output i begins: the first short interval with a change of
+ * that output. */
 static void
 find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
 {
@@ -317,7 +318,7 @@ find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
         }
 }
 
-/* The disc about four numbers. */
+/* The smallest disc about the interval of four numbers, enlarged by rounding. */
 static void
 disc_about(const double *x, double *centre, double *radius)
 {
@@ -328,7 +329,7 @@ disc_about(const double *x, double *centre, double *radius)
     *radius = 0.5 * (hi - lo) + 4 * DBL_EPSILON * fmax(fabs(lo), fabs(hi));
 }
 
-/* Discs about the cubics and their slopes, by their control points. */
+/* Discs that enclose the cubics of positions and their slopes, from the control points of the cubics. */
 static void
 enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
 {
@@ -347,7 +348,8 @@ enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
     }
 }
 
-/* Whether the polynomial by Chebyshev's coefficients goes one way: on all of its parts. */
+/* Whether the polynomial with the Chebyshev coefficients `slope` has one sign, tested on halves to
+ * the given depth. */
 static bool
 is_one_way(const double *slope, int depth)
 {
@@ -361,7 +363,7 @@ is_one_way(const double *slope, int depth)
     return is_one_way(parts[0], depth - 1) && is_one_way(parts[1], depth - 1);
 }
 
-/* Whether the argument of instruction k goes one way in the step. */
+/* Whether the argument of instruction k is monotonic in the step. */
 static bool
 goes_one_way(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
 {
@@ -379,7 +381,7 @@ goes_one_way(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
            is_one_way(slope, depth);
 }
 
-/* The result of instruction k at an end of the step, y at t. */
+/* The argument of instruction k at an end of the step, where the state is y and the time t. */
 static double
 result_at(qdot_pulses *p, size_t k, const double *y, double t)
 {
@@ -415,7 +417,7 @@ shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
            goes_one_way(p, s, k);
 }
 
-/* The missed part of output i, relative to what may be missed. */
+/* The error of output i from forces that were missed, divided by its allowed error. */
 static double
 missed(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {

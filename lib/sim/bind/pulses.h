@@ -48,7 +48,7 @@ typedef struct {
     int most; /* parts that a step gets; fewer after some for which these did not suffice */
 } qdot_pulses;
 
-/* A step, and what is found on it. */
+/* A step, and the result of its inspection. */
 typedef struct {
     double a, b, tol;
     const double *from, *to; /* [2n] the states at a, b */

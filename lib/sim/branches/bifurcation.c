@@ -1,4 +1,4 @@
-/* bifurcation.c -- names, null vectors, and which of two curves cross. */
+/* bifurcation.c -- names of bifurcations, null vectors, and the tangents of two crossing curves. */
 #include "sim/branches/bifurcation.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ normalise(const qdot_path *x, double *t)
         t[i] /= length;
 }
 
-/* The directions of both curves at a crossing, one and two [n + 1]. */
+/* The tangents of the two curves at a crossing, into one and two [n + 1]. */
 static void
 directions(const qdot_path *x, const double *c, const double *v, double root, double *one,
            double *two)

@@ -40,7 +40,8 @@ typedef struct {
     char reason[QDOT_PATH_REASON]; /* why none was followed from there; "": it was, or that was not tried */
 } qdot_bifurcation;
 
-/* Where a bifurcation lies: between the points at `from` and `to` from a along a->t. */
+/* The bracket of a bifurcation: it lies between arclengths `from` and `to` from the point a, along
+ * its tangent a->t. */
 typedef struct {
     const qdot_path_point *a;
     double from, to;

@@ -1,4 +1,5 @@
-/* branch-marks.c -- bifurcations that are kept, each once; pairs of them between two points of a curve. */
+/* branch-marks.c -- the list of bifurcations found, without repetition; pairs of them between two
+ * points of a curve. */
 #include "sim/branches/branch-marks.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ apart(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
     return x->dips ? 4 * errors + rounded : together;
 }
 
-/* The index of the same bifurcation; their number: it is new. */
+/* The index of this bifurcation in the list; the length of the list if it is new. */
 static size_t
 index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
 {
@@ -149,7 +150,7 @@ qdot_branch_fold_beside(qdot_branch_search *s, const qdot_bifurcation_bracket *i
     return status;
 }
 
-/* Search a crossing of branches from the point at arclength `way` from a. *found: false if there is none near. */
+/* Search a crossing of branches from the point at arclength `way` from a. *found: false if none is near. */
 static qdot_status
 find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, qdot_path_point *room,
                    qdot_bifurcation *b, double *other, bool *found)

@@ -12,7 +12,7 @@
 #include "sim/branches/branch-parts.h"
 #include "sim/branches/dips.h"
 
-/* Angles as -pi < q <= pi, as far as is known. */
+/* Reduce angles to -pi < q <= pi, where the equations are known to have that period. */
 void qdot_branch_turn_back(const qdot_path *x, double *y);
 
 /* The longest step from y that does not go over to another curve near two crossings that lie close together. */
@@ -41,7 +41,7 @@ QDOT_MUST_CHECK qdot_status qdot_branch_fold_beside(qdot_branch_search *s, const
 QDOT_MUST_CHECK qdot_status qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d,
                                                   size_t place, double way, qdot_branch *branch,
                                                   bool *both);
-/* A place at which several curves meet, known to `apart`. */
+/* Record a point at which several curves meet, which is known with the error `apart`. */
 QDOT_MUST_CHECK qdot_status qdot_branch_mark_zero(qdot_branch_search *s, const qdot_dips *d,
                                                   size_t place, double apart, qdot_branch *branch);
 

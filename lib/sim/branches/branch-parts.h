@@ -1,4 +1,4 @@
-/* branch-parts.h -- branches, what is found of them, and the state of the search. */
+/* branch-parts.h -- branches, their bifurcations, and the state of the search for them. */
 #ifndef QDOT_SIM_BRANCH_PARTS_H
 #define QDOT_SIM_BRANCH_PARTS_H
 
@@ -42,7 +42,7 @@ typedef struct {
     bool interrupted;
 } qdot_continuation;
 
-/* A crossing whose other curve is to be followed. */
+/* A crossing whose second curve has still to be followed. */
 typedef struct {
     size_t at;     /* the bifurcation */
     double *other; /* [n + 1] the direction of the other branch, owned */

@@ -1,4 +1,4 @@
-/* branch.c -- steps along a curve; what lies between two points of it. */
+/* branch.c -- follows a curve step by step and finds the bifurcations between two of its points. */
 #include "sim/branches/branch.h"
 
 #include <math.h>
@@ -11,26 +11,26 @@
 
 /* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
 static const double first_step = 2e-3, far_away = 100;
-/* Tangents of neighbouring points turn by less than acos of this. */
+/* The tangents of neighbouring points may differ by an angle of at most acos of this. */
 static const double straight = 0.99;
 /* A point whose distance exceeds the step by more than this factor belongs to another curve. */
 static const double longer = 1.02;
 /* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
 static const double turned = 0.5, grown = 1;
-/* Steps across two bifurcations of different kinds that are not told apart. */
+/* Two bifurcations of different kinds that are closer than this (arclength) are not told apart. */
 static const double together = 1e-6;
-/* Steps at which two curves that do not cross are told apart. */
+/* The smallest step (arclength) with which two curves that do not cross are told apart. */
 static const double nearest = 1e-8;
-/* How far beyond a step signs are looked at where rounding hides them within it. */
+/* If rounding hides signs within a step, they are evaluated beyond it by this fraction of the step. */
 static const double beyond = 0.05;
-/* Of the largest determinant so far: below, it may be of either sign. */
+/* A determinant smaller than this, relative to the largest so far, has an uncertain sign. */
 static const double doubtful = 1e-13;
-/* Halvings of the way to what is not located otherwise. */
+/* HALVINGS: steps of the bisection for a bifurcation that Newton's method does not find. */
 enum { MOST_POINTS = 20000, UNKNOWN = 20, HALVINGS = 52 };
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
-/* Whether a curve has no part along p there. Where it has none all the way it does not turn. */
+/* Whether p is stationary along the curve at a: the tangent has no component along p, as at a fold. */
 static bool
 is_upright(const qdot_path *x, const qdot_path_point *a)
 {
@@ -131,7 +131,7 @@ bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_pa
         add_way_to_zero(x, in->a, length, here, out);
 }
 
-/* Halve the way from a to in->to; out->y in the middle of what is left, out->error how long that is. */
+/* Bisect between a and in->to; out->y becomes the middle of the last interval, out->error its length. */
 static qdot_status
 enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcation *out)
 {
@@ -181,7 +181,7 @@ is_latest(const qdot_path *x, const qdot_branch *branch, const double *y, size_t
     return false;
 }
 
-/* It is a point of the branch, too. Takes b->y and other. */
+/* Record a bifurcation and add its point to the branch. Takes ownership of b->y and other. */
 static qdot_status
 mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
 {
@@ -276,7 +276,7 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
     return status;
 }
 
-/* All that lies between a and b, `length` apart. */
+/* Find all bifurcations between the points a and b of a curve, which are `length` apart. */
 static qdot_status
 look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_point *b,
              double length, qdot_branch *branch)
@@ -332,7 +332,7 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
 
 /* --- steps -------------------------------------------------------------------------------- */
 
-/* The bound that y has passed: the index of that unknown (of p: n), *held the bound; n + 1: none. */
+/* Which bound y has passed: the index of that unknown (n for p), *held the bound itself; n + 1 if none. */
 static size_t
 passed(const qdot_path *x, const double *y, double *held)
 {
@@ -347,7 +347,7 @@ passed(const qdot_path *x, const double *y, double *held)
     return x->n + 1;
 }
 
-/* Put b where y_i has the value `held`, between a and where b is; *length. False: not found. */
+/* Move b, on the curve beyond a, to the point at which y_i = held; *length from a. False: not found. */
 static bool
 end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_point *b,
        double *length)
@@ -434,7 +434,7 @@ way(const qdot_path *x, const double *a, const double *b)
     return sqrt(sum);
 }
 
-/* Whether the curve is again where it began, going the same way; b's place is that of the start, then. */
+/* Whether the curve has returned to its start in the same direction; if so b is set to the start. */
 static bool
 is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a,
           qdot_path_point *b)
@@ -451,7 +451,7 @@ is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_poin
     return true;
 }
 
-/* Judge b, and look between a and it; an interruption on the way is noted. */
+/* Judge the stability of b and look for bifurcations between a and b; records if the user interrupted. */
 static qdot_status
 branch_look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
             qdot_branch *branch)
@@ -467,7 +467,7 @@ branch_look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b,
     return status == QDOT_EINTR ? QDOT_OK : status;
 }
 
-/* Look at the step from a to b, of a length that is 0 if none could be made. *ends: the branch ends with it. */
+/* Inspect the step from a to b; length 0 means that no step could be made. *ends: the branch ends with it. */
 static qdot_status
 look_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
              qdot_branch *branch, bool *ends)
@@ -521,7 +521,7 @@ look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, dou
     }
 }
 
-/* a, then b: room. */
+/* Follow the branch from `start` to its end; a and b are work space for points. */
 static qdot_status
 branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
               qdot_dips *d, qdot_branch *branch)

@@ -1,4 +1,4 @@
-/* continuation.c -- which curves are known already, and crossings to other ones. */
+/* continuation.c -- tells which curves are known already, and follows the others through their crossings. */
 #include "sim/branches/continuation.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 /* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. Of a unit
  * direction: below, it has no part along p. */
 static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4}, upright = 1e-8;
-/* A residual that is 0, of what it is beside the place. */
+/* A residual counts as 0 below this part of the residuals at shifted unknowns. */
 static const double zero = 1e-9;
 enum { MOST_BRANCHES = 400 };
 
@@ -30,7 +30,7 @@ qdot_continuation_clear(qdot_continuation *x)
 
 /* --- what is known already --------------------------------------------------------------------- */
 
-/* Whether y lies on the curve between its points from and to; here: room. */
+/* Whether y lies on the curve between its points `from` and `to`; `here` is work space. */
 static bool
 lies_between(qdot_path *x, const double *from, const double *to, const double *y,
              qdot_path_point *here)
@@ -111,7 +111,7 @@ branches_join(qdot_branch_search *s, const qdot_branch *back, const double *midd
     return status;
 }
 
-/* Let a closed branch begin, and end, at its first bifurcation. */
+/* Shift a closed branch so that it begins, and ends, at its first bifurcation. */
 static qdot_status
 turn_round(const qdot_path *x, qdot_branch *branch)
 {
@@ -141,7 +141,8 @@ turn_round(const qdot_path *x, qdot_branch *branch)
     return QDOT_OK;
 }
 
-/* Both ways from a place whose tangent is known; p grows along the second. *alone: no other point is found. */
+/* Follow the curve in both directions from a point with known tangent; p grows along the second.
+ * *alone: no other point was found. */
 static qdot_status
 follow_both(qdot_branch_search *s, qdot_path_point *a, bool *alone)
 {
@@ -171,7 +172,7 @@ follow_both(qdot_branch_search *s, qdot_path_point *a, bool *alone)
     return status;
 }
 
-/* The largest |F| at y, or with all unknowns shifted by a part of their sizes. */
+/* The largest |F| at y, with each unknown shifted by the fraction `part` of its typical size. */
 static double
 largest_residual(qdot_branch_search *s, const double *y, double part, double *room)
 {
@@ -218,7 +219,7 @@ follow_from(qdot_branch_search *s, const double *y, bool *left)
 
 /* --- crossings ----------------------------------------------------------------------------- */
 
-/* Whether p turns back between the crossing `start` and a, which leaps over a fold then. */
+/* Whether dp/ds changes its sign between the crossing `start` and a: then that step has jumped over a fold. */
 static bool
 turns_between(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a)
 {
@@ -290,7 +291,8 @@ add_fold_beside(qdot_branch_search *s, const qdot_path_point *start, const qdot_
     return status;
 }
 
-/* One arm of the other curve; empty where there is none, or it is known. */
+/* Follow one arm of the curve that crosses at y; `arm` stays empty if there is none or if it is
+ * known already. */
 static qdot_status
 follow_arm(qdot_branch_search *s, const double *y, const double *other, double way,
            qdot_branch *arm)
@@ -323,7 +325,7 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     return status;
 }
 
-/* The other curve at a bifurcation along `other`, as one branch through it; or one arm of it. */
+/* Follow the other curve at a bifurcation, along `other`: as one branch through it, or only one arm of it. */
 static qdot_status
 follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
 {
@@ -348,7 +350,7 @@ follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
     return status;
 }
 
-/* All crossings that are not done, and those that are met on the way. */
+/* Follow the second curve of every crossing in the list, which grows as further crossings are found. */
 static qdot_status
 follow_crossings(qdot_branch_search *s, size_t *done)
 {
@@ -366,7 +368,7 @@ follow_crossings(qdot_branch_search *s, size_t *done)
 
 /* --- all ------------------------------------------------------------------------------------ */
 
-/* A place to s->all->left. */
+/* Append the point y to s->all->left, the points that are not on a curve followed so far. */
 static qdot_status
 add_left(qdot_branch_search *s, const double *y)
 {
@@ -375,7 +377,7 @@ add_left(qdot_branch_search *s, const double *y)
     return QDOT_OK;
 }
 
-/* Remove the places that lie on a curve which has been followed. */
+/* Remove the points that lie on a curve which has been followed. */
 static qdot_status
 leave_out_known(qdot_branch_search *s)
 {

@@ -15,13 +15,14 @@
 
 void qdot_continuation_clear(qdot_continuation *x);
 
-/* Follow the curves from places at [count * (n + 1)]; what is known already stays in s->all. */
+/* Follow the curves through the points at [count * (n + 1)]; curves already in s->all are kept. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_follow(qdot_branch_search *s, const double *at,
                                                      size_t count);
-/* Follow one arm of the other curve at s->all->bifurcations[at], along `other` [n + 1]; and the curves that cross it. */
+/* Follow one arm of the curve along `other` [n + 1] at bifurcation number `at`; if `crossings`,
+ * also the curves that cross it. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other,
                                                   bool crossings);
-/* Whether the place y [n + 1] lies on a known curve. */
+/* Whether the point y [n + 1] lies on a curve already found. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_knows(qdot_branch_search *s, const double *y, bool *known);
 /* In any case behind it: frees what is left of the search. Where it was interrupted, what is known stays, and
  * the status is QDOT_OK. */

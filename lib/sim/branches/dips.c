@@ -1,4 +1,5 @@
-/* dips.c -- the latest points of a curve, and the test functions at them. */
+/* dips.c -- keeps the latest points of a curve and finds zeros that test functions touch without
+ * changing sign. */
 #include "sim/branches/dips.h"
 
 #include <math.h>
@@ -29,7 +30,7 @@ qdot_dips_forget(qdot_dips *d)
     d->n = 0;
 }
 
-/* The determinant; the tangent's part along p. */
+/* The test function: the determinant (0), or the scaled component of the tangent along p (1). */
 static double
 function(const qdot_path *x, const qdot_path_point *a, int which)
 {

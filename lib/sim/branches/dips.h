@@ -35,12 +35,12 @@ typedef enum {
 
 QDOT_MUST_CHECK qdot_status qdot_dips_begin(const qdot_path *x, qdot_dips *d);
 void qdot_dips_end(qdot_dips *d);
-/* Forget the points, where a bifurcation lies between them and what follows. */
+/* Forget the points before a bifurcation, across which the test functions are not smooth. */
 void qdot_dips_forget(qdot_dips *d);
 /* b follows, at `gone`, the branch has `count` points with it. */
 void qdot_dips_add(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, double gone,
                    size_t count);
-/* Before b is added. ZERO is said of the determinant alone. */
+/* Call before b is added. The answer ZERO refers to the determinant only. */
 qdot_dips_answer qdot_dips_look(const qdot_path *x, qdot_dips *d, const qdot_path_point *b,
                                 double gone, size_t *place);
 

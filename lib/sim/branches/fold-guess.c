@@ -6,7 +6,7 @@
 
 enum { POINTS = 4, HALVINGS = 60 };
 
-/* The points are of one curve if no tangent turns by more than the angle with this cosine. */
+/* Points are on one curve if the tangents differ by no more than the angle with this cosine. */
 static const double straight = 0.9;
 
 /* The cubic through f_k at s = -3, -1, 1, 3 (times h). */
@@ -27,7 +27,7 @@ cubic(const double *f, size_t stride, double s)
     return sum;
 }
 
-/* The zero of the cubic, whose ends have different signs. */
+/* The zero of the cubic between its outer nodes, where its values have different signs. */
 static double
 zero_of(const double *f)
 {

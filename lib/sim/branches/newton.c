@@ -8,7 +8,7 @@
 #include "normal/solve/isolate.h"
 #include "tape/derivative.h"
 
-/* Steps that do not get shorter than this may be rounding. */
+/* Newton steps that no longer shrink below this relative length may be dominated by rounding. */
 static const double blurred = 1e-5;
 
 enum {
@@ -51,7 +51,7 @@ qdot_newton_end(qdot_newton *s)
     *s = (qdot_newton){0};
 }
 
-/* One step; its length relative to max(1, |x|), INFINITY where there is none. */
+/* Make one Newton step; returns its length relative to max(1, |x|), INFINITY if J is singular. */
 static double
 newton_step_length(qdot_newton *s, double *x)
 {
@@ -96,7 +96,7 @@ prove(qdot_newton *s, double *x, double *error)
     return QDOT_OK;
 }
 
-/* Newton's steps from x until they are rounding; then prove that a solution is there. */
+/* Newton's method from x until only rounding is left; then prove that a solution exists there. */
 static qdot_status
 iterate(qdot_newton *s, double *x, double *error, bool *found)
 {

@@ -13,13 +13,13 @@ static const double wide = 0.1, narrower = 0.3, difference = 1e-4, upright = 1e-
 /* A crossing whose position polynomials determine no better than this, in units of the curve, is none: two curves
  * come near each other. */
 static const double apart = 1e-10;
-/* The rounding that both runs share and their difference does not show, relative to a value. */
+/* A relative rounding error common to both runs, which their difference does not show. */
 static const double rounding = 4e-15;
-/* Pairs that meet the unit circle are not further from it, and not nearer to the real axis, by sin of the angle. */
+/* A pair of multipliers on the unit circle: ||mu| - 1| is below the first, |sin(arg mu)| above the second. */
 static const double on_circle = 1e-6, off_axis = 1e-3;
 /* How far, of a length of 1, a crossing may be off at least. */
 static const double least_off = 5e-14;
-/* An orbit whose state after half of it is nearer to the first, of a length of 1, has half the period. */
+/* If the states half a period apart differ by less than this (in scaled length), the period is half as long. */
 static const double half = 1e-9;
 enum { STEPS = 60, HALVINGS = 36, PLACES = 6, SHIFTS = 4, NARROWINGS = 6 };
 
@@ -75,7 +75,7 @@ of_pairs(search *f, size_t z)
     return product;
 }
 
-/* The test function at f->point; NaN: it is not known. */
+/* The test function of the bifurcation at f->point; NaN if it is not known. */
 static double
 test(search *f)
 {
@@ -101,7 +101,7 @@ test(search *f)
     return of_pairs(f, z);
 }
 
-/* The test function at arclength s from f->a; NaN: no point there. */
+/* The test function at arclength s from f->a; NaN if no point was found there. */
 static double
 test_at(search *f, double s)
 {
@@ -186,7 +186,7 @@ zero_through(size_t n, const double *x, const double *f, double s, double step)
     return b;
 }
 
-/* The polynomial through places next to *s: its zero *s, y [n + 1] there, how far s may be off. */
+/* Interpolate by a polynomial through points near *s: its zero *s, y [n + 1] there, and the error *off of s. */
 static bool
 fit_crossing(search *f, double *s, double step, double *y, double *off)
 {
@@ -292,14 +292,14 @@ multipliers_widen(search *f, double *lo, double *hi)
     }
 }
 
-/* Two curves cross there: orbits cannot be had at it, but beside it. */
+/* Whether two curves cross at this bifurcation: orbits can be computed next to it, but not at it. */
 static bool
 crosses(const search *f)
 {
     return f->kind == QDOT_PITCHFORK || f->kind == QDOT_HALVING;
 }
 
-/* The bifurcation between lo and hi: y [width] with what belongs to it, how far s may be off. */
+/* Locate the bifurcation between lo and hi: y [width], and the error *off of its arclength. */
 static qdot_status
 orbit_locate(search *f, double lo, double hi, double *y, double *off, bool *found)
 {
@@ -375,7 +375,7 @@ find_form(qdot_path *x, const double *y, const double *v, const double *psi, dou
     return true;
 }
 
-/* Null vectors of F_y, of unit length by the weights, and of its transpose. */
+/* Null vectors v of F_y and psi of its transpose, of unit length in the scaled norm. */
 static qdot_status
 find_null_vectors(qdot_path *x, const double *y, double *v, double *psi)
 {
@@ -398,7 +398,7 @@ find_null_vectors(qdot_path *x, const double *y, double *v, double *psi)
     return qdot_null_vectors(m, n, x->A, 1, psi);
 }
 
-/* Of the two signs of a direction that in which its largest part is positive. */
+/* Choose the sign of t so that its largest scaled component is positive. */
 static void
 point_up(const qdot_path *x, double *t)
 {
@@ -412,7 +412,7 @@ point_up(const qdot_path *x, double *t)
     t[most] = fabs(t[most]);
 }
 
-/* The direction of the branch of doubled period at y; p is constant along it to first order. */
+/* The tangent of the branch of doubled period at y; along it p is constant to first order. */
 qdot_status
 qdot_orbit_bifurcation_double(qdot_orbit_path *orbit, const double *y, double *t)
 {
@@ -453,7 +453,7 @@ classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other,
 
 /* --- any of them ---------------------------------------------------------------------------------- */
 
-/* The point a as the coarse runs have it. */
+/* The point a, recomputed by the run with the coarse tolerance. */
 static bool
 as_coarse(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
 {
@@ -505,7 +505,7 @@ orbit_find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out,
     double *y = qdot_calloc(w + m, sizeof *y), *const t = y + w, off = 0;
     qdot_status status = y ? orbit_locate(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
     const double angle = f->angle;
-    /* else several real ones pass -1 or 1 together */
+    /* otherwise several real multipliers pass through -1 or 1 at once */
     const bool pair = fabs(sin(angle)) > off_axis && (f->krein || f->beside < on_circle);
 
     if (status == QDOT_OK)

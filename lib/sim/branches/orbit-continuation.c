@@ -1,4 +1,4 @@
-/* orbit-continuation.c -- begins at one orbit; how curves of orbits end. */
+/* orbit-continuation.c -- starts the continuation from one orbit, and tells how curves of orbits end. */
 #include "sim/branches/orbit-continuation.h"
 
 #include <math.h>
@@ -9,17 +9,19 @@
 #include "expr/symbol.h"
 #include "sim/branches/orbit-bifurcation.h"
 
-/* A curve whose period has grown so many times, and goes on to do nothing else, leads to an orbit without one. */
+/* A curve leads to an orbit of infinite period if its period has grown by the first factor and
+ * mostly grows: the second is the least share of the change that must be growth. */
 static const double long_period = 2, mostly = 0.5;
 
 /* Orbits that close after more turns of the first are not followed; of those that close after the most turns these many
  * branches, from the first bifurcation on, of so many points. */
 enum { MOST_TURNS = 4, MOST_DOUBLED = 4, MOST_POINTS = 500 };
 
-/* Beside errors, relative to the sizes of all: places of one period doubling, as two branches have it. */
+/* Two branches have the same period doubling if their points differ by less than this, relative to
+ * the sizes, plus their errors. */
 static const double alike = 1e-6;
 
-/* Between points from and to of a branch, both at an end of it. */
+/* Whether the period grows without bound between points `from` and `to`, which lie at one end of the branch. */
 static bool
 grows(const qdot_path *x, const qdot_branch *b, size_t from, size_t to)
 {
@@ -81,7 +83,8 @@ open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation 
     return QDOT_OK;
 }
 
-/* Rows [width] of x, for orbits in fewer segments: the states between later ones are left out. */
+/* Shorten rows y [width] of x to those of a path with fewer segments, by dropping the states
+ * between later segments. */
 static void
 rows_shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
 {
@@ -108,7 +111,8 @@ is_doubling(const qdot_path *once, const qdot_continuation *to, const qdot_bifur
     return false;
 }
 
-/* Move a bifurcation of x to `to`, once's, if it is not there yet; *number: 1 + its index there. */
+/* Move a bifurcation b of x to the list of `to` unless it is there already; *number: 1 + its index
+ * in that list. */
 static qdot_status
 merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b, qdot_continuation *to,
                   size_t *number)
@@ -144,7 +148,8 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
     return status;
 }
 
-/* Move the branches and bifurcations of `from` to `to`; the first bifurcation is number `at` there. */
+/* Append the branches and bifurcations of `from` to `to`, where the first bifurcation of `from` is
+ * number `at`. */
 static qdot_status
 merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t at, qdot_continuation *to)
 {
@@ -173,7 +178,7 @@ merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t
 static qdot_status double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first,
                               qdot_continuation *out);
 
-/* From the bifurcation, number `at` of out, the orbits that close after two turns. */
+/* Follow the orbits of doubled period from bifurcation number `at` of out. */
 static qdot_status
 follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns, size_t at, qdot_continuation *out)
 {

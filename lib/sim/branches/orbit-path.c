@@ -1,4 +1,4 @@
-/* orbit-path.c -- F and F' of periodic orbits by runs with slopes; what is judged at one. */
+/* orbit-path.c -- F and F' of periodic orbits by integration with sensitivities; stability and multipliers. */
 #include "sim/branches/orbit-path.h"
 
 #include <math.h>
@@ -19,13 +19,13 @@
 /* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
 
-/* A coordinate whose change over an orbit is below this, in its size, counts as constant. */
+/* A coordinate is constant if its change over an orbit, relative to its size, is below this. */
 static const double still = 1e-12;
 
-/* Multipliers grow that are beyond the unit circle by more than this, and by more than three times their error. */
+/* A multiplier grows if |mu| - 1 exceeds this, and three times its error. */
 static const double grows = 1e-6;
 
-/* Relative to max(1, |mu|): of a multiplier with a larger error nothing is known. */
+/* A multiplier whose error exceeds this, relative to max(1, |mu|), is unknown. */
 static const double blurred = 0.03;
 
 /* Newton's corrections end below `exact`, which the errors of runs bound; the shortest and longest step along a
@@ -40,14 +40,14 @@ qdot_orbit_path_most(size_t n)
 
 /* --- one evaluation ------------------------------------------------------------------------- */
 
-/* Unknowns of the flow: 2n, and p where it is a parameter. */
+/* The number of variables of the flow: 2n, and p if it is a parameter of the scene. */
 static size_t
 width_of(const qdot_orbit_path *x)
 {
     return x->flow[0].z + x->flow[0].p;
 }
 
-/* Where the state between segment k - 1 and k stands in y; 0 for the last end, too. */
+/* The index in y of the state between segments k - 1 and k; 0 (the start) also after the last segment. */
 static size_t
 segment_place(const qdot_orbit_path *x, size_t k)
 {
@@ -98,7 +98,7 @@ ask(qdot_orbit_path *x, const double *y)
     return QDOT_OK;
 }
 
-/* The gap between the end of segment k and the next state, and its derivatives. */
+/* The difference between the end of segment k and the start of the next, and its derivatives, into F and J. */
 static void
 fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 {
@@ -167,7 +167,8 @@ orbit_fill(qdot_orbit_path *x, const double *y)
         J[path->n] = -1;
 }
 
-/* The evaluation is that of the latest y where it is asked again. An orbit whose phase has turned over is none. */
+/* Evaluate F and F' at y, or reuse the last evaluation if y is the same. An orbit whose phase
+ * condition has changed sign is rejected. */
 static void
 orbit_evaluate(qdot_path *path, const double *y)
 {
@@ -224,7 +225,7 @@ qdot_orbit_path_ask(qdot_orbit_path *x, size_t by)
 
 /* --- what is judged --------------------------------------------------------------------------- */
 
-/* B of the run that is asked, E how far it is from that of the other. */
+/* Fill B, the monodromy of the selected run (fine or coarse), and E, its difference from the other run's. */
 static bool
 fill_both(qdot_orbit_path *x, const double *y)
 {
@@ -245,7 +246,7 @@ fill_both(qdot_orbit_path *x, const double *y)
     return status == QDOT_OK;
 }
 
-/* The number of multipliers that are 1 for every orbit: of a shift in time, of the energy. */
+/* The number of multipliers that are 1 for every orbit: one for a time shift, one more for conserved energy. */
 static size_t
 trivial_of(const qdot_orbit_path *x)
 {
@@ -279,7 +280,7 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
                                                           : QDOT_STABLE_TO_FIRST_ORDER;
 }
 
-/* The orbit asked for last, to be read. */
+/* A reader of the orbit that was evaluated last. */
 static qdot_orbit_read
 read_of(qdot_orbit_path *x, const qdot_flow_orbit *o)
 {
@@ -295,7 +296,7 @@ shape(qdot_orbit_path *x, const double *y, double *most, double *size)
     return qdot_orbit_shape(&r, most, size);
 }
 
-/* Verdict, largest values, multipliers. */
+/* Judge an orbit: its stability, the largest values of coordinates, its multipliers. */
 static qdot_status
 orbit_judge(qdot_path *path, qdot_path_point *a)
 {
@@ -359,7 +360,7 @@ make_flows(qdot_orbit_path *x)
     return qdot_flow_segments_of_orbit(&x->flow[0], of->z, &of->p, x->t0, of->T, NULL, &x->K);
 }
 
-/* The states between segments, one after the other from the start. */
+/* Compute the states between segments one after the other, from the start. */
 static qdot_status
 follow_states(qdot_orbit_path *x, double *y)
 {
@@ -374,7 +375,7 @@ follow_states(qdot_orbit_path *x, double *y)
     return QDOT_OK;
 }
 
-/* What is held, and the first place y: at the start, or where a coordinate turns. */
+/* Choose the phase condition and the first state y: at the start, or at a turning point of a coordinate. */
 static qdot_status
 choose_phase(qdot_orbit_path *x, const double *change, double *y)
 {
@@ -451,7 +452,7 @@ orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
     return QDOT_OK;
 }
 
-/* The first point of the branch: y, with the states between segments, and the sizes of its components. */
+/* The first point of the branch: y with the states between segments, and the typical size of each component. */
 static qdot_status
 make_first(qdot_orbit_path *x, double *size, double *y)
 {
@@ -491,7 +492,7 @@ make_period(qdot_orbit_path *x)
     return x->period_work ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Whether h is proved to stay through what events do. */
+/* Whether it is proved that events leave the energy h unchanged. */
 static qdot_status
 events_keep_energy(const qdot_orbit_path *x, bool *keep)
 {
@@ -514,7 +515,7 @@ events_keep_energy(const qdot_orbit_path *x, bool *keep)
     return QDOT_OK;
 }
 
-/* What the scene is, and whether p can be what it is asked to be. */
+/* Check the kind of scene, and that p can be used as the parameter of the family. */
 static qdot_status
 orbit_check(qdot_orbit_path *x)
 {

@@ -31,12 +31,13 @@
 #include "sim/study/flow.h"
 #include "tape/tape.h"
 
-/* What the parameter p of a family of orbits is: a parameter of the scene, the energy, a number of the start. */
+/* The kind of the parameter p of a family of orbits: a parameter of the scene, the energy, or a start value. */
 typedef enum { QDOT_ORBIT_PARAMETER, QDOT_ORBIT_ENERGY, QDOT_ORBIT_START } qdot_orbit_family;
 
 typedef struct {
     qdot_scene *scene;
-    /* Values of parameters, p itself as its own; t0, method; its start is not used. */
+    /* The run that the family is based on: parameter values (including that of p), t0, method. Its
+     * start values are not used. */
     const qdot_run_request *request;
     qdot_orbit_family family;
     qdot_expr parameter; /* of the scene, or a q, q' of the start; energy: nil */
@@ -80,9 +81,9 @@ void qdot_orbit_path_end(qdot_orbit_path *x);
  * are of a scene: */
 size_t qdot_orbit_path_most(size_t n);
 
-/* B at y, as the response asked has it; false: there is none. E is not changed. */
+/* The monodromy matrix B at y by the selected run; false if there is none. E is not changed. */
 bool qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y);
-/* Ask the fine response (0) or the coarse one (1) from now on. */
+/* Use the runs with the fine tolerance (0) or the coarse one (1) from now on. */
 void qdot_orbit_path_ask(qdot_orbit_path *x, size_t by);
 
 #endif

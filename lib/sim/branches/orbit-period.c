@@ -1,4 +1,4 @@
-/* orbit-period.c -- the drive's frequencies, and whether the equations come back after the period. */
+/* orbit-period.c -- the drive's frequencies, and whether the equations are periodic with the given period. */
 #include "sim/branches/orbit-period.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ period_add(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
     return qdot_vec_push(all, e);
 }
 
-/* The components of e. */
+/* Collect the frequencies in all components of e. */
 static qdot_status
 add_all(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
 {
@@ -39,7 +39,8 @@ add_all(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
     return QDOT_OK;
 }
 
-/* M, f, and what events do, with numbers; an event either way is where its square is 0. */
+/* Collect the frequencies in M, f and events. An event without direction occurs where the square of
+ * its function is 0. */
 static qdot_status
 gather(qdot_scene *s, const qdot_run_request *r, list *all)
 {
@@ -77,7 +78,7 @@ qdot_orbit_is_driven(qdot_scene *s, const qdot_run_request *r, bool *driven)
     return status;
 }
 
-/* e with numbers in place of p. */
+/* The value of e with the number `at` for the parameter p. */
 static qdot_status
 number_of(qdot_pool *pool, qdot_expr e, qdot_expr p, double at, double *value)
 {
@@ -220,7 +221,8 @@ period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr p
     return status;
 }
 
-/* pi k / a (squares have half the period), its value T at p = at; T itself where there is no a that has it. */
+/* *period is pi k / a if this has the value T at p = at (half the period, which squares have); T
+ * itself if no a fits. */
 static qdot_status
 make_period(qdot_pool *pool, qdot_expr rate, qdot_expr p, double at, double T, qdot_expr *period)
 {

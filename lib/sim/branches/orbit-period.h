@@ -7,7 +7,7 @@
 
 #include "sim/model/request.h"
 
-/* Whether the scene's equations, or what its events do, hold the time. */
+/* Whether the scene's equations, or the changes made by its events, depend explicitly on time. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_is_driven(qdot_scene *scene, const qdot_run_request *request,
                                                  bool *driven);
 

@@ -1,4 +1,5 @@
-/* orbit-shape.c -- an orbit at a few hundred places, and where a velocity is 0 between two of them. */
+/* orbit-shape.c -- samples an orbit at a few hundred times, and finds where a velocity is 0 between
+ * two of them. */
 #include "sim/branches/orbit-shape.h"
 
 #include <math.h>
@@ -36,7 +37,7 @@ shape_begin(shape *s, qdot_orbit_read *r)
     return qdot_flow_read(r->flow, r->orbit, &r->at, PLACES, times, s->values);
 }
 
-/* Evaluate the expressions at one time, into s->one. */
+/* Evaluate the sampled expressions at one time, into s->one. */
 static qdot_status
 shape_read_one(shape *s, double time)
 {
@@ -49,7 +50,7 @@ at(const shape *s, size_t k, size_t i)
     return s->values[k * s->m + i];
 }
 
-/* The place at which q_i is largest; *least its least value. */
+/* The sample at which q_i is largest; *least is its smallest value. */
 static size_t
 largest(const shape *s, size_t i, double *least)
 {
@@ -64,7 +65,7 @@ largest(const shape *s, size_t i, double *least)
     return best;
 }
 
-/* s->one where q_i turns, next to place k, at which it is largest; the orbit is closed. */
+/* Find the state at which q_i turns, near sample k, where it is largest, into s->one; the orbit is closed. */
 static qdot_status
 shape_find_turn(shape *s, size_t i, size_t k)
 {

@@ -18,7 +18,8 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_orbit_shape(qdot_orbit_read *r, double *most, double *size);
 /* Half of the change of each of q, q' [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_changes(qdot_orbit_read *r, double *change);
-/* The state z [2n] where the coordinate that changes most turns; *phase: the place of its velocity. */
+/* The state z [2n] at a turning point of the coordinate that changes most; *phase: the index of its
+ * velocity. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_turn(qdot_orbit_read *r, size_t *phase, double *z);
 
 #endif

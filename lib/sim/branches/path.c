@@ -197,7 +197,7 @@ qdot_path_hold(qdot_path *x, size_t i, double *y)
     return good;
 }
 
-/* The determinant of the matrix that was factored last. */
+/* The determinant of the matrix that was factored last, from its triangular factor. */
 static double
 determinant(const qdot_path *x)
 {

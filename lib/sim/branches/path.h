@@ -20,7 +20,7 @@
 
 enum { QDOT_PATH_REASON = 160 };
 
-/* A point of a curve, with the direction in which it is followed. */
+/* A point of a curve, with the tangent in the direction in which the curve is followed. */
 typedef struct {
     double *y, *t;     /* [width], [n + 1] in one block, owned */
     double det;        /* the determinant of F' bordered by the tangent of the point before */
@@ -49,11 +49,11 @@ struct qdot_path {
     bool dips;               /* test functions are accurate: their dips tell of pairs (dips.h) */
     int least_jump;          /* of `growing`, which says that an oscillation begins */
     int halvings;            /* of the way to a bifurcation, before it is located */
-    /* of orbits of twice a period: where the state after half of it stands in y; 0: it is none */
+    /* for orbits of doubled period: index in y of the state after half a period; 0 for other orbits */
     size_t half;
-    /* F [n], F' [n * (n + 1)] at y; not finite: there is no value. A grave failure: x->failure. */
+    /* Compute F [n], F' [n * (n + 1)] at y; not finite if undefined. Serious failures go to x->failure. */
     void (*at)(qdot_path *x, const double *y);
-    /* a->stability, growing, flip, and y behind n + 1. */
+    /* Judge the point: set a->stability, growing, flip, and the entries of y after the first n + 1. */
     qdot_status (*judge)(qdot_path *x, qdot_path_point *a);
     double *F, *J;
     double *A, *b;           /* [(n + 1)^2], [n + 1] room */
@@ -65,18 +65,19 @@ struct qdot_path {
 /* Room for n unknowns. From {0}; ended in any case. The rest is filled by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_path_begin(qdot_path *x, size_t n);
 void qdot_path_end(qdot_path *x);
-/* Set the weights of y: 1 / range of p, 1 / size [n] of the unknowns; hidden unknowns get small ones. */
+/* Set the weights of y: 1 / range of p, 1 / size [n] of the unknowns; hidden unknowns get small weights. */
 void qdot_path_scale(qdot_path *x, const double *size);
 
 QDOT_MUST_CHECK qdot_status qdot_path_point_begin(const qdot_path *x, qdot_path_point *a);
 void qdot_path_point_end(qdot_path_point *a);
 void qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_path_point *to);
 
-/* An end of the domain of unknown i at p; NaN: there is no domain there. Whether the unknowns of y lie in theirs. */
+/* The lower or upper end of the domain of unknown i at p, NaN if the domain is empty; whether all
+ * unknowns of y lie in their domains. */
 double qdot_path_end_of(const qdot_path *x, size_t i, bool upper, double p);
 bool qdot_path_is_inside(const qdot_path *x, const double *y);
 
-/* The inner product. The distance of two places, angles modulo full turns. */
+/* The scaled inner product of a and b; the scaled distance of two points, with angles modulo full turns. */
 double qdot_path_product(const qdot_path *x, const double *a, const double *b);
 double qdot_path_distance(const qdot_path *x, const double *a, const double *b);
 
@@ -84,13 +85,14 @@ double qdot_path_distance(const qdot_path *x, const double *a, const double *b);
  * period. */
 double qdot_path_halves(const qdot_path *x, const double *a, const double *b);
 
-/* Solve F(y) = 0, g.(y - y as it was) = 0 from the guess y; *steps; false: no zero near. */
+/* Solve F(y) = 0 and g.(y - y0) = 0 by Newton's method from the guess y = y0; *steps taken; false:
+ * no zero nearby. */
 bool qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps);
 /* Solve F(y) = 0 from the guess y with y_i held. */
 bool qdot_path_hold(qdot_path *x, size_t i, double *y);
-/* a->t, a->sign at a->y, in the direction of `along`; false where there is no tangent. */
+/* Compute the tangent a->t and a->sign at a->y, oriented along `along`; false if there is no tangent. */
 bool qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a);
-/* The point at s from a, along a->t, with its tangent; false: none. */
+/* The point at arclength s from a, predicted along a->t, with its tangent; false if there is none. */
 bool qdot_path_go(qdot_path *x, const qdot_path_point *a, double s, qdot_path_point *to, int *steps);
 
 #endif

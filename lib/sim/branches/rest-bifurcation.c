@@ -1,4 +1,5 @@
-/* rest-bifurcation.c -- the larger systems, their guesses, and what their zeros are. */
+/* rest-bifurcation.c -- extended systems whose zeros are bifurcations of equilibria; guesses,
+ * classification. */
 #include "sim/branches/rest-bifurcation.h"
 
 #include <math.h>
@@ -10,11 +11,12 @@
 #include "expr/symbol.h"
 #include "tape/derivative.h"
 
-/* Of a direction of unit length: below, it has no part along p. Below, of the entries of Gamma: no damping. */
+/* Components of a unit tangent along p below `upright` count as 0; entries of Gamma below
+ * `undamped` mean no damping. */
 static const double upright = 1e-8, undamped = 1e-9;
 /* --- systems ------------------------------------------------------------------------------ */
 
-/* The k-th unknown of a kind that is none of the scene. */
+/* A new symbol for the k-th auxiliary unknown of a kind; it is not a symbol of the scene. */
 static qdot_expr
 formal(qdot_pool *pool, const char *kind, size_t k)
 {
@@ -30,7 +32,7 @@ add_to(qdot_pool *pool, qdot_expr *sum, qdot_expr a, qdot_expr b)
     *sum = qdot_add(pool, *sum, qdot_mul(pool, a, b));
 }
 
-/* y first, in every system. */
+/* Begin a system: its first unknowns are always y, `more` others follow. */
 static qdot_status
 begin_system(const qdot_rest_bifurcations *b, size_t more, qdot_newton *s)
 {
@@ -88,7 +90,7 @@ make_crossing(qdot_rest_bifurcations *b)
     return qdot_newton_lower(s);
 }
 
-/* (K - w^2 M) z, the row i of it, z the unknowns from `z` on. */
+/* Row i of (K - w^2 M) z, where z are the unknowns of the system from index `z` on. */
 static qdot_expr
 row_of(const qdot_rest_bifurcations *b, const qdot_newton *s, qdot_expr square, size_t i, size_t z)
 {
@@ -133,7 +135,8 @@ add_turning(const qdot_rest_bifurcations *b, qdot_newton *s, qdot_expr w)
     s->f[n + 2 * all + 2] = sum;
 }
 
-/* Unknowns y, a, b, w (where two meet without Gamma its square), beta; `one`: which component of z is 1. */
+/* System for oscillations: unknowns y, a, b, w (w^2 where two frequencies meet without damping),
+ * beta; component `one` of z is set to 1. */
 static qdot_status
 make_oscillation(const qdot_rest_bifurcations *b, meeting what, size_t one, qdot_newton *s)
 {
@@ -225,7 +228,7 @@ guess_crossing(qdot_path *x, double *psi)
 
 /* --- crossings ---------------------------------------------------------------------------- */
 
-/* c = v.H w, H [m * m] within rows of `width`. */
+/* The bilinear form v.H w, with H [m * m] stored in rows of length `width`. */
 static double
 form(size_t m, const double *H, size_t width, const double *v, const double *w)
 {
@@ -237,7 +240,7 @@ form(size_t m, const double *H, size_t width, const double *v, const double *w)
     return sum;
 }
 
-/* What the zero z of the system is; v [4 (n + 1)]: room. */
+/* Classify the zero z of the system as a kind of bifurcation; v [4 (n + 1)] is work space. */
 static qdot_status
 classify(qdot_rest_bifurcations *b, const double *z, double beta_error, const double *t, double *v,
          qdot_bifurcation *out, double *other, qdot_bifurcation_answer *answer)

@@ -24,7 +24,7 @@
 #include "sim/branches/newton.h"
 #include "sim/branches/rest-path.h"
 
-/* Systems that are made when first needed. */
+/* The extended systems for bifurcations of equilibria; each is made when first needed. */
 typedef struct {
     qdot_rest_path *x;
     qdot_newton fold, crossing;
@@ -36,7 +36,8 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_rest_bifurcations_begin(qdot_rest_bifurcations *b, qdot_rest_path *x);
 void qdot_rest_bifurcations_end(qdot_rest_bifurcations *b);
 
-/* A qdot_bifurcation_finder (bifurcation.h) whose user is `b`; COLLISION is found as HOPF. */
+/* Locates a bifurcation of equilibria; a qdot_bifurcation_finder with user pointer b. COLLISION is
+ * found as HOPF. */
 QDOT_MUST_CHECK qdot_status qdot_rest_bifurcation_find(void *b, const qdot_bifurcation_bracket *in,
                                                        qdot_bifurcation *out, double *other,
                                                        qdot_bifurcation_answer *answer);

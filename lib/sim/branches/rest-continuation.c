@@ -1,4 +1,4 @@
-/* rest-continuation.c -- where curves of equilibria begin, and those that are known exactly alone. */
+/* rest-continuation.c -- where curves of equilibria begin; curves known only by exact formulas. */
 #include "sim/branches/rest-continuation.h"
 
 #include <float.h>
@@ -16,16 +16,17 @@
 static const double parts[] = {0, 1, 0.4871, 0.2363, 0.7639, 0.0013, 0.9989};
 enum { PARTS = sizeof parts / sizeof *parts };
 
-/* Steps over a cell of an exact curve, closer to its walls; places that are one. */
+/* STEPS: points on an exact curve between two special values of p, denser near both ends. Starts
+ * closer than `same` are one. */
 enum { STEPS = 64 };
 static const double same = 1e-6;
-/* Parts of a cell at which an exact curve is compared with others. */
+/* Fractions of an interval of p at which an exact curve is compared with the others. */
 static const double inner[] = {0.4871, 0.2113, 0.8312, 0.0371, 0.9573};
 enum { INNER = sizeof inner / sizeof *inner };
-/* Cells narrower than this part of the range of p are not searched. */
+/* Intervals of p narrower than this fraction of its range are not searched. */
 static const double narrow = 1e-12;
 
-/* Places: at [count * m], owned. */
+/* A list of start points: at [count * m], owned. */
 typedef struct {
     double *at;
     size_t count, m;
@@ -47,7 +48,7 @@ starts_add(starts *s, const double *y, size_t count)
 
 /* --- where to begin -------------------------------------------------------------------------- */
 
-/* The members of the set at p. `existing`: of those whose conditions hold there. */
+/* Add the equilibria of the exact set at p. `existing`: only those whose conditions hold there. */
 static qdot_status
 add_members(const qdot_equilibrium_set *set, double p, bool existing, double *y, starts *to)
 {
@@ -66,7 +67,7 @@ add_members(const qdot_equilibrium_set *set, double p, bool existing, double *y,
     return QDOT_OK;
 }
 
-/* Add the equilibria that a search at p finds. */
+/* Add the equilibria that a numerical search at p finds. */
 static qdot_status
 add_searched(qdot_equilibrium_curve *c, double p, starts *to)
 {
@@ -127,7 +128,7 @@ places_find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t coun
 
 /* --- exact curves ------------------------------------------------------------------------------ */
 
-/* Of the places from which no curve is followed leave out those of member k. */
+/* Remove those points that lie on exact solution k from the list of points without a curve. */
 static qdot_status
 leave_out_member(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y)
 {
@@ -149,14 +150,15 @@ leave_out_member(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t 
     return QDOT_OK;
 }
 
-/* Member k as p goes to a wall from within its cell: y, its limit. */
+/* The limit of exact solution k as p approaches an end of its interval: y. */
 typedef struct {
     double *y;     /* [n + 1] */
     bool finite;   /* else it grows beyond bounds, as far as is known */
     double error;  /* of each unknown, about */
 } limit;
 
-/* The limit at wall w of cell i, from values of p nearer and nearer to it: their differences shrink. */
+/* The limit of exact solution k at end w of interval i, from values at p ever closer to it, whose
+ * differences must shrink. */
 static qdot_status
 limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, size_t w, limit *to)
 {
@@ -192,7 +194,7 @@ limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
     return status;
 }
 
-/* Whether member k goes on from cell i to the next one. y: room for [2 (n + 1)]. */
+/* Whether exact solution k is continuous from interval i to the next one. y [2 (n + 1)] is work space. */
 static qdot_status
 is_continuous(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, size_t i, double *y, bool *yes)
 {
@@ -206,7 +208,7 @@ is_continuous(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, 
     return QDOT_OK;
 }
 
-/* The limit of member k at wall w of cell i to the branch; *finite: there is one. */
+/* Append the limit of exact solution k at end w of interval i to the branch; *finite: the limit exists. */
 static qdot_status
 add_limit(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, size_t w, qdot_stability verdict,
           double *y, qdot_branch *branch, bool *finite)
@@ -218,7 +220,8 @@ add_limit(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, 
     return at.finite ? qdot_branch_add(s->x, branch, y, verdict, 0) : QDOT_OK;
 }
 
-/* Points of member k over cell i, both walls among them, to the branch, and how it ends there. */
+/* Append points of exact solution k over interval i, including both ends, to the branch, and how it
+ * ends there. */
 static qdot_status
 add_cell(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, size_t i, double *y, qdot_branch *branch)
 {
@@ -299,7 +302,8 @@ is_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
     return QDOT_OK;
 }
 
-/* Add member k as a branch over each sequence of cells in which it lies on no curve that was followed: `missing`. */
+/* Add exact solution k as a branch over each sequence of intervals marked in `missing`: there no
+ * followed curve contains it. */
 static qdot_status
 draw_cells(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const bool *missing, double *y)
 {
@@ -327,7 +331,7 @@ draw_cells(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, const boo
     return status;
 }
 
-/* Find the cells in which member k is missing, *any: there are such. */
+/* Find the intervals in which no curve contains exact solution k; *any: there is at least one. */
 static qdot_status
 find_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, double *y, bool *missing, bool *whole,
              bool *any)
@@ -340,7 +344,8 @@ find_missing(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, d
     return QDOT_OK;
 }
 
-/* Add what is missing of member k; its verdict changes at walls. */
+/* Add the missing intervals of exact solution k as branches; its stability changes only at ends of
+ * intervals. */
 static qdot_status
 draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *y, bool *whole)
 {
@@ -361,7 +366,7 @@ draw_member(qdot_branch_search *s, qdot_equilibrium_set *set, size_t k, double *
     return status;
 }
 
-/* Whether no branch ends where a member of the set goes on. */
+/* Whether no branch ends at a point where an exact solution of the set continues. */
 static bool
 ends_are_walls(const qdot_branch_search *s, const qdot_equilibrium_set *set)
 {

@@ -1,4 +1,4 @@
-/* rest-path.c -- the equations at rest by their tape, and what is judged at a place. */
+/* rest-path.c -- evaluates the equations of rest by a tape, and judges the stability of an equilibrium. */
 #include "sim/branches/rest-path.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "expr/walk.h"
 #include "tape/derivative.h"
 
-/* Roots with real parts beyond GROWS of the fastest count as growing. */
+/* A root counts as growing if its real part exceeds this part of the fastest rate. */
 static const double grows = 1e-7;
 
 static void

@@ -1,4 +1,4 @@
-/* chatter.c -- the error of numbers while the motion chatters about a surface. */
+/* chatter.c -- the error of results while the motion oscillates too fast about a surface to be followed. */
 #include "sim/course/chatter.h"
 
 #include <math.h>
@@ -21,7 +21,8 @@ qdot_chatters_at(const qdot_course *c, double t)
     return false;
 }
 
-/* |u| at most: v^2/(2 a) by the weaker of both pulls, and what v makes of it since the start. */
+/* A bound of |u|: v^2/(2 a) with the weaker of the accelerations from both sides, and the effect of
+ * v since the start. */
 static double
 place_at(const qdot_course *c, const qdot_course_chatter *x, double t, const double *y)
 {
@@ -66,7 +67,7 @@ qdot_chatter_add_state(const qdot_course *c, double t, const double *y, double *
     }
 }
 
-/* The largest |g(y + part of the chatter) - g(y)|; y [2n] is in the reader. */
+/* The largest |g(y + fraction of the oscillation) - g(y)|; y [2n] is in the reader. */
 static qdot_status
 try_parts(const qdot_course_chatter *x, double place, size_t n, qdot_reader *r, double t, const double *y,
           const double *values, double *g, double *most)

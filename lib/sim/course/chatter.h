@@ -21,7 +21,7 @@
 /* Whether the motion chatters at t. */
 bool qdot_chatters_at(const qdot_course *course, double t);
 
-/* Add what it makes of the state y [n] at t to errors [n]. */
+/* Add the error that such oscillations cause in the state y [n] at t to errors [n]. */
 void qdot_chatter_add_state(const qdot_course *course, double t, const double *y, double *errors);
 
 /* Add what it makes of the expressions [m] of the reader, along that course alone, to errors [m]; values [m] were

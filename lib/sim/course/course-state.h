@@ -31,13 +31,13 @@ typedef struct {
     double late; /* t less the true time of the root; 0: the root is at t */
 } qdot_course_end;
 
-/* A puck that came to rest in a piece which began at t: it has stopped at `after`. */
+/* A disc on a rough plane that came to rest in the piece of the run from t on; it has stopped at `after`. */
 typedef struct {
     size_t surface;
     double t, after;
 } qdot_course_rest;
 
-/* The motion slid along a surface, about which it went too fast to be followed (sim/course/chatter.h). */
+/* The motion was taken to slide along a surface about which it oscillates too fast (sim/course/chatter.h). */
 typedef struct {
     size_t surface;
     double t, end;        /* until when */

@@ -1,4 +1,4 @@
-/* course.c -- the loop over pieces: finds the mode of each and passes from one to the next. */
+/* course.c -- the loop over the pieces of a run: finds the mode of each piece and passes to the next. */
 #include "sim/course/course.h"
 
 #include <math.h>
@@ -61,7 +61,8 @@ changes_state(const qdot_piece *x)
     return false;
 }
 
-/* Whether the piece ends on surfaces of places, which the motion crosses with the speed that it has. */
+/* Whether the piece ends on surfaces that depend on positions, which the motion crosses with
+ * unchanged velocity. */
 static bool
 crosses_places(const qdot_piece *x)
 {
@@ -88,7 +89,7 @@ may_jump(const qdot_piece *x)
     return switches || changes_state(x);
 }
 
-/* Make the state set by an event at the end of the run its last point. */
+/* Make the state that an event sets at the end of the run its last point. */
 static qdot_status
 resume(qdot_piece *x)
 {
@@ -117,7 +118,7 @@ come_to_rest(qdot_piece *x, bool anew, bool *over)
     }
 }
 
-/* Integrate piece after piece from y0 [n] at x->start.t. */
+/* Integrate the pieces of the run one after another from y0 [n] at x->start.t. */
 static qdot_status
 loop(qdot_piece *x, const double *y0)
 {
@@ -227,7 +228,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                     .start.t = t0};
     qdot_status status = make_room(&x);
 
-    /* nothing is left of one that is made once more */
+    /* a repeated run keeps nothing of the first one */
     c->occurrences.n = c->faded.n = c->ends.n = c->rests.n = 0;
     forget_chatters(c);
     c->reason[0] = '\0';

@@ -26,10 +26,10 @@
 
 #include "sim/course/course-state.h"
 
-/* Start from {.stage}; clear it in any case. */
+/* Free the contents. A course starts as {.stage} and must be cleared in any case. */
 void qdot_course_clear(qdot_course *c);
 
-/* What a reason "stopped at t = TIME: CAUSE" says behind the time; NULL: it is none of that kind. */
+/* The text after the time in a reason "stopped at t = TIME: CAUSE"; NULL for other reasons. */
 const char *qdot_course_cause(const char *reason);
 
 /* Integrate from y [2n] at t0 to t1 by `method`, under options->tol; options->accepted

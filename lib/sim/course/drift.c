@@ -71,7 +71,7 @@ drift_evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, d
     qdot_lanes_eval(tape, in, c, work);
 }
 
-/* Whether the mode holds the motion on a place that moves, which does work. */
+/* Whether the motion is held on a moving surface, which does work. */
 static bool
 is_driven(const qdot_stage *stage, size_t mode)
 {
@@ -81,7 +81,7 @@ is_driven(const qdot_stage *stage, size_t mode)
     return false;
 }
 
-/* What an event changes by more, relative to max(1, |c|), it does not conserve. */
+/* An event that changes a quantity c by more than this, relative to max(1, |c|), does not conserve it. */
 static const double of_event = 1e-10;
 
 static qdot_status
@@ -105,7 +105,7 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qd
         change = c[k % QDOT_LANES];
         if (k == 0)
             drift->start = start = change;
-        /* what an event changes is no drift */
+        /* a change made by an event is not drift */
         for (; piece < tr->pieces.n && tr->pieces.at[piece].first <= k; piece++)
             if (tr->pieces.at[piece].jumped) {
                 drift->changed = drift->changed ||
@@ -120,7 +120,7 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qd
         }
         if (piece > 0 && is_switch(tr, piece - 1, k))
             continue;
-        /* nor what a contact that lasts changes, as its impacts did: it is held in another mode */
+        /* nor is a change by a lasting contact, which has its own mode: its impacts have taken energy, too */
         if (drift->changed && piece > 0 && tr->pieces.at[piece - 1].mode != tr->pieces.at[0].mode) {
             start = change;
             continue;
@@ -136,7 +136,7 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qd
     return status;
 }
 
-/* Measure the drift of a quantity by its tape and append it to the list. */
+/* Measure the drift of a quantity along the run and append it to the list. */
 static qdot_status
 note(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_expr quantity,
      const char *name, qdot_drifts *d)
@@ -193,7 +193,7 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     return status;
 }
 
-/* Whether the run, in parts or whole, kept its momentum. */
+/* Whether the run, or its part with this coordinate, was integrated with that momentum constant. */
 static bool
 momentum_is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
 {
@@ -207,7 +207,7 @@ momentum_is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordi
     return false;
 }
 
-/* The momentum of coordinate i, if it should stay. */
+/* Measure the drift of the momentum of coordinate i, if it should be conserved. */
 static qdot_status
 measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, const qdot_stage *stage,
                  size_t i, qdot_drifts *d)
@@ -240,7 +240,7 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
     return status;
 }
 
-/* The largest sum of the sizes of a quantity's terms; 0: not known. */
+/* The largest sum of the magnitudes of a quantity's terms along the run; 0 if not known. */
 static qdot_status
 measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity, double *most)
 {

@@ -8,7 +8,7 @@
 #include "sim/course/stage.h"
 #include "sim/model/equations.h"
 
-/* Start from {0}. */
+/* The drifts of a run. Start from {0}. */
 typedef struct {
     size_t n;
     qdot_drift *at; /* energy first; names owned */

@@ -53,7 +53,7 @@ find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
     return status;
 }
 
-/* The constraints of a piece; NULL without. */
+/* The constraints in force during a piece of the run; NULL if there are none. */
 static qdot_constrained *
 of_piece(qdot_bind *const *binds, const qdot_trajectory *tr, size_t piece)
 {
@@ -95,7 +95,7 @@ qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
     return find_multipliers(held, tr, qdot_constrained_rows(held), b);
 }
 
-/* lambda at y with component i moved by h, into `out`; NaN if it does not exist. */
+/* The multipliers lambda at y with component i shifted by h, into `out`; NaN if undefined. */
 static void
 look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
      double *out)

@@ -10,7 +10,8 @@
 
 #include "sim/course/piece.h"
 
-/* A rate below so many roundings of the speeds, and a bounce below so many of the place, are 0. */
+/* A rate is 0 if it is below this many rounding errors of the velocities, a bounce if its height is
+ * below this many of the positions. */
 static const double roundings = 16;
 /* Applied to the state found for before the event, the event must give the state behind it, up to this part of its
  * size. */
@@ -57,14 +58,15 @@ find_pace(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, 
     return status;
 }
 
-/* Whether the bounce that begins, or ends, with that rate is too low to be told from rest. */
+/* Whether the bounce that begins or ends with this rate is too low to be told from rest. */
 static bool
 is_slow(const pace *of)
 {
     return fabs(of->rate) <= of->noise || (of->bend != 0 && of->rate * of->rate <= 2 * fabs(of->bend) * of->size);
 }
 
-/* The state y [n] before the event from that behind it; *fits: the event gives that back. */
+/* The state y [n] before the event, from the state `behind` after it; *fits: the event maps y back
+ * to `behind`. */
 static qdot_status
 find_before(qdot_piece *x, const qdot_staged_event *e, double t, const double *behind, double *y, bool *fits)
 {

@@ -16,17 +16,17 @@
 #include "sim/course/piece.h"
 #include "sim/model/contact.h"
 
-/* Blows that are tried at most. */
+/* The largest number of simultaneous impacts that are computed. */
 enum { MOST_BLOWS = 200000 };
-/* The blows end by themselves if the last one turned back more than so many times the rounding of the speed. */
+/* A sequence of impacts ends by itself if the last reversed a speed above this many rounding errors of it. */
 static const double seen = 0x1p14;
-/* What is left of the speed at which others of them end counts as rounding up to so many times that. */
+/* Remaining speeds of other contacts count as rounding up to this many rounding errors. */
 static const double left_over = 64;
 
-/* The rounding of a velocity, in that of the largest one so far. */
+/* Factor from the rounding of the largest velocity so far to the uncertainty of a velocity. */
 static const double hidden = 4;
 
-/* A contact that touches at the instant. */
+/* A contact whose bodies touch at this instant. */
 typedef struct {
     size_t event, surface;
     int way;   /* the sign of du/dt with which it is met, in the direction of the run */
@@ -46,7 +46,7 @@ typedef struct {
     double last;   /* the speed that the last one turned back, over its rounding */
 } blows;
 
-/* The sign of du/dt with which event i is met. */
+/* The sign of du/dt with which event i is reached. */
 static int
 way_met(const qdot_piece *x, size_t i)
 {

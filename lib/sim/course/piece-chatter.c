@@ -1,4 +1,5 @@
-/* piece-chatter.c -- where a motion about a surface is too fast to be followed (sim/course/chatter.h): it slides. */
+/* piece-chatter.c -- where a motion oscillates about a surface too fast to be followed
+ * (sim/course/chatter.h), it slides. */
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "sim/course/piece.h"
@@ -9,7 +10,7 @@
 
 #include "ode/scale.h"
 
-/* The rounding of u, in ulps of its coordinates. */
+/* The rounding error of u, in units of that of its coordinates. */
 static const double ulps = 4;
 /* Where u is near 0 by the size of its coordinates there is no such rounding. A motion that would cross more often than
  * that until the end is not followed if it is as slow, and as near, in parts of the sizes of the state. */
@@ -20,7 +21,7 @@ static const double most_lost = 0.01, slow_in_doubles = 1e-3;
 /* The factor by which the speed of an oscillation that is not followed may grow until the end. */
 static const double most_growth = 10;
 
-/* The motion held at u = 0 of surface i at the start of a piece. */
+/* The motion held at u = 0 of surface i, at the start of a piece of the run. */
 typedef struct {
     qdot_piece *x;
     size_t i, n, mode[3]; /* of the sides -1, 0 (it slides), 1 */
@@ -55,7 +56,7 @@ pull(held_motion *h, int way, const double *flow, double by, double more, double
     return QDOT_OK;
 }
 
-/* Enter the modes of all three sides, and bring the start onto the surface. */
+/* Make the modes of the three sides (-1, sliding, 1), and move the start onto the surface. */
 static qdot_status
 hold(held_motion *h)
 {
@@ -93,7 +94,7 @@ find_pulls(held_motion *h, double a[2])
     return QDOT_OK;
 }
 
-/* The rate d(log v)/dt at which the speed v of the oscillation grows. */
+/* The rate d(log v)/dt at which the speed v of the oscillation about the surface grows. */
 static qdot_status
 find_growth(held_motion *h, const double a[2], double *growth)
 {
@@ -121,7 +122,8 @@ find_growth(held_motion *h, const double a[2], double *growth)
     return status;
 }
 
-/* Whether an excursion of that place, which comes again after `period`, is not to be followed. */
+/* Whether an oscillation of amplitude `place` and this period is too fast to be followed until the
+ * end of the run. */
 static bool
 is_too_fast(const held_motion *h, double place, double period)
 {
@@ -140,7 +142,7 @@ is_too_fast(const held_motion *h, double place, double period)
            || (place <= places && fabs(h->v) <= slow * speeds && crossings > most_crossings);
 }
 
-/* Whether the motion that has the side x->side[i] slides from here; then it does. */
+/* Whether the motion that has the side x->side[i] may be taken to slide from here; if so it is set to slide. */
 static qdot_status
 may_slide(held_motion *h, bool *may)
 {

@@ -8,12 +8,12 @@
 #include "sim/course/piece-impact.h"
 #include "sim/model/contact.h"
 
-/* Two places count as equal up to this, and two velocities without series. */
+/* Positions count as equal up to this relative difference; so do velocities, for methods without series. */
 static const double alike = 1e-9;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides
  * them. */
 static const double least_height = DBL_EPSILON / 8;
-/* This part for a place that moves with time, whose position at a root is rounded, too. */
+/* The same for a surface that moves with time, as its position at a root is rounded, too. */
 static const double least_moving = 0x1p10 * DBL_EPSILON;
 /* This part for methods without series, from which a state within a step is known only to that part of its size. The
  * search of a step tells heights above a sixth of that from rounding. */
@@ -21,15 +21,16 @@ static const double least_in_doubles = 0x1p16 * DBL_EPSILON;
 /* A multistep method begins anew behind each bounce, with short steps of low order: its own error there hides heights
  * below so many times its tolerance. */
 static const double multistep_tolerances = 64;
-/* A companion is to rest where the run does: it may leave out bounces so many times as high as the run has. */
+/* A companion must rest where the run does: it may leave out bounces up to this many times as high
+ * as the run may. */
 static const double led = 16;
-/* Four times the least height, beside the place, at which the top of a flight is seen to be off the wall. */
+/* The top of a flight must be this high, relative to the positions, to be seen as off the wall. */
 static const double apart = 64 * DBL_EPSILON;
-/* The motion does not rest where entering the contact would change a component by more than this part of it. */
+/* No contact begins if it would change a component of the state by more than this, relative to its size. */
 static const double fastest = 1e-4;
-/* Nor where nothing presses it by more than this. */
+/* No contact begins if the acceleration towards the wall is below this, relative to its terms. */
 static const double rounded = 32 * DBL_EPSILON;
-/* A bounce is not low if it begins with more than this part of the largest speed so far. */
+/* A bounce is not low if its initial speed exceeds this part of the largest speed so far. */
 static const double slow = 1e-2;
 
 /* --- how fast the motion leaves a surface ---------------------------------------------- */
@@ -69,7 +70,7 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
 
 /* --- where one begins ----------------------------------------------------------------- */
 
-/* The bounces that are left out where a contact begins, and how the start is moved onto it. */
+/* The bounces left out when a lasting contact begins, and how the start is moved onto the contact. */
 typedef struct {
     double off[2]; /* u, u' of the start before that */
     double pull;   /* u'' without the contact, against u'; 0: nothing presses it */
@@ -79,7 +80,7 @@ typedef struct {
     double *along; /* [n] M^-1 du/dq of u = 1, then the slopes of u [n] */
 } skipped;
 
-/* How large the terms of u have been: what u is changed by if each component of q is by its largest size so far. */
+/* The change of u if each coordinate changes by its largest value so far: the size of the terms of u. */
 static double
 size_of_place(const qdot_piece *x, const skipped *s)
 {
@@ -170,7 +171,7 @@ keep_others(qdot_piece *x, size_t surface, double *d, skipped *s)
     return status;
 }
 
-/* Enter the contact, in x->side and x->start.y; what that leaves out. */
+/* Enter the lasting contact: set x->side and x->start.y, and record in s what that leaves out. */
 static qdot_status
 enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
 {
@@ -216,7 +217,7 @@ lowest(const qdot_piece *x, size_t surface)
     return qdot_contacts_moves(&x->c->stage->switches, surface) ? least_moving : least_height;
 }
 
-/* The height of the highest bounces that the run, which this companion accompanies, has left out there. */
+/* The height of the highest bounces that the accompanied run has left out at this surface. */
 static double
 skipped_in_run(const qdot_piece *x, size_t surface)
 {
@@ -228,7 +229,7 @@ skipped_in_run(const qdot_piece *x, size_t surface)
     return most;
 }
 
-/* The height below which a method without series does not tell a bounce from its own error. */
+/* The height below which a method without series cannot tell a bounce from its own error. */
 static double
 least_told(const qdot_piece *x, const skipped *s)
 {
@@ -299,7 +300,8 @@ note_rounding(qdot_piece *x, size_t surface, const skipped *s)
                       s);
 }
 
-/* The bounces left out count as an error of the motion until they would have ended. */
+/* Count the bounces that are left out as an error of the motion, until the time at which they would
+ * have ended. */
 static qdot_status
 note_skipped(qdot_piece *x, size_t surface, const skipped *s)
 {
@@ -360,7 +362,7 @@ qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may)
 
 /* --- where a run starts ---------------------------------------------------------------- */
 
-/* Whether an event sets velocities, and nothing else. */
+/* Whether the event sets velocities only. */
 static bool
 sets_velocities(const qdot_piece *x, const qdot_staged_event *e)
 {

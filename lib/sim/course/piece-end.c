@@ -214,7 +214,7 @@ is_between_contacts(const qdot_piece *x, const qdot_watched *w, double t)
     return false;
 }
 
-/* Append the event or the switch that ended a piece, in words, to a message. */
+/* Append a description of the event or switch that ended the piece to a message. */
 static void
 name_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
 {
@@ -239,7 +239,7 @@ say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
     qdot_text_clear(&text);
 }
 
-/* Whether so many pieces of this length would follow, with c->reason. */
+/* Whether too many pieces of this length would follow; then c->reason says so. */
 static bool
 has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
 {
@@ -262,7 +262,7 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
     return true;
 }
 
-/* Of a companion: whether the event w, which has just been noted, comes again at this instant in the run. */
+/* For a companion: whether the run has event w, which was just recorded, again at the same instant. */
 static bool
 comes_again_in_run(const qdot_piece *x, const qdot_watched *w)
 {
@@ -321,7 +321,8 @@ qdot_piece_find_delay(qdot_piece *x)
     }
 }
 
-/* Behind an event that is counted where a piece starts |g| counts as 0 up to so many times |g| at it. */
+/* After an event that occurs at the start of a piece, |g| counts as 0 up to this many times |g| at
+ * the start. */
 static const double counted = 0x1p11;
 
 /* Before anything is changed: the signs of all functions, and their values. */
@@ -333,7 +334,7 @@ look_before(qdot_piece *x, double t, double *g)
     const qdot_trajectory *tr = &x->c->tr;
     const bool instant = tr->t[tr->pieces.at[tr->pieces.n - 1].first] == t;
 
-    /* a rounding of t makes positions uncertain by the velocity times it */
+    /* a rounding error of t changes positions by the velocity times it */
     memcpy(x->y, x->largest, x->n * sizeof *x->y);
     for (size_t i = 0; i < x->n / 2; i++)
         x->y[i] = fmax(x->y[i], fabs(t) * x->largest[x->n / 2 + i]);
@@ -375,7 +376,7 @@ widen_touches(qdot_piece *x, double t)
     return QDOT_OK;
 }
 
-/* Evaluate the functions just behind the end of the piece. */
+/* Evaluate the watched functions just after the end of the piece. */
 static qdot_status
 look_behind(qdot_piece *x, double t, double *g)
 {
@@ -444,7 +445,7 @@ change_state(qdot_piece *x, size_t k, double *old)
     return QDOT_OK;
 }
 
-/* The blows that follow at this instant, if they never end; c->reason if they cannot be followed. */
+/* Carry out the impacts that follow at this instant if they never end; c->reason if that is not possible. */
 static qdot_status
 follow_blows(qdot_piece *x)
 {

@@ -43,10 +43,11 @@ qdot_piece_enter(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* A start farther than this from a surface is not on it. */
+/* A start with |u| larger than this (relative) is not on the surface. */
 static const double away = 1e-9;
 
-/* What pucks that come to rest are slowed down by, twice their radius, and what comes to rest in a layer. */
+/* The largest speed at which friction is regularised: of discs that come to rest, twice their
+ * radius; of layers. */
 static double
 slowest(const qdot_piece *x)
 {
@@ -93,7 +94,8 @@ slides(const qdot_mode *m, size_t surface)
     return m->side[surface] == QDOT_SIDE_SLIDES;
 }
 
-/* Events and domains keep their indices; the functions of a surface are matched by its index. */
+/* Carry the values of watched functions to the next piece: events and domains keep their indices,
+ * surfaces are matched. */
 void
 qdot_piece_carry(qdot_piece *x)
 {
@@ -111,7 +113,7 @@ qdot_piece_carry(qdot_piece *x)
         const qdot_watched *w = &next->watched[i];
 
         if (w->kind == QDOT_WATCH_SURFACE && x->c->stage->switches.surfaces.at[w->index].puck > 0) {
-            /* the cone is left where it is reached */
+            /* the friction cone is left where it is reached */
             if (slides(old, w->index) && w->beyond == QDOT_SIDE_SLIDES
                 && next->side[w->index] == QDOT_SIDE_CREEPS && !x->start.jumped) {
                 x->residual[i] = 0;
@@ -155,10 +157,11 @@ qdot_piece_carry(qdot_piece *x)
     }
 }
 
-/* Rounding and making up move a start by less than this part of its components' sizes. */
+/* The start of a piece may be moved by less than this part of its components' sizes. */
 static const double most_aside = 1e-9;
 
-/* The sizes [n] of the components where the piece starts: so far, and what their rates make of its time. */
+/* The sizes [n] of the state's components at the start of the piece: the largest so far, or |t|
+ * times the rate. */
 static qdot_status
 find_sizes(qdot_piece *x, double *size)
 {
@@ -193,7 +196,7 @@ qdot_piece_widen_residuals(qdot_piece *x)
 
 /* --- corners of constraints ---------------------------------------------------------- */
 
-/* With a larger residual a state does not keep the constraints of both sides. */
+/* If the residual is larger than this, a state cannot satisfy the constraints of both sides. */
 static const double corner = 1e-6;
 
 /* If constraints switch, the state at the end of the piece before must keep those of the new
@@ -233,7 +236,7 @@ turns_a_corner(qdot_piece *x, bool *corners)
 
 /* --- jumps of T - V ------------------------------------------------------------------ */
 
-/* The level of a mode at a state moved by a part of component k. */
+/* The level function of a mode at the state y with component k shifted by a fraction of it. */
 static double
 level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
          double *work)
@@ -333,7 +336,7 @@ check_level(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* Record by how much the piece that just ended was too late. */
+/* Record the delay with which the end of the last piece was found. */
 static void
 leave_late(qdot_piece *x)
 {
@@ -377,7 +380,7 @@ is_met(const qdot_piece *x, size_t i)
     return met;
 }
 
-/* Whether all other switches are on the same sides at a state y [n] as where the piece starts. */
+/* Whether all other switches have the same sides at the state y [n] as at the start of the piece. */
 static qdot_status
 has_sides(qdot_piece *x, const double *y, bool *alike)
 {
@@ -396,7 +399,7 @@ has_sides(qdot_piece *x, const double *y, bool *alike)
     return status;
 }
 
-/* The start is at a state in two doubles [n]; *moved: if other switches are on the same sides there. */
+/* Move the start to a state in two doubles [n]; *moved: false if another switch would change its side. */
 static qdot_status
 start_at(qdot_piece *x, const qdot_two *state, bool *moved)
 {

@@ -1,4 +1,5 @@
-/* piece-fade.c -- events whose function has decayed below the rounding of the run: they are not sought there. */
+/* piece-fade.c -- stops the search for events whose function has decayed below the rounding error
+ * of the run. */
 #include <math.h>
 
 #include "sim/course/piece.h"
@@ -18,7 +19,7 @@ qdot_piece_let_fade(qdot_piece *x)
     }
 }
 
-/* The latest stretch of an event, if it began at `since`; else NULL. */
+/* The latest time span in which an event was lost in rounding, if it began at `since`; else NULL. */
 static qdot_course_faded *
 stretch_since(qdot_course *c, size_t event, double since)
 {
@@ -28,7 +29,7 @@ stretch_since(qdot_course *c, size_t event, double since)
     return NULL;
 }
 
-/* Drop the occurrences and touches of an event from `since` on: they are zeros of rounding. */
+/* Drop the occurrences of an event from `since` on: these zeros were caused by rounding. */
 static void
 forget_since(qdot_piece *x, size_t event, double since)
 {

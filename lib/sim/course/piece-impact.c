@@ -1,4 +1,4 @@
-/* piece-impact.c -- whether the `then` of an event is an impact on a smooth wall, beside other contacts that last. */
+/* piece-impact.c -- whether an event's `then` is an impact on a smooth wall, while other contacts last. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -6,9 +6,9 @@
 #include "sim/course/piece-impact.h"
 #include "sim/model/contact.h"
 
-/* Two velocities count as equal up to this. */
+/* Two velocities count as equal up to this relative difference. */
 static const double alike = 1e-9;
-/* The operations of `then` may round it by so many times the rounding of velocities. */
+/* The `then` of an event may add this many rounding errors of the velocities. */
 static const double roundings = 32;
 /* The speed of a trial impact, over that of the motion where this is above 1. */
 static const double trial = 1e-3;
@@ -33,7 +33,7 @@ dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* q'' of the mode less that of another, d [n]. */
+/* q'' of the present mode minus q'' of mode `other`, into d [n]. */
 static qdot_status
 find_difference(qdot_piece *x, size_t other, double *d, double *size)
 {
@@ -71,7 +71,8 @@ qdot_piece_reaction(qdot_piece *x, size_t surface, double *d, double *size)
     return status == QDOT_OK ? find_difference(x, without, d, size) : status;
 }
 
-/* A trial of the `then` of one contact: with a velocity less `speed` along `aside` [n], and what it changes. */
+/* A trial impact: the `then` of a contact applied with a velocity reduced by `speed` along `aside`
+ * [n], and the change of velocities. */
 typedef struct {
     const double *slopes; /* [n] of u */
     double *old, *y;      /* [2n] the states before and after the impact */
@@ -191,7 +192,7 @@ is_along_slopes(qdot_piece *x, const double *along, const double *slopes, bool *
     return status;
 }
 
-/* Take the part of d [n] along each of the orthogonal unit vectors e [k x n] away. */
+/* Remove the components of d [n] along the k orthogonal unit vectors e [k x n]. */
 static void
 take_parts(size_t n, size_t k, const double *e, double *d)
 {
@@ -204,7 +205,8 @@ take_parts(size_t n, size_t k, const double *e, double *d)
         }
 }
 
-/* The impulse of a contact that lasts in the mode, as find_impulse; *size of its reaction d [n]. */
+/* The impulse direction of a contact that lasts in the present mode, as find_impulse; *size: of its
+ * reaction d [n]. */
 static qdot_status
 find_impulse_in_mode(qdot_piece *x, size_t surface, double *d, double *size, double *slopes,
                      double *along, double *share, bool *yes)

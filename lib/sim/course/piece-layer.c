@@ -11,7 +11,8 @@
 #include "ode/scale.h"
 #include "sim/model/layer.h"
 
-/* What a layer leaves out is accepted up to the tolerance, or to this if the tolerance is smaller. */
+/* Motion left out within a friction layer may be as large as the tolerance, or this if the
+ * tolerance is smaller. */
 static const double least_left_out = 16 * DBL_EPSILON;
 
 static const qdot_surface *
@@ -20,7 +21,7 @@ surface(const qdot_piece *x, size_t i)
     return &x->c->stage->switches.surfaces.at[i];
 }
 
-/* Whether the motion was held at u = 0 of surface i before the piece in its layer. */
+/* Whether the piece before the one in the layer held the motion at u = 0 of surface i. */
 static bool
 was_held(const qdot_piece *x, size_t i)
 {
@@ -37,7 +38,7 @@ is_in_time(const qdot_piece *x, size_t i)
     return qdot_layers_in_time(x->c->stage->switches.pool, surface(x, i));
 }
 
-/* The time of the piece that ends, with its sign, by which C w^p at the rim is multiplied. */
+/* The signed duration of the piece that ends, divided by 1 + power: the factor of C w^p at the rim. */
 static double
 time_within(const qdot_piece *x, size_t i)
 {
@@ -54,7 +55,7 @@ holds_velocities(const qdot_piece *x, size_t i)
            != 0;
 }
 
-/* So near to the middle of a layer, in parts of the way to its rim, the power is next to nothing. */
+/* Closer to the middle of a layer than this fraction of its half width the power law is negligible. */
 static const double beside_middle = 0x1p-10;
 
 /* What else than the power switches at u = 0, as a dashpot that acts in contact alone: the rates of a mode beyond the layer
@@ -213,7 +214,7 @@ rests(qdot_piece *x, size_t i, bool *yes)
 
 /* --- coming to rest -------------------------------------------------------------------------------- */
 
-/* The force of friction is compared at the rim and at so much of the way to it. */
+/* The friction force is compared at the rim of the layer and at this fraction of the way to it. */
 static const double deeper = 0x1p-10;
 
 /* The motion held at u = 0 of a surface at the start of a piece: y and its rates [n], the slopes of u by
@@ -252,7 +253,7 @@ decelerate(qdot_piece *x, size_t i, const held_motion *held, int way, double at,
     return status;
 }
 
-/* What is left until rest: the time, what is uncertain of it, and the way in units of time times velocity. */
+/* What remains until rest: the time, its uncertainty, and the distance (time times velocity). */
 typedef struct {
     double time, doubt, mean;
 } remainder_of_motion;
@@ -265,7 +266,7 @@ time_by(double u0, double w, double rim, double p)
     return w / (rim * (1 - p)) * pow(u0 / w, 1 - p);
 }
 
-/* The uncertainty of u that rounding of the velocities causes. */
+/* The uncertainty of u' that rounding of the velocities causes. */
 static double
 noise_of(const qdot_piece *x, const double *slopes)
 {
@@ -306,10 +307,10 @@ find_rest(qdot_piece *x, size_t i, const held_motion *held, remainder_of_motion 
     return QDOT_OK;
 }
 
-/* The way until rest is known but for the change of the forces in that time, and may err by so much. */
+/* The distance until rest is known except for the change of the forces meanwhile; it may err by this much. */
 static const double way_left_out = 1e-12;
 
-/* Whether the way that the held motion would still go is small enough to be left out. */
+/* Whether the distance that the held motion would still cover is small enough to be left out. */
 static bool
 may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *left)
 {
@@ -324,7 +325,7 @@ may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *
     return may;
 }
 
-/* Make the motion that is held go through the time until rest, at its mean velocity until then. */
+/* Advance the held motion to the time of rest, at its mean velocity until then. */
 static qdot_status
 go_to_rest(qdot_piece *x, size_t i, const held_motion *held, const remainder_of_motion *left)
 {
@@ -348,7 +349,7 @@ go_to_rest(qdot_piece *x, size_t i, const held_motion *held, const remainder_of_
     return QDOT_OK;
 }
 
-/* Hold the motion on surface i at the start of a piece, in a mode of its own; free held->slopes. */
+/* Hold the motion on surface i at the start of a piece, in a mode of its own; the caller frees held->slopes. */
 static qdot_status
 hold(qdot_piece *x, size_t i, int order, held_motion *held)
 {
@@ -412,7 +413,7 @@ is_driven_back(qdot_piece *x, size_t i, bool *yes)
     return qdot_grave(status);
 }
 
-/* Events whose function is 0 where the motion has come to rest, and was not before. */
+/* Record events whose function becomes 0 where the motion has come to rest. */
 static qdot_status
 meet_events(qdot_piece *x)
 {

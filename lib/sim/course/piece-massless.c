@@ -20,7 +20,7 @@
 
 /* A change by less, relative to the sizes of components, is rounding. */
 static const double rounding = 64 * DBL_EPSILON;
-/* Nor does a position jump that moves by less than this: where a share is left the state errs by its tolerance. */
+/* A position does not jump if it moves by less than this: projected states err by the tolerance. */
 static const double least_jump = 1e-9;
 /* The velocity of a jump of 1. */
 static const double very_fast = 0x1p60;
@@ -43,7 +43,8 @@ qdot_piece_holds_massless(const qdot_piece *x, size_t surface)
     return false;
 }
 
-/* What the equations of the mode do not determine stays: flags of q [n], q' [n]. *some: they determine positions. */
+/* Mark q [n], q' [n] that the equations of the mode leave undetermined: they keep their values.
+ * *some: positions are determined. */
 static void
 mark_kept(const qdot_plan *p, bool *kept, bool *some)
 {
@@ -57,7 +58,7 @@ mark_kept(const qdot_plan *p, bool *kept, bool *some)
     }
 }
 
-/* The jumps of positions from old, into y [2n] as very fast velocities; whether there are any. */
+/* Write the jumps of positions from `old` as very fast velocities into y [2n]; whether there are any. */
 static bool
 write_jump(const qdot_piece *x, const double *old, double *y)
 {
@@ -76,7 +77,8 @@ write_jump(const qdot_piece *x, const double *old, double *y)
     return some;
 }
 
-/* Whether u of a surface along which the motion slides keeps its velocity 0 in the jump y [2n]; a place is where it says. */
+/* Whether u' stays 0 during the jump y [2n] for a surface along which the motion slides; a surface
+ * of positions never hinders. */
 static qdot_status
 slides_on(const qdot_piece *x, size_t surface, const double *y, bool *keeps)
 {
@@ -124,7 +126,8 @@ check_ways(qdot_piece *x, const double *old, double *fast, double *g, int *signs
     return QDOT_OK;
 }
 
-/* x->jumps of the functions that have other values than at old [2n]; g [2m] and signs [m] are room. */
+/* Set x->jumps for the watched functions whose values differ from those at old [2n]; g [2m], signs
+ * [m] are work space. */
 static qdot_status
 find_jumps(qdot_piece *x, const double *old, double *g, int *signs)
 {
@@ -137,7 +140,7 @@ find_jumps(qdot_piece *x, const double *old, double *g, int *signs)
     return QDOT_OK;
 }
 
-/* The equations have no solution: the switches that are not as before are in doubt. */
+/* The equations have no solution: list every switch whose side has changed as uncertain. */
 static qdot_status
 doubt_all(qdot_piece *x)
 {
@@ -150,7 +153,7 @@ doubt_all(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* Move the start onto the equations of the mode; kept [2n], low [2n]. *can: they have a solution. */
+/* Move the start onto the equations of the mode; kept [2n], low [2n]. *can: a solution exists. */
 static qdot_status
 massless_move(qdot_piece *x, bool begins, const bool *kept, bool positions, double *low, bool *can)
 {

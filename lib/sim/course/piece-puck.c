@@ -1,4 +1,4 @@
-/* piece-puck.c -- where pucks come to rest, and how they start. */
+/* piece-puck.c -- where discs sliding on a rough plane come to rest, and how they start again. */
 #include "sim/course/piece.h"
 
 #include <float.h>
@@ -8,16 +8,17 @@
 #include "num/lu.h"
 #include "sim/model/puck.h"
 
-/* A puck starts at the speed that it would have after a time of so much of t, */
+/* A disc starts with the speed that it would have after this fraction of the time t, */
 static const double behind = 64 * DBL_EPSILON;
 /* or of the time of the run. */
 static const double little = 0x1p-60;
-/* Two directions count as equal if the cosine of their angle is above this. */
+/* Two directions count as equal if the cosine of the angle between them exceeds this. */
 static const double straight = 0.999;
-/* If it has none to start with, at that of so little of the time of the run. */
+/* or, if that speed is 0, with its speed after this fraction of the run's duration. */
 static const double least = 0x1p-85;
 
-/* The acceleration of a puck near rest by its direction: d' = P + K e, with K s = -P of the shares. */
+/* The acceleration of a disc near rest depends on its direction e: d' = P + K e, with K s = -P for
+ * the shares s. */
 typedef struct {
     size_t k;
     double P[QDOT_PUCK_MOST], K[QDOT_PUCK_MOST * QDOT_PUCK_MOST],
@@ -30,7 +31,7 @@ puck_at(const qdot_piece *x, size_t i)
     return &x->c->stage->switches.pucks.at[i];
 }
 
-/* Change velocity a of a puck, and those that are tied to it. */
+/* Change velocity a of a disc by `by`, and the velocities tied to it in proportion. */
 static void
 puck_change_velocity(const qdot_puck *puck, size_t a, double by, double *velocities)
 {
@@ -39,7 +40,8 @@ puck_change_velocity(const qdot_puck *puck, size_t a, double by, double *velocit
         velocities[puck->tied[j]] += puck->follow[j][a] * by;
 }
 
-/* d' in a mode at the state y [n], where it is moved by e times `speed`. */
+/* The acceleration d' in the present mode at the state y [n], with component a of the disc's motion
+ * changed by `by`. */
 static qdot_status
 accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
            qdot_puck_state *s, double *out)
@@ -66,7 +68,7 @@ accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
     return status;
 }
 
-/* In the present mode, in which the puck moves, about the start with its d taken away: rest [x->n]. */
+/* The response of the disc in the mode in which it moves, about its state of rest, rest [x->n]. */
 static qdot_status
 respond(qdot_piece *x, size_t i, double *rest, response *r)
 {
@@ -100,7 +102,7 @@ respond(qdot_piece *x, size_t i, double *rest, response *r)
     return status;
 }
 
-/* Whether friction slows down in every direction: e G K e < 0, by a Cholesky factor of it. */
+/* Whether friction decelerates motion in every direction, e G K e < 0, tested by a Cholesky factorisation. */
 static bool
 brakes(const response *r)
 {
@@ -124,7 +126,7 @@ brakes(const response *r)
     return true;
 }
 
-/* (a - K) e = P, the direction for the acceleration a; its length |e|; infinite if there is none. */
+/* Solve (a - K) e = P for the direction e at acceleration a; returns its length, infinite if there is none. */
 static double
 direction(const response *r, double a, double *e)
 {
@@ -144,7 +146,7 @@ direction(const response *r, double a, double *e)
     return sqrt(square);
 }
 
-/* The acceleration a >= 0 with which the puck starts, and its direction e with e G e = 1. */
+/* The acceleration a >= 0 with which the disc starts, and its direction e, with e G e = 1. */
 static double
 start_of(const response *r, double *e)
 {
@@ -167,7 +169,7 @@ start_of(const response *r, double *e)
     return low;
 }
 
-/* Raise the uncertainty of the times at which the last piece ended to `late`. */
+/* Raise the uncertainty of the times at which the last piece ended to at least `late`. */
 static void
 leave_late(qdot_piece *x, double late)
 {
@@ -176,7 +178,7 @@ leave_late(qdot_piece *x, double late)
         x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, late);
 }
 
-/* Whether puck i moves the way e already, as behind a start by creeping: not by rest's velocities. */
+/* Whether disc i already moves in the direction e relative to rest, as after a start by creeping. */
 static bool
 moves_along(const qdot_piece *x, const qdot_puck *puck, const double *rest, const double *e)
 {
@@ -193,7 +195,7 @@ moves_along(const qdot_piece *x, const qdot_puck *puck, const double *rest, cons
     return along > straight * sqrt(d2 * e2);
 }
 
-/* Start puck i from rest, along the force that exceeds the largest friction. */
+/* Start disc i from rest, in the direction of the force that exceeds static friction. */
 static qdot_status
 start_one(qdot_piece *x, size_t i, double speed)
 {
@@ -261,7 +263,7 @@ stop_one(qdot_piece *x, size_t i, const response *r, size_t behind)
     return status;
 }
 
-/* Whether the present mode holds puck i, whose friction slows it down; then it stops. */
+/* Whether the present mode can hold disc i, because its friction decelerates it; if so, stop it. */
 static qdot_status
 may_rest(qdot_piece *x, size_t i, bool *may)
 {

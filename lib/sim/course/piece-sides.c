@@ -1,4 +1,4 @@
-/* piece-sides.c -- checks the sides of a piece by its first step. */
+/* piece-sides.c -- checks by its first step that a piece stays on the assumed side of each switch. */
 #include "sim/course/piece.h"
 
 /* Whether a side of the surface lies between two thresholds. */
@@ -10,7 +10,7 @@ is_step(const qdot_piece *x, size_t surface)
     return s->steps || s->layer > 0;
 }
 
-/* Whether a function of a surface stays on its side, by the sign just after the start. */
+/* Whether a function of a surface keeps its sign, judged by the sign just after the start. */
 static bool
 keeps(const qdot_piece *x, const qdot_watched *w, int first)
 {
@@ -83,7 +83,7 @@ was_crossed(const qdot_piece *x, size_t surface)
     return false;
 }
 
-/* Whether other sides than those of the present mode might fit, by function i. */
+/* Whether function i leaves it open whether other sides than those of the present mode also fit. */
 static bool
 is_open(const qdot_piece *x, size_t i)
 {

@@ -1,4 +1,4 @@
-/* piece.c -- integrates a piece and searches every step for events, bounds and switches. */
+/* piece.c -- integrates one piece of a run and searches every step for events, bounds and switches. */
 #include "sim/course/piece.h"
 
 #include <float.h>
@@ -158,7 +158,7 @@ qdot_piece_meet(qdot_piece *x, const qdot_root *root)
     return qdot_vec_push(&x->roots, *root);
 }
 
-/* A bound of a domain on which the piece starts without moving inwards. */
+/* The bound of a domain that the motion would leave at the start of the piece; NULL if none. */
 static const qdot_watched *
 leaves_domain(qdot_piece *x)
 {
@@ -244,7 +244,7 @@ acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
     if (!qdot_staged_event_acts(e) || !x->untouched[i] || !x->touching[i] || root->way == 0
         || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, root))
         return QDOT_OK;
-    /* for a rising or falling event the sign before may be rounding: take the opposite one */
+    /* for a rising or falling event the sign before may be wrong by rounding: take the opposite sign */
     if (root->way == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
         return QDOT_OK;
     QDOT_TRY(qdot_piece_way(x, i, &way));
@@ -252,7 +252,8 @@ acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
     return QDOT_OK;
 }
 
-/* Contacts into which the motion has been pushed are met first, and alone; else the events that act at once. */
+/* Contacts into which the motion has been pushed are treated first, one at a time; else the events
+ * at the start. */
 static qdot_status
 follow_at_once(qdot_piece *x, double t0)
 {
@@ -281,7 +282,7 @@ follow_at_once(qdot_piece *x, double t0)
     return QDOT_OK;
 }
 
-/* After the first step: whether the piece continues with its sides. */
+/* After the first step: whether the piece continues with the sides it has assumed. */
 static qdot_status
 judge_sides(qdot_piece *x)
 {
@@ -293,7 +294,7 @@ judge_sides(qdot_piece *x)
     return QDOT_OK;
 }
 
-/* A surface on which u was 0 until this step. */
+/* Follow surfaces on which u was 0 until this step and no longer is. */
 static qdot_status
 leave_zero(qdot_piece *x, double t0)
 {
@@ -340,7 +341,7 @@ end_of(qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
     return t;
 }
 
-/* What was noted in a step that is searched again, or was not taken. */
+/* Drop what was recorded in a step that is searched again or was rejected. */
 static void
 forget_step(qdot_piece *x)
 {
@@ -348,7 +349,7 @@ forget_step(qdot_piece *x)
     x->c->faded.n = x->noted_faded;
 }
 
-/* Record the roots of the step up to the first that ends the piece. */
+/* Record the roots of the step, up to the first one that ends the piece. */
 static qdot_status
 take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
 {
@@ -408,7 +409,7 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
     return QDOT_OK;
 }
 
-/* A bound that is passed at t_act: the piece ends a double before. */
+/* If a bound of a domain is passed at t_act, end the piece one double before it. */
 static void
 stay_inside(qdot_piece *x, double t0)
 {
@@ -419,7 +420,7 @@ stay_inside(qdot_piece *x, double t0)
             x->t_act = nextafter(x->t_act, -x->direction * INFINITY);
 }
 
-/* Stop an integration that continues as another piece. */
+/* Stop the integration of this piece; the run continues with another piece. */
 static qdot_status
 break_off(qdot_piece *x)
 {
@@ -451,7 +452,7 @@ count_parts(qdot_piece *x, double t, size_t parts)
                      t, LOOKED_AT, passed, to_come, x->t1);
 }
 
-/* Search a step, shorter where it holds too many roots to be searched at once. */
+/* Search a step for roots, and shorten it if it holds too many of them. */
 static qdot_status
 search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
 {
@@ -526,7 +527,7 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     return QDOT_OK;
 }
 
-/* For methods without series: search the step by its ends. */
+/* Search a step by its end points, for methods without series. */
 static qdot_status
 look_at_step(qdot_piece *x, double t, const double *y)
 {
@@ -548,7 +549,7 @@ look_at_step(qdot_piece *x, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Check constraints on accelerations, if there is no projection, which would do that. */
+/* Check constraints on accelerations unless a projection after each step enforces them. */
 static qdot_status
 check_accelerations(const qdot_piece *x, double t, const double *y)
 {
@@ -597,7 +598,7 @@ accepted(double t, const double *y, bool *stop, void *user)
 
 /* --- the piece ------------------------------------------------------------------------ */
 
-/* The watch at the start of a piece. */
+/* Start watching the functions of the mode at the start of a piece. */
 qdot_status
 qdot_piece_begin(qdot_piece *x)
 {

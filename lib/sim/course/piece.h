@@ -32,7 +32,7 @@ typedef struct {
     size_t at_once;               /* times at the same t */
 } qdot_piece_repeat;
 
-/* A surface for which another side has to be tried. */
+/* A surface for which another side must be tried. */
 typedef struct {
     size_t surface, n;
     long sides[4]; /* [n] candidates, the present side first */
@@ -49,7 +49,8 @@ typedef struct {
     size_t mode;        /* of this piece */
     struct {
         double t, *y; /* [n] */
-        /* The state less y, of components that still are `low_of`: others were set, and are exact. */
+        /* The low part of the state (exact minus y) of components that still equal low_of; other
+         * components are exact. */
         double *low, *low_of; /* [n] each */
         double t_low; /* the time of y less t, where y is at a root */
         bool on_root; /* y was moved to the root that ended the piece before, */
@@ -75,7 +76,7 @@ typedef struct {
     double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
     bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
-    /* Search for the sides: one set is tried, then alternatives to one that fits, then known. */
+    /* Search for the sides of switches: one set is tried, then alternatives to it, then they are known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
     char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "" */
     bool well;          /* RETRIED: the motion leaves to its sides, but others may fit as well */
@@ -95,14 +96,14 @@ typedef struct {
     qdot_vec(qdot_root) fired; /* the roots that ended the piece before */
     qdot_vec(size_t) pushed;   /* surfaces of contacts that lasted, into which what ended it has pushed the motion */
     qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
-    /* occurrences, and time spans in which they are lost in rounding, noted before this step */
+    /* number of occurrences, and of spans in which events are lost in rounding, before this step */
     size_t noted, noted_faded;
     struct {
         double since; /* start of the piece, or of a step */
         size_t parts; /* looked at since then */
     } searched;
 
-    /* Reading within the step. */
+    /* Data to read the state within the step. */
     qdot_watch_reader reader;
     const qdot_ode_expanded *expanded;
     qdot_trajectory step; /* the two ends of the step */
@@ -111,7 +112,7 @@ typedef struct {
     size_t resting; /* the event of a persistent contact; SIZE_MAX: none was found in this piece */
     int resting_way; /* the sign to which the motion would leave it */
 
-    /* Sides tried from one point: [tries x surfaces]; surfaces with alternatives. */
+    /* Sets of sides tried from one point: [tries x surfaces]; the surfaces with alternatives. */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
     qdot_tape_two **thens; /* [events] `then` in two doubles; NULL until it is needed */
@@ -140,7 +141,7 @@ qdot_piece_sides(qdot_piece *x, const long *old)
     return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
 }
 
-/* The rates of the state at the start of the piece in a mode that was entered, [n]. */
+/* The rates [n] of the state at the start of the piece, in a mode that has been entered. */
 QDOT_MUST_CHECK static inline qdot_status
 qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
 {
@@ -149,7 +150,7 @@ qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
     return system->rhs(x->start.t, x->start.y, rates, system->user);
 }
 
-/* Make the mode with the sides x->side, its bind and its watch; it becomes x->mode. */
+/* Make the mode with the sides x->side, its bind and its watch, and make it the present mode x->mode. */
 QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 
 /* Integrate one piece from its start, the last point, with sides towards which the motion leaves;
@@ -168,7 +169,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_doubt_side(qdot_piece *x, const qdot_watc
  * them to what its equations say at the start: x->start.followed. *can: not, and x->hindrance says so, where these have no
  * solution or positions would jump against a switch of velocities. */
 bool qdot_piece_has_massless(const qdot_piece *x);
-/* Whether u of a surface holds the place of such a coordinate. */
+/* Whether u of a surface determines the position of a coordinate without mass. */
 bool qdot_piece_holds_massless(const qdot_piece *x, size_t surface);
 QDOT_MUST_CHECK qdot_status qdot_piece_follow_massless(qdot_piece *x, bool *can);
 
@@ -184,10 +185,10 @@ void qdot_piece_carry(qdot_piece *x);
  * elsewhere, by an event or by another switch inside u, is not. After x->reader is set. */
 QDOT_MUST_CHECK qdot_status qdot_piece_widen_residuals(qdot_piece *x);
 
-/* Whether an event was recorded within about a double of t before the end of the piece. */
+/* Whether an event was recorded within about one double of t before the end of the piece. */
 bool qdot_piece_just_noted(const qdot_piece *x, size_t event);
 
-/* Check a mode before it is integrated; c->reason if it cannot be entered. */
+/* Check a mode before it is integrated; c->reason says why if it cannot be entered. */
 QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x);
 
 /* Part of it: what the layers that are left have left out, and whether one is entered for good where
@@ -199,7 +200,7 @@ bool qdot_piece_end_in_layers(qdot_piece *x);
 /* In x->side: surfaces of velocities in whose layers friction brings the motion to rest. Where a piece
  * starts it goes there, to a start of its own, with the events that it meets then in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_in_layers(qdot_piece *x);
-/* Whether u of a surface is of places, and has no layer. */
+/* Whether u of a surface depends on positions only, and the surface has no layer. */
 bool qdot_piece_is_of_places(const qdot_piece *x, size_t surface);
 /* In x->side: surfaces of places about which the motion goes too fast to be followed (sim/course/chatter.h) where a
  * piece starts; not `anew`: only those that were crossed there. It slides along them, from a start on them. */
@@ -221,13 +222,13 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root
  * companion takes the root for earlier by that, the other for later. If other switches are on other
  * sides then, nothing is done. */
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
-/* Go to the state at the root itself, on the constraints, if x->has_root. */
+/* Move the state to the root itself, projected onto the constraints, if x->has_root. */
 QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
-/* Start the next piece where this one ended: its last point, with the low part of the state. */
+/* Start the next piece at the last point of this one, with the low part of its state. */
 void qdot_piece_start_at_end(qdot_piece *x);
-/* The state at the start of the piece less y [n], into low [n]. */
+/* The exact state at the start of the piece minus y [n], into low [n]. */
 void qdot_piece_low(const qdot_piece *x, double *low);
-/* x->late and x->blur of the piece that ended, by its roots. */
+/* Set x->late and x->blur, the delay of the end of the piece and its uncertainty, from its roots. */
 void qdot_piece_find_delay(qdot_piece *x);
 
 /* Begin the watch of x->mode at the start of a piece, from x->before and x->residual; fills
@@ -239,10 +240,10 @@ QDOT_MUST_CHECK qdot_status qdot_piece_begin(qdot_piece *x);
  * contact. Errors as qdot_trajectory_resume. */
 QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 
-/* A run ends if more events than that would follow at the rate at which they come. */
+/* A run ends if more events than this would follow at the present rate. */
 extern const double qdot_piece_most_to_come;
 
-/* The record of how often an event, bound or surface was met; NULL: it was not met yet. */
+/* The record of how often an event, bound or surface was met; NULL if not yet. */
 qdot_piece_repeat *qdot_piece_repeat_of(const qdot_piece *x, qdot_watched_kind kind, size_t index);
 
 /* Carry out all events at x->t_act, in order; x->start.y is the state before, then after. *over:
@@ -271,7 +272,8 @@ QDOT_MUST_CHECK qdot_status qdot_piece_try_blows(qdot_piece *x, bool *endless, b
 /* (piece-puck.c) Where a piece starts in the present mode: pucks that move, but are at rest, are given
  * the speed of their start. *can: friction slows those that are to rest. */
 QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);
-/* In x->side: the pucks that are at rest where a piece starts; not `anew`: only those that have crept. */
+/* Mark the discs at rest at the start of a piece in x->side; unless `anew`, only those that have
+ * been creeping. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
 
 /* (piece-contact.c) The way of its function, in the direction of the run, that event i asks for at the start; 0:
@@ -290,7 +292,7 @@ bool qdot_piece_is_undone(qdot_piece *x, const qdot_root *root, int *way);
 /* *acts: at the start of a run back in time event i has just occurred: the motion rests on it, or starts behind an
  * impact. */
 QDOT_MUST_CHECK qdot_status qdot_piece_undone_at_start(qdot_piece *x, size_t i, bool *acts);
-/* Before it is undone: c->reason if what was before it is not known. */
+/* Call before an event is undone: c->reason says if the state before it is not known. */
 QDOT_MUST_CHECK qdot_status qdot_piece_check_undone(qdot_piece *x, const qdot_root *root);
 /* End the run where it starts, with c->reason, if there is an event of which not even the time can be known; whether there
  * is. */
@@ -307,9 +309,10 @@ QDOT_MUST_CHECK qdot_status qdot_piece_rate(qdot_piece *x, size_t i, double *rat
  * rate may be the rounding of velocities. */
 QDOT_MUST_CHECK qdot_status qdot_piece_way(qdot_piece *x, size_t i, int *way);
 
-/* End the run here, as failed or as stopped. */
+/* End the run at this point, as failed or as stopped. */
 void qdot_piece_stop(qdot_piece *x, bool failed);
-/* End the run here as failed: c->reason is `before`, the surface with that side in words, `behind`. */
+/* End the run here as failed. c->reason becomes `before`, a description of the surface on that
+ * side, `behind`. */
 void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
                         const char *behind);
 
@@ -317,9 +320,9 @@ void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *be
  * If not, x->side gets other sides and x->doubts the surfaces. */
 QDOT_MUST_CHECK qdot_status qdot_piece_leaves_well(qdot_piece *x, bool *well);
 
-/* If it does: whether other sides might fit as well. */
+/* If the piece leaves to its assumed sides: whether other sides might fit as well. */
 bool qdot_piece_is_open(const qdot_piece *x);
-/* Set x->doubts to the surfaces with such other sides. */
+/* Set x->doubts to the surfaces for which other sides might fit. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_open(qdot_piece *x);
 
 #endif

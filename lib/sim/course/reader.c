@@ -1,4 +1,4 @@
-/* reader.c -- reads a state, its accelerations if needed, and evaluates the tape. */
+/* reader.c -- reads the state of a run at a time, its accelerations if needed, and evaluates a tape there. */
 #include "sim/course/reader.h"
 
 #include <math.h>
@@ -69,7 +69,8 @@ read_accelerations(const qdot_reader_course *c, double t)
                                    c->in + 2 * c->n + 1);
 }
 
-/* The sides of the piece, the shares of surfaces along which it slides, and those of pucks. */
+/* Read the sides of surfaces in this piece, the sliding shares of surfaces and of discs, as inputs
+ * of the tape. */
 static qdot_status
 read_sides(const qdot_plan *p, const qdot_reader_course *c)
 {

@@ -9,7 +9,7 @@
 
 #include "sim/course/course.h"
 
-/* Expressions of a plan, lowered. */
+/* Expressions along a run, lowered to a tape. */
 typedef struct {
     const qdot_plan *plan; /* of the first course; borrowed, as everything except the tape */
     size_t m;
@@ -24,7 +24,7 @@ typedef struct {
 /* Whether e holds q'' or a multiplier. */
 bool qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e);
 
-/* The state of one course: where it is read, and its place among the inputs of the tape. */
+/* The state of one course (stored run): where it is read, and its position among the inputs of the tape. */
 typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
@@ -32,7 +32,7 @@ typedef struct {
     double *in; /* q, q', t, q'', lambda, sides, within those of the reader */
 } qdot_reader_course;
 
-/* Reads such expressions. */
+/* Evaluates the expressions of a reading at times of its courses. */
 typedef struct {
     qdot_reading of;
     size_t n_courses;
@@ -45,11 +45,12 @@ typedef struct {
 /* Lower exprs [m]; the tape is the caller's to free, NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
                                               const qdot_expr *exprs, qdot_reading *of);
-/* Lower exprs [m] along the courses of another reading, which may have no tape. */
+/* Lower exprs [m] along the same courses as another reading, which may have no tape. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, size_t m,
                                                      const qdot_expr *exprs, qdot_reading *of);
 
-/* The tape and the courses [1 + of->n_more] are borrowed; clear it in any case. */
+/* Initialise a reader along 1 + of->n_more courses. The tape and the courses are borrowed; clear r
+ * in any case. */
 QDOT_MUST_CHECK qdot_status qdot_reader_init_along(qdot_reader *r, const qdot_reading *of,
                                                    const qdot_course *const *courses);
 /* Initialise a reader of expressions along one course. */
@@ -57,10 +58,11 @@ QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_reading 
                                              const qdot_course *course);
 void qdot_reader_clear(qdot_reader *r);
 
-/* out [outputs of the tape] at t, each course in the piece that is given for it; NULL: in any. */
+/* Evaluate the tape at t into out; course k is read in piece number pieces[k], or NULL: in the
+ * piece that contains t. */
 QDOT_MUST_CHECK qdot_status qdot_reader_read(qdot_reader *r, const size_t *pieces, double t,
                                              double *out);
-/* Read along one course, in that piece; SIZE_MAX: in any. */
+/* Evaluate along one course at t, in that piece of it; SIZE_MAX: in the piece that contains t. */
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 
@@ -81,7 +83,7 @@ qdot_reader_has_nothing(qdot_status status)
  * (tape/rounding.h). Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_reader_roundings(qdot_reader *r, double t, double *bounds);
 
-/* out for the states in r->in, with the equations of the pieces that were read last. */
+/* Evaluate the tape for the states in r->in, in the modes of the pieces that were read last. */
 QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
 
 #endif

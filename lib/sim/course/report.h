@@ -1,4 +1,4 @@
-/* report.h -- the report of a run: status, costs, error, end state, drifts; what occurred. */
+/* report.h -- the report of a run: status, costs, error, end state, drifts, events. */
 #ifndef QDOT_SIM_REPORT_H
 #define QDOT_SIM_REPORT_H
 
@@ -14,7 +14,7 @@ typedef struct {
     bool kept;           /* the integration keeps it exactly (sim/plan/routh.h): drift is 0 */
 } qdot_drift;
 
-/* A group of coordinates that was integrated apart from the others. */
+/* A group of coordinates that was integrated separately because it is decoupled. */
 typedef struct {
     const char *coordinates; /* "x, y" */
     size_t steps, rejected;
@@ -52,7 +52,7 @@ typedef struct {
     const qdot_expr *exact;        /* [2n + m] with `digits`: q, v, multipliers (nil: unknown) at
                                       t1 as rational numbers; else NULL */
     const char *notice;            /* notices about the start, a line each; NULL: none */
-    /* in scenes with constraints: */
+    /* for scenes with constraints: */
     size_t m;                      /* multipliers; 0: no constraints */
     const qdot_expr *multipliers;  /* [m] symbols */
     const double *lambda;          /* [m] at t1; NaN where there are none */
@@ -70,7 +70,8 @@ typedef struct {
                                        */
 } qdot_run_report;
 
-/* Whether t lies beyond the horizon, in the direction of the run; a run without one: never. */
+/* Whether t lies beyond the time after which no digit is known, in the direction of the run. False
+ * for runs without such a time. */
 static inline bool
 qdot_run_report_is_beyond(const qdot_run_report *r, double t)
 {

@@ -1,4 +1,4 @@
-/* run-state.h -- the members of a qdot_run. */
+/* run-state.h -- the fields of a qdot_run. */
 #ifndef QDOT_SIM_RUN_STATE_H
 #define QDOT_SIM_RUN_STATE_H
 
@@ -21,7 +21,8 @@ struct qdot_run {
     size_t factored;      /* number of matrices factored by the integration */
     double t0, t1;        /* as requested */
     double t0_low, t1_low; /* the exact limits less t0, t1 */
-    /* Of a run far from t = 0 (sim/course/run-time.h), whose times here are t less `origin`; else 0: */
+    /* For a run far from t = 0 (sim/course/run-time.h): the times here are t - origin; otherwise
+     * origin is 0. */
     double origin;
     double *times;            /* [points] t at the points of the course */
     qdot_run_report *told;    /* the report with times in t, not in s = t - origin */
@@ -60,7 +61,7 @@ struct qdot_run {
     qdot_expr *exact;                  /* [2n] the exact end state of a run with digits */
 };
 
-/* run->notice, for one more line. */
+/* The text run->notice, with a line break if another line is to follow. */
 qdot_text *qdot_run_next_notice(struct qdot_run *run);
 
 /* Set why the run has failed; the text is copied. Errors: QDOT_ENOMEM. */

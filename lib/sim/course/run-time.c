@@ -1,4 +1,4 @@
-/* run-time.c -- turns times of a run counted from its origin into times t, and back: in numbers, expressions, texts. */
+/* run-time.c -- converts times counted from the run's origin to t and back: in numbers, expressions, texts. */
 #include "sim/course/run-time.h"
 
 #include <float.h>
@@ -83,7 +83,7 @@ qdot_run_time_points(const qdot_run *run, size_t *n)
     return run->times ? run->times : run->course.tr.t;
 }
 
-/* The point of the run, behind a change of the state, whose time in t is rounded to `t`; SIZE_MAX: none. */
+/* The point of the run just after a jump of the state, whose time in t is rounded to `t`; SIZE_MAX: none. */
 static size_t
 jump_at(const qdot_run *run, double t, double s)
 {
@@ -150,7 +150,8 @@ qdot_run_time_express(const qdot_run *run, size_t m, const qdot_expr *given, con
     return qdot_pool_check(pool);
 }
 
-/* The number at `at`, if there is one: its time in t into out; the text behind it. */
+/* Copy a number in a text at `at`, converted to t, to out; returns the text after it, or `at` if
+ * there is no number. */
 static const char *
 tell_number(double origin, const char *at, qdot_text *out)
 {

@@ -14,14 +14,14 @@
 
 #include "sim/course/run-state.h"
 
-/* t at s. */
+/* The time t of a time s counted from the run's origin. */
 double qdot_run_time_told(const qdot_run *run, double s);
 
 /* From here on the run, which is finished, tells its times from that origin: its texts are written anew. Errors:
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_time_begin(qdot_run *run, double origin);
 
-/* The report with its times in t; the times of the points in t [*n]. Borrowed. */
+/* The report with its times as t; the times t of the stored points [*n]. Both borrowed. */
 const qdot_run_report *qdot_run_time_report(const qdot_run *run);
 const double *qdot_run_time_points(const qdot_run *run, size_t *n);
 
@@ -34,10 +34,11 @@ void qdot_run_time_own(const qdot_run *run, double t, double low, double *s, dou
 QDOT_MUST_CHECK qdot_status qdot_run_time_express(const qdot_run *run, size_t m, const qdot_expr *given,
                                                   const qdot_expr **own, qdot_expr **made);
 
-/* The text with the times in it in t: numbers behind "t = ", and the other ends of ranges that begin there. */
+/* Copy a text with its times converted to t: numbers after "t = ", and the upper ends of ranges
+ * that begin so. */
 void qdot_run_time_tell(double origin, const char *text, qdot_text *out);
 
-/* If `status` is a failure: the last error with its times in t; returns it. */
+/* If `status` is a failure, convert the times in the last error's text to t; returns `status`. */
 qdot_status qdot_run_time_fail(double origin, qdot_status status);
 
 #endif

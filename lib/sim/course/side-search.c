@@ -18,19 +18,19 @@
 
 #include "base/interrupt.h"
 
-/* Surfaces in doubt at one time: 4^4 combinations at most. */
+/* The most surfaces whose sides are uncertain at the same time: 4^4 combinations. */
 enum { MOST_DOUBTS = 4 };
 
 /* --- words --------------------------------------------------------------------------- */
 
-/* End the run at a surface, with c->reason. */
+/* End the run as failed at a surface; c->reason says `before` and `behind` around its description. */
 static void
 say(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     long side = m->side[surface];
 
-    /* of a floor the integer that the piece starts on */
+    /* for floor(u): the integer at which the piece starts */
     for (size_t i = 0; i < m->m; i++)
         if (m->watched[i].kind == QDOT_WATCH_SURFACE && m->watched[i].index == surface
             && x->functions_on[i])
@@ -38,7 +38,7 @@ say(qdot_piece *x, size_t surface, const char *before, const char *behind)
     qdot_piece_stop_at(x, surface, side, before, behind);
 }
 
-/* The first puck that is to rest; else surface 0. */
+/* The surface of the first disc that is to come to rest; surface 0 if there is none. */
 static size_t
 held_surface(const qdot_piece *x)
 {
@@ -75,7 +75,7 @@ say_open(qdot_piece *x, size_t surface)
 
 /* --- the search ---------------------------------------------------------------------- */
 
-/* Whether the present sides were tried at this start before; marks them as tried. */
+/* Whether the present sides have been tried from this start; marks them as tried. */
 static qdot_status
 was_tried(qdot_piece *x, bool *again)
 {
@@ -111,7 +111,7 @@ combine(qdot_piece *x, size_t k, bool *over)
     return qdot_piece_sides(x, x->tried.at);
 }
 
-/* The next sides that were not tried from here; *over: there are none. */
+/* Choose the next combination of sides that was not tried from here; *over: there is none. */
 static qdot_status
 next_sides(qdot_piece *x, size_t *k, bool *over)
 {
@@ -165,7 +165,8 @@ side_enter(qdot_piece *x, bool *can)
     return status;
 }
 
-/* The state where the piece starts, in two doubles, to and from y [3n]. */
+/* Copy the start of the piece to y [3n]: the state, its low part, and the state to which the low
+ * part belongs. */
 static void
 copy_start(const qdot_piece *x, double *y)
 {
@@ -182,7 +183,7 @@ put_start(qdot_piece *x, const double *y)
     memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
 }
 
-/* Integrate with x->side: the whole piece, or its first step. */
+/* Integrate with the sides x->side: the whole piece, or only its first step. */
 static qdot_status
 go(qdot_piece *x)
 {
@@ -215,7 +216,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     return qdot_grave(status);
 }
 
-/* Whether u stays 0 on both sides of a surface: its motion is one. */
+/* Whether u stays 0 with either of the two sides, so that both give the same motion. */
 static bool
 stays_alike(long side, long other)
 {
@@ -247,7 +248,7 @@ sides_compare(qdot_piece *x, const long *held)
     return status;
 }
 
-/* Compare the sides found with others, then integrate with them. */
+/* Compare the sides found with alternatives, then integrate with them. */
 static qdot_status
 go_by(qdot_piece *x)
 {
@@ -359,7 +360,7 @@ search(qdot_piece *x)
     }
 }
 
-/* The contact at x->resting does not leave its event, and is none that can last. */
+/* Set c->reason: the motion stays in the contact x->resting, which is not declared as one that lasts. */
 static void
 say_resting(qdot_piece *x)
 {

@@ -1,4 +1,5 @@
-/* stage-events.c -- the events of a run, with parameter values; those of a run back in time. */
+/* stage-events.c -- the events of a run with parameter values inserted; their inverses for a run
+ * backwards in time. */
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/node.h"

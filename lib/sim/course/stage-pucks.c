@@ -9,14 +9,14 @@
 #include "sim/course/stage.h"
 #include "sim/model/puck.h"
 
-/* The time in which a puck at its radius stops, relative to the latest one: 64 doubles of it. */
+/* The time in which a disc at its regularisation radius stops, relative to the largest |t|: 64 doubles. */
 static const double stop = 0x1p-46;
 /* A radius in local errors of velocities; and the time to stop for a method without series, which does
  * not come nearer to rest. */
 static const double errors = 4, errors_without_series = 1000;
 static const double stop_without_series = 0x1p-24;
 
-/* The way to rest that may be left out, in local errors. */
+/* The distance to rest that may be left out, in units of the local error. */
 static const double way_left_out = 1;
 
 static size_t
@@ -25,7 +25,7 @@ outputs_of(const qdot_puck *puck, size_t n)
     return puck->k * (2 + puck->k + n);
 }
 
-/* d_i, its rate but for q'', G_ij, dd_i/dq'_j into out. */
+/* For a disc: d_i, the rate of d_i without its q'' terms, G_ij, dd_i/dq'_j, into out. */
 static void
 lower_one(const qdot_stage *s, const qdot_puck *puck, const qdot_expr *in, qdot_expr *out)
 {
@@ -83,7 +83,7 @@ qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y,
     return QDOT_OK;
 }
 
-/* The largest |B_ij|/M_ii of a puck at the start: what friction can change of q'_i. */
+/* The largest |B_ij|/M_ii of a disc at the start: how much its friction can change q'_i. */
 static qdot_status
 friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
             const double *in, double *most)

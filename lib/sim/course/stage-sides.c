@@ -1,4 +1,4 @@
-/* stage-sides.c -- on which side of every surface a state is, the inner ones first. */
+/* stage-sides.c -- finds on which side of each surface a state lies; nested surfaces from the inside out. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,17 +10,17 @@
 #include "sim/model/layer.h"
 #include "sim/model/term-magnitude.h"
 
-/* Error of evaluating u, relative to the magnitude of its terms. */
+/* Relative error of evaluating u, in units of the sum of the magnitudes of its terms. */
 static const double rounding = 4 * DBL_EPSILON;
 
 /* Relative to max(1, |y|), the two changes of a state that test whether u is constant: arbitrary
  * numbers that occur in no scene. */
 static const double aside[] = {0x1.3a6e4p-9, -0x1.d19b2p-8};
 
-/* The largest floor; beyond it all doubles are integers. */
+/* The largest value of a floor: beyond it all doubles are integers. */
 static const double most_steps = 0x1p53;
 
-/* u and the magnitude of its terms for all surfaces, with the present sides. */
+/* The values u of all surfaces with their rounding errors, for the present sides. */
 typedef struct {
     const qdot_stage *s;
     size_t m, n; /* surfaces; components of the state */
@@ -104,7 +104,7 @@ decision_begin(decision *d, const qdot_stage *s, double t, const double *y)
     return QDOT_OK;
 }
 
-/* d->out at d->in, whose state is that of the decision again afterwards. */
+/* Evaluate the tape of surfaces at the state d->in for the given sides, into d->out. */
 static void
 decision_evaluate(decision *d, const long *side)
 {
@@ -116,14 +116,14 @@ decision_evaluate(decision *d, const long *side)
     d->in[d->n] = d->t;
 }
 
-/* Whether component i of the state is a parameter that events set: no motion moves it. */
+/* Whether component i of the state is a parameter that events set: it is constant between events. */
 static bool
 is_parameter(const decision *d, size_t i)
 {
     return i < d->n && i % d->s->n >= d->s->n - d->s->n_states;
 }
 
-/* Compute u, noise and flat for the given sides. */
+/* Compute u, noise and flat of all surfaces for the given sides. */
 static void
 measure(decision *d, const long *side)
 {
@@ -150,7 +150,7 @@ measure(decision *d, const long *side)
     }
 }
 
-/* Find the surfaces on which something switches by these sides. */
+/* Find the surfaces that matter for the equations when the others have these sides. */
 static void
 find_open(decision *d, const long *side)
 {
@@ -168,7 +168,7 @@ is_open(const decision *d, size_t i)
     return d->open[d->s->switches.gates.gates.n + i] != 0;
 }
 
-/* The side of surface i, which had `kept`. */
+/* Decide the side of surface i from u; on the surface itself it keeps `kept` unless `anew`. */
 static qdot_status
 side_decide(const decision *d, size_t i, bool anew, long kept, long *side)
 {
@@ -193,7 +193,7 @@ side_decide(const decision *d, size_t i, bool anew, long kept, long *side)
     return QDOT_OK;
 }
 
-/* f_i/M_ii at the start, into a [n]: 0 where that is no number or holds multipliers. */
+/* f_i/M_ii at the start, into a [n]; 0 if it is not finite or contains multipliers. */
 static qdot_status
 start_accelerations(const decision *d, double *a)
 {
@@ -303,7 +303,7 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
             memset(side, 0, m * sizeof *side);
         }
     }
-    /* as often as surfaces stand inside one another, and branches, at most */
+    /* repeat at most as often as surfaces and branches can be nested */
     for (size_t pass = 0; pass <= 2 * m && changed && status == QDOT_OK; pass++) {
         measure(&d, side);
         find_open(&d, side);

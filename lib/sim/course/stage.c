@@ -86,7 +86,7 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether `side` is the side of the number u, that of a surface. */
+/* Whether the number u of a surface lies on that side. */
 static bool
 is_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
 {
@@ -114,7 +114,7 @@ watch_between(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const 
     }
 }
 
-/* The rims of a layer that the mode's side touches: u = layer, u = -layer. */
+/* Watch the rims of a layer that bound the present side: u = layer, u = -layer. */
 static void
 watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
 {
@@ -228,7 +228,7 @@ lower_level(const qdot_stage *s, qdot_mode *m)
                          &m->level);
 }
 
-/* An event whose contact lasts is none: a function without roots takes its place. */
+/* A contact that lasts is no event: replace the event's function by the constant 1, which has no roots. */
 static void
 watch_contacts(const qdot_stage *s, qdot_mode *m)
 {
@@ -237,7 +237,7 @@ watch_contacts(const qdot_stage *s, qdot_mode *m)
             m->functions[s->switches.surfaces.at[i].event] = QDOT_ONE;
 }
 
-/* The values of the symbols of pucks in a mode, behind those of the surfaces, out. */
+/* The values of the symbols of discs in a mode, after those of surfaces, into out. */
 static void
 value_pucks(const qdot_stage *s, const qdot_mode *m, qdot_expr *out)
 {
@@ -354,7 +354,7 @@ qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
 
 /* --- the start ----------------------------------------------------------------------- */
 
-/* Whether the request's time goes back. */
+/* Whether the requested run goes backwards in time. */
 static qdot_status
 runs_back(const qdot_stage *s, bool *back)
 {
@@ -390,7 +390,8 @@ start_numbers(const qdot_stage *s, double *t, double *y)
     return QDOT_OK;
 }
 
-/* The tolerance under which series in doubles may go beyond their radius; 0: there are none. */
+/* The tolerance for series in doubles, with which steps may pass their radius of convergence; 0
+ * without such series. */
 static double
 tol_of_series(const qdot_run_request *r)
 {
@@ -399,7 +400,7 @@ tol_of_series(const qdot_run_request *r)
     return r->digits == 0 && (!method || method->series) ? r->tol : 0;
 }
 
-/* What stands under a power that counts as 0 in a layer is 0 there for what decides by it as well. */
+/* Expressions that decide about a power with a layer: what counts as 0 in the layer is 0 for them, too. */
 static qdot_status
 lower_with_layers(qdot_stage *s)
 {
@@ -454,7 +455,7 @@ start_pucks(qdot_stage *s, const double *settled)
     return status;
 }
 
-/* The scales that the request says; those of parameters that events set are 1. */
+/* Copy the scales given in the request; parameters that events set have scale 1. */
 static qdot_status
 take_scales(qdot_stage *s, size_t n)
 {

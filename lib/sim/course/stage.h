@@ -13,14 +13,15 @@
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
-/* Of an event in a run back in time (sim/course/piece-back.c): its `then` is what undoes it (sim/model/undone.h). */
+/* For a run backwards in time (sim/course/piece-back.c): the inverse of the event's `then`
+ * (sim/model/undone.h). */
 typedef struct {
     const char *why;  /* not NULL: there is no such thing, and why; nor then a `then` */
     bool nowhere;     /* nor is it known where the event would have occurred */
     bool keeps_speed; /* it changes nothing on which the speed of its function depends */
     bool moved;       /* its function is not that of the event, which a change of places or parameters has moved */
     qdot_tape *rates; /* from q, q', t, q'': g' of the function g of the event, g'' (0 if g holds q'), dg/dq [n] */
-    /* the event as it is stated; its targets are those of the event that undoes it */
+    /* the event as stated; the targets are those of its inverse */
     struct qdot_staged_event *forward;
 } qdot_staged_undoing;
 
@@ -49,7 +50,7 @@ qdot_staged_event_acts(const qdot_staged_event *e)
 
 typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_watched_kind;
 
-/* A function that is watched in a mode. */
+/* A function whose roots are watched for in a mode. */
 typedef struct {
     qdot_watched_kind kind;
     size_t index;   /* of the event, domain or surface */
@@ -73,7 +74,7 @@ typedef struct {
     qdot_sliding_rows held; /* what the motion keeps where it slides along surfaces; else no rows */
 } qdot_mode;
 
-/* Start from {0}. */
+/* The scene of a run lowered to modes. Start from {0}. */
 typedef struct {
     qdot_scene *scene;               /* borrowed while modes are made */
     const qdot_run_request *request; /* likewise */
@@ -114,7 +115,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
 /* The symbols of q, q', t into in [2n + 1]; their number. */
 size_t qdot_stage_inputs(const qdot_stage *stage, qdot_expr *in);
 
-/* Make stage->sides from the scene's surfaces. Errors: as qdot_tape_new. */
+/* Make stage->sides, the tape of the surfaces' functions. Errors: as qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
 
 /* The sides of all surfaces at a state, the inner ones first, into side [surfaces].

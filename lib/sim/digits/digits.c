@@ -9,7 +9,8 @@
 
 enum { MOST_NAMES = 8 };
 
-/* Report a failure as for a run in doubles, with the end state rounded to doubles. */
+/* Record the failure of a run with `digits` as a run in doubles would, with the end state rounded
+ * to doubles. */
 static qdot_status
 say_failure(qdot_run *run, const qdot_ode_result *result)
 {
@@ -52,7 +53,7 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
     const qdot_constraints *c = run->plan->constraints;
 
     for (size_t k = 0; k < c->m; k++) {
-        /* not the row's: that is of one side where the equations switch */
+        /* do not use the row's own f, which holds for one side only if the equations switch */
         const bool massless = c->rows[k].multiplier == QDOT_NIL; /* with such nothing switches */
         qdot_drift f = {
             .quantity = massless ? c->rows[k].f : qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
@@ -171,7 +172,7 @@ qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
     return qdot_text_status(&run->notice);
 }
 
-/* A layer leaves out more than the digits asked for. */
+/* Refuse friction layers: what they leave out exceeds the error that `digits` allows. */
 static qdot_status
 refuse_layers(const qdot_run *run)
 {

@@ -23,7 +23,8 @@ QDOT_MUST_CHECK qdot_status qdot_digits_carry_out(qdot_run *run, qdot_scene *sce
 /* Fill the report of a run with digits as for a run in doubles. */
 void qdot_digits_fill_report(qdot_run *run);
 
-/* Fill run->occurrences of a run with digits. Errors: QDOT_ENOMEM, those of the pool. */
+/* Compute the occurrences of events of a run with `digits`, into run->occurrences. Errors:
+ * QDOT_ENOMEM, those of the pool. */
 QDOT_MUST_CHECK qdot_status qdot_digits_occurrences(struct qdot_run *run);
 
 #endif

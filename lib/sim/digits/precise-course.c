@@ -1,4 +1,5 @@
-/* precise-course.c -- pieces one by one, their ends located, their changes made. */
+/* precise-course.c -- runs in MPFR piece by piece: locates the end of each and applies the change
+ * of state there. */
 #include "sim/digits/precise-course.h"
 
 #include <math.h>
@@ -13,15 +14,15 @@
 
 #define RN MPFR_RNDN
 
-/* The largest distance of a root from the guide's, as a fraction of its piece. */
+/* The largest distance of a root from that of the run in doubles, as a fraction of the piece's duration. */
 static const double pad = 0x1p-8;
 
 enum { MOST_TRIES = 2000, MOST_BOUNCES = 1000000 };
 
-/* In place of the `event` of a formula: the formula is the rate of the event's function. */
+/* Value of formula.event if the formula is the rate of the event's function. */
 #define RATE (SIZE_MAX - 1)
 
-/* An expression in all digits. */
+/* An expression evaluated in MPFR. */
 typedef struct {
     size_t mode, function; /* of a surface, domain or event; SIZE_MAX: `then` of event */
     size_t event;
@@ -112,7 +113,7 @@ formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
     return status;
 }
 
-/* Add what brings states of a mode onto its constraints after an event. */
+/* Prepare the projection that brings states of a mode onto its constraints after an event. */
 static qdot_status
 add_hold(qdot_precise_side *s, size_t mode)
 {
@@ -130,7 +131,8 @@ piece_of(const qdot_course *g, double t)
     return qdot_trajectory_piece_of(&g->tr, qdot_trajectory_locate(&g->tr, t, 0));
 }
 
-/* The one of the ends [n] of piece k at whose event a contact begins; NULL: none. *many: several contacts begin. */
+/* Among the ends [n] of piece k the one at which a lasting contact begins; NULL: none. *many:
+ * several contacts begin. */
 static const qdot_course_end *
 begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size_t n, bool *many)
 {
@@ -243,7 +245,7 @@ bracket(const qdot_precise_side *s, size_t segment, double t, double by)
         mpfr_set(at[HI], last, RN);
 }
 
-/* The root of f between at[LO] and at[HI] into at[X]; *found: it changes its sign there. */
+/* The root of f between at[LO] and at[HI], into at[X]; *found: f changes its sign there. */
 static qdot_status
 find_root(qdot_precise_side *s, size_t segment, const formula *f, bool *found)
 {
@@ -375,7 +377,7 @@ cut(qdot_precise_side *s, size_t segment, mpfr_srcptr t)
     return QDOT_OK;
 }
 
-/* The piece ends where the first of its ends vanishes: the segment is cut there. */
+/* End the piece where the function of its first end vanishes: shorten the segment to that time. */
 static qdot_status
 end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end *ends, size_t n)
 {
@@ -413,7 +415,7 @@ count_result(qdot_precise_side *s, const qdot_ode_result *r)
     s->result.stats = sum;
 }
 
-/* Piece k from the state at numbers.at[0], y. */
+/* Integrate piece k from the time numbers.at[0] and the state y. */
 static qdot_status
 run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
 {
@@ -453,7 +455,8 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
 
 /* --- coming to rest at a contact ----------------------------------------------------- */
 
-/* The rate of u at the state y after the impact into at[SPEED], before it into at[SPEED_BEFORE]. */
+/* The rate of u after the impact, at the state y, into at[SPEED], and before the impact into
+ * at[SPEED_BEFORE]. */
 static qdot_status
 find_speeds(qdot_precise_side *s, size_t mode, const formula *rate, mpfr_srcptr t)
 {
@@ -468,7 +471,7 @@ find_speeds(qdot_precise_side *s, size_t mode, const formula *rate, mpfr_srcptr 
                : qdot_fail(QDOT_EDOMAIN, "the velocity at a contact has no value");
 }
 
-/* Whether the flight that follows is so low that it is lost in the rounding of the place. */
+/* Whether the next flight is so low that it is lost in the rounding of positions. */
 static bool
 is_low(const qdot_precise_side *s)
 {
@@ -489,7 +492,7 @@ does_not_rest(double t)
     return qdot_hint("a run in doubles rests there; digits are right until before t = %.6g", t);
 }
 
-/* One flight more in the mode, to the next impact of the end's event. */
+/* Integrate one more flight in the mode, to the next impact on the same surface. */
 static qdot_status
 fly(qdot_precise_side *s, size_t mode, const formula *f, const qdot_course_end *end)
 {
@@ -585,7 +588,7 @@ time_occurrences(qdot_precise_side *s)
             mpfr_set(s->times.at[i], qdot_precise_point(run, run->count - 1)[0], RN);
             continue;
         }
-        /* what touches 0 in place of a function that crosses it is found as a crossing of that */
+        /* a function that touches 0 near its recorded root is located there as a crossing */
         if ((o->way == 0 && (o->within > 0 || !g->stage->events.at[o->event].touches)) || segment >= s->segments.n)
             continue;
         QDOT_TRY(locate(s, segment,

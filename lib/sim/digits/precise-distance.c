@@ -8,7 +8,7 @@
 
 #define RN MPFR_RNDN
 
-/* log10 of the distance from which two runs count as unrelated. */
+/* log10 of the distance beyond which two runs count as unrelated. */
 const double qdot_precise_parted = -4;
 
 /* Further times, as fractions of the run, at which the distance is taken; without a pattern that
@@ -96,7 +96,7 @@ qdot_precise_compare(qdot_precise_pair *pair)
 
 /* --- whether digits help ------------------------------------------------------------- */
 
-/* The distance of both at that part of the run. */
+/* log10 of the distance of run and companion at the fraction `part` of the run's duration. */
 static qdot_status
 distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_distance)
 {
@@ -112,7 +112,7 @@ distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_d
     return QDOT_OK;
 }
 
-/* The time *t since which run and companion have parted, from a series of times 9 % apart; NaN: not known. */
+/* The time *t at which run and companion have separated, tested at times 9 % apart; NaN: not known. */
 static qdot_status
 parting(qdot_precise_pair *pair, double *t)
 {

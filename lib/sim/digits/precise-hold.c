@@ -121,7 +121,7 @@ hold_evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
     qdot_precise_order(program, 0);
 }
 
-/* M into W (NULL: not wanted), the level's rows into A. */
+/* The mass matrix into W (unless NULL) and the constraint rows of the present level into A. */
 static void
 take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpfr_t *A)
 {
@@ -155,7 +155,7 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
     }
 }
 
-/* log2 of the largest |F| among the rows in use. */
+/* log2 of the largest violation |F| among the constraints in use. */
 static double
 excess(const qdot_precise_hold *h)
 {
@@ -170,7 +170,7 @@ excess(const qdot_precise_hold *h)
     return log2;
 }
 
-/* Choose the rows that contain a free value. */
+/* Use those constraint rows that contain a free coordinate. */
 static void
 choose_rows(qdot_precise_hold *h)
 {
@@ -187,7 +187,7 @@ choose_rows(qdot_precise_hold *h)
     }
 }
 
-/* Free are the coordinates whose flag is `free`; parameters that events set are not. */
+/* The coordinates whose flag equals `free` may be changed; parameters that events set may not. */
 static void
 choose_level(qdot_precise_hold *h, bool velocities, const bool *flag, bool free)
 {
@@ -201,7 +201,7 @@ choose_level(qdot_precise_hold *h, bool velocities, const bool *flag, bool free)
 
 /* --- the linear system --------------------------------------------------------------- */
 
-/* K = [W A^T; A 0] over the free values and the kept rows. */
+/* Assemble K = [W A^T; A 0] for the free coordinates and the rows in use. */
 static void
 assemble(qdot_precise_hold *h)
 {
@@ -236,7 +236,7 @@ hold_solve(qdot_precise_hold *h)
     return QDOT_OK;
 }
 
-/* -F into b, behind the free values. */
+/* Copy -F into b, after the free coordinates. */
 static void
 take_residual(qdot_precise_hold *h)
 {
@@ -295,7 +295,7 @@ qdot_precise_hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, const bool
 
 /* --- of a start ---------------------------------------------------------------------- */
 
-/* Add sum_k lambda_k d(A_k)/dx by differences to the upper left part of K. */
+/* Add sum_k lambda_k d(A_k)/dx, computed by differences, to the upper left block of K. */
 static void
 add_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
 {
@@ -348,7 +348,7 @@ take_gradient(qdot_precise_hold *h, const mpfr_t *x)
     }
 }
 
-/* One step of Newton's method; *moved: log2 of its length. */
+/* One Newton step towards the nearest state on the constraints; *moved: log2 of its length. */
 static qdot_status
 step_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, double *moved)
 {

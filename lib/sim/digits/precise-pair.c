@@ -1,4 +1,4 @@
-/* precise-pair.c -- the points of a precise run, its states, numbers of its plan. */
+/* precise-pair.c -- stored points and states of a run in MPFR; constants of its plan. */
 #include "sim/digits/precise-pair.h"
 
 #include <float.h>

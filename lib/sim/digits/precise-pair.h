@@ -1,4 +1,4 @@
-/* precise-pair.h -- the members of a qdot_precise_pair. */
+/* precise-pair.h -- the fields of a qdot_precise_pair: a run with `digits` and its companion. */
 #ifndef QDOT_SIM_PRECISE_PAIR_H
 #define QDOT_SIM_PRECISE_PAIR_H
 
@@ -8,14 +8,14 @@
 
 #define QDOT_LOG2_10 3.3219280948873626
 
-/* A piece of a run; there is one if nothing divides the run. */
+/* A piece of a run; a run that is not divided has one. */
 typedef struct {
     qdot_precise_run run;
     size_t mode;
     bool jumped;
 } qdot_precise_segment;
 
-/* One of the two runs. */
+/* One of the two runs of a pair: the run or its companion. */
 typedef struct {
     qdot_precise_bind **binds; /* [modes]; NULL for modes not met */
     size_t n_binds;
@@ -45,7 +45,7 @@ struct qdot_precise_pair {
     double log10_error; /* NaN: unknown */
 };
 
-/* log10 of the distance from which two runs count as unrelated. */
+/* log10 of the distance beyond which two runs count as unrelated. */
 extern const double qdot_precise_parted;
 
 /* Set pair->log10_error from distances at the end and before; NaN if the companion does not
@@ -71,7 +71,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_check_progress(qdot_precise_pair *pair,
 mpfr_t *qdot_precise_first(const qdot_precise_side *side);
 mpfr_t *qdot_precise_last(const qdot_precise_side *side);
 
-/* The segment that contains t, the later one of two. */
+/* The segment that contains t; at the time between two segments the later one. */
 size_t qdot_precise_segment_at(const qdot_precise_side *side, mpfr_srcptr t);
 
 /* The state y [2n] at t within a segment. */

@@ -12,7 +12,7 @@
 
 #define RN MPFR_RNDN
 
-/* The least fraction of a row's length outside the other rows for it to be independent. */
+/* A constraint row is independent if at least this fraction of its length is orthogonal to the other rows. */
 static const double dependent = 1e-9;
 
 /* The equations of positions or of velocities. */
@@ -29,7 +29,7 @@ typedef struct {
     qdot_row_space space;
 } level;
 
-/* log2 of the largest equation at the start as it is. */
+/* log2 of the largest residual of the equations at the start. */
 static double
 start_evaluate(level *l)
 {
@@ -48,7 +48,7 @@ start_evaluate(level *l)
     return log2;
 }
 
-/* The derivatives at y by the free values; whether they determine these. */
+/* The derivatives of the equations by the free values at y; whether they determine these values. */
 static bool
 take_slopes(level *l, double *in, double *out)
 {
@@ -81,7 +81,7 @@ take_slopes(level *l, double *in, double *out)
     return l->space.rank == unknown;
 }
 
-/* Newton's method from the doubles, as long as it converges, down to a rounding of 1. */
+/* Newton's method from the values in doubles, while it converges, until the residual is at most 2^-bits. */
 static qdot_status
 iterate(level *l, mpfr_prec_t bits)
 {

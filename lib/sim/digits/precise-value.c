@@ -1,4 +1,4 @@
-/* precise-value.c -- any expression along a pair of precise runs, and its error. */
+/* precise-value.c -- evaluates any expression along a run with `digits`, with its error from the companion. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -12,7 +12,7 @@
 
 #define RN MPFR_RNDN
 
-/* Expressions, read at the states of one of the two runs. */
+/* Evaluates expressions at states of one of the two runs. */
 typedef struct {
     const qdot_reading *of;
     qdot_precise_side *side;
@@ -44,7 +44,7 @@ reader_evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
                                  r->program, r->of->accelerations, t, y);
 }
 
-/* At the time in numbers.at[0], which may be an end of the run but for its last bits. */
+/* Evaluate at the time in numbers.at[0]; it may exceed an end of the run by rounding. */
 static qdot_status
 reader_read_at(reader *r)
 {
@@ -68,7 +68,7 @@ reader_read_at(reader *r)
     return reader_evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
 }
 
-/* At the first or last point of a piece: a segment that has points. */
+/* Evaluate at the first or last point of a piece. */
 static qdot_status
 read_end(reader *r, size_t piece, bool last)
 {
@@ -88,7 +88,7 @@ read_end(reader *r, size_t piece, bool last)
 
 /* --- both ---------------------------------------------------------------------------- */
 
-/* Readers of the same expressions along the run and its companion. */
+/* Readers of the same expressions along the run and along its companion. */
 typedef struct {
     qdot_precise_pair *pair;
     qdot_reading of;
@@ -131,7 +131,7 @@ undefined(const readers *r, size_t j)
     return status;
 }
 
-/* Where both runs are read: at the times that stand in both, or at the end of a piece. */
+/* Where both runs are read: at the times stored in the readers, or at an end of a piece. */
 typedef struct {
     bool end, last;
     size_t piece;
@@ -174,7 +174,7 @@ read_both(readers *r, place at, double *errors)
     return QDOT_OK;
 }
 
-/* An exact time; nil: the end. */
+/* Set the exact time at which r is read; nil: the end of the run. */
 static qdot_status
 take_time(const qdot_plan *plan, qdot_expr time, reader *r)
 {
@@ -186,7 +186,7 @@ take_time(const qdot_plan *plan, qdot_expr time, reader *r)
     return QDOT_OK;
 }
 
-/* Read both at a place into values [m] and errors [m]. */
+/* Evaluate along both runs: values [m] of the run, and errors [m] from the difference. */
 static qdot_status
 give_values(readers *r, size_t m, place at, qdot_expr *values, double *errors)
 {

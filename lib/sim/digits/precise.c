@@ -1,4 +1,4 @@
-/* precise.c -- two runs in MPFR, and how many digits they need. */
+/* precise.c -- a run and its companion in MPFR, and the number of digits they need. */
 #include "sim/digits/precise.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@
 
 #define RN MPFR_RNDN
 
-/* Relative to max(1, |x|): how far rounding of doubles moves a value that is kept. */
+/* How far rounding to doubles may move a value that is preserved, relative to max(1, |x|). */
 static const double moved_by = 1e-13;
 
 enum {
@@ -117,7 +117,7 @@ has_moved(const qdot_precise_side *s, const qdot_precise_pair *pair, bool veloci
     return false;
 }
 
-/* The positions or velocities nearest to the given ones, as they were found in doubles. */
+/* Find the positions, or the velocities, on the constraints that are nearest to those found in doubles. */
 static qdot_status
 find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_precise_hold *hold,
              bool velocities)
@@ -221,7 +221,7 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
     return s->guide ? qdot_precise_course_init(s) : QDOT_OK;
 }
 
-/* After a step: whether it left a domain. */
+/* After each step: stop if the state has left a domain. */
 static qdot_status
 watch(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user)
 {
@@ -282,7 +282,7 @@ is_there(const qdot_precise_side *s)
     return s->segments.n > 0 && s->segments.at[s->segments.n - 1].run.count > 0;
 }
 
-/* The last step ended outside a domain: go back to the last double of t inside it. */
+/* If the last step ended outside a domain, shorten it to the last double of t inside. */
 static qdot_status
 cut_at_domain(qdot_precise_side *s)
 {
@@ -315,7 +315,8 @@ cut_at_domain(qdot_precise_side *s)
 
 /* --- both ---------------------------------------------------------------------------- */
 
-/* Carry out both runs of the pair with `digits` and compare them. QDOT_OK whenever there is a run. */
+/* Carry out both runs of the pair with `digits` and compare them. QDOT_OK if there is a run, even
+ * an incomplete one. */
 static qdot_status
 precise_carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
 {
@@ -344,7 +345,7 @@ precise_carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
     return b->status == QDOT_EINTR || b->status == QDOT_ENOMEM ? b->status : QDOT_OK;
 }
 
-/* The number of digits with which the pair must be run next; 0: the result is good. */
+/* The number of digits with which the pair must be run next; 0: the result is accurate enough. */
 static double
 digits_wanted(const qdot_precise_pair *pair)
 {
@@ -377,7 +378,7 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
                              pair->digits, pair->run.digits, pair->log10_error);
         QDOT_TRY(precise_carry_out(pair, digits, domains));
         QDOT_TRY(qdot_precise_check_progress(pair, &progress));
-        /* while they part, digits double: no pass */
+        /* as long as the runs separate the digits are doubled; that does not count as a pass */
         if (!(pair->log10_error > qdot_precise_parted))
             passes++;
         digits = digits_wanted(pair);
@@ -485,7 +486,7 @@ qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error)
     return qdot_constant_of_real(pair->plan->pool, a->times.at[i]);
 }
 
-/* A point of the trajectory in doubles, unless it is not beyond the last one of its piece. */
+/* Append a point to the trajectory in doubles if its time lies after the last point. */
 static qdot_status
 push(qdot_trajectory *tr, bool first, double t, double t_end, const double *y)
 {

@@ -64,10 +64,10 @@ double qdot_precise_pair_error(const qdot_precise_pair *pair); /* NaN: unknown *
 double qdot_precise_pair_tol(const qdot_precise_pair *pair);
 size_t qdot_precise_pair_factored(const qdot_precise_pair *pair);
 
-/* The end state, component i of (q, q'), as the rational number that was computed. */
+/* Component i of the end state (q, q'), as the exact rational number that was computed. */
 qdot_expr qdot_precise_pair_end(const qdot_precise_pair *pair, size_t i);
 
-/* The time of the guide's occurrence i and its error; nil and NaN if unknown. */
+/* The time of occurrence i, in the order of the run in doubles, and its error; nil and NaN if unknown. */
 qdot_expr qdot_precise_pair_time(const qdot_precise_pair *pair, size_t i, double *error);
 
 /* Fill tr with the points of the run as doubles and some within each step, near enough to each
@@ -94,7 +94,7 @@ QDOT_MUST_CHECK qdot_status qdot_precise_pair_sample_values(
     qdot_precise_pair *pair, size_t m, const qdot_expr *exprs, size_t k,
     const double *times, double *values, double *errors);
 
-/* Measure the drifts, known already in doubles, again at the points of the run. */
+/* Measure the drifts that were measured in doubles again, at the points of the precise run. */
 QDOT_MUST_CHECK qdot_status qdot_precise_pair_drifts(qdot_precise_pair *pair,
                                                      qdot_drifts *drifts);
 

@@ -1,11 +1,12 @@
-/* doubts.c -- looks at the steps of one lane. */
+/* doubts.c -- tells whether the steps of one ensemble member must be repeated as a single run. */
 #include "sim/ensemble/doubts.h"
 
 #include "base/memory.h"
 #include "num/chebyshev.h"
 #include "sim/model/constrained.h"
 
-/* Part of a row of constraints that is left where a run alone is asked: ten times what it looks for. */
+/* A member is run singly if less than this part of a constraint row is left, ten times what the
+ * single run looks for. */
 static const double left_of_row = 1e-2;
 
 struct qdot_ensemble_doubts {

@@ -11,14 +11,15 @@
 
 #include "sim/bind/pulses.h"
 
-/* What is inspected on the steps of one lane. */
+/* The inspection of the steps of one ensemble member. */
 typedef struct qdot_ensemble_doubts qdot_ensemble_doubts;
 
-/* Make the inspection for a plan, borrowed; *doubts NULL: there is nothing to inspect. Errors: QDOT_ENOMEM. */
+/* Make the inspection for a plan, borrowed; *doubts is NULL if there is nothing to inspect. Errors:
+ * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_doubts_new(const qdot_plan *plan,
                                                      qdot_ensemble_doubts **doubts);
 void qdot_ensemble_doubts_free(qdot_ensemble_doubts *doubts);
-/* Before the first step of a member: nothing has been seen. QDOT_ENOMEM. */
+/* Call before the first step of a member. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_doubts_begin(qdot_ensemble_doubts *doubts);
 /* Whether the step {.a, .b, .tol, .from, .to, .read, .user} is such a one. Errors: QDOT_EINTR, those of
  * .read. */

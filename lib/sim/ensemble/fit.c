@@ -1,4 +1,4 @@
-/* fit.c -- the plan and the system of one run, looked at. */
+/* fit.c -- whether a scene can be run as an ensemble in vector lanes, judged by the plan of one run. */
 #include "sim/ensemble/fit.h"
 
 #include <math.h>

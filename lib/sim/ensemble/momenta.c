@@ -1,4 +1,4 @@
-/* momenta.c -- momenta by their tape in two doubles, velocities by that of the equations. */
+/* momenta.c -- momenta from velocities by a tape in two doubles; velocities from momenta by the equations. */
 #include "sim/ensemble/momenta.h"
 
 #include <math.h>

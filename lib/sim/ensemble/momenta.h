@@ -12,12 +12,13 @@
 
 typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* one a thread */
 
-/* Make the conversion between velocities and kept momenta for a reduced plan, borrowed. Errors: QDOT_ENOMEM. */
+/* Make the conversion between velocities and conserved momenta for a reduced plan, borrowed.
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_momenta_new(const qdot_plan *reduced,
                                                       qdot_ensemble_momenta **out);
 void qdot_ensemble_momenta_free(qdot_ensemble_momenta *x);
 
-/* The kept momenta p [n_kept] of the state y [2n]; false if one is not finite. */
+/* The conserved momenta p [n_kept] of the state y [2n]; false if one is not finite. */
 QDOT_MUST_CHECK bool qdot_ensemble_momenta_enter(qdot_ensemble_momenta *x, double t,
                                                  const double *y, double *p);
 /* Compute the velocities in y that follow from p and its other components; not finite if they are

@@ -8,7 +8,7 @@
 #include "sim/ensemble/momenta.h"
 #include "sim/ensemble/ensemble.h"
 
-/* One pass over all members, the runs themselves or their companions. */
+/* One pass over all members of an ensemble: the runs themselves, or their companions. */
 typedef struct {
     qdot_ensemble_series *series; /* of companions: made when first asked for */
     qdot_ensemble_steps *steps;   /* NULL: nobody looks */
@@ -39,14 +39,14 @@ struct qdot_ensemble {
     int order;
 };
 
-/* The equations that are integrated. */
+/* The plan that is integrated: the reduced one if there are ignorable coordinates. */
 static inline const qdot_plan *
 qdot_ensemble_equations(const qdot_ensemble *e)
 {
     return e->plan->reduced ? e->plan->reduced : e->plan;
 }
 
-/* The size of a state, parameters included; how many momenta are kept. */
+/* The size of a state with the varied parameters; the number of conserved momenta. */
 static inline size_t
 qdot_ensemble_width(const qdot_ensemble *e)
 {

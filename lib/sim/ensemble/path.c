@@ -1,4 +1,4 @@
-/* path.c -- the courses of a run filled with what lanes have gone. */
+/* path.c -- stores the points of an ensemble member as the trajectory of a single run. */
 #include "sim/ensemble/path.h"
 
 #include <math.h>
@@ -9,7 +9,8 @@
 #include "sim/course/run-state.h"
 #include "sim/plan/plan.h"
 
-/* The stage of a run alone with these parameters as states: its plan gives series one by one. */
+/* Make the stage of a single run in which the varied parameters are states, so that its plan can
+ * expand each step. */
 static qdot_status
 make_stage(const qdot_ensemble_path_of *of, qdot_stage *stage)
 {
@@ -75,7 +76,7 @@ qdot_ensemble_path_new(const qdot_ensemble_path_of *of, qdot_run **out)
     return status;
 }
 
-/* The points of a pass of the member into its course. */
+/* Copy the points that a pass stored for the member into its course. */
 static qdot_status
 course_fill(const qdot_ensemble *e, size_t pass, size_t member, qdot_course *c)
 {

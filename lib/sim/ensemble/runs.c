@@ -1,4 +1,4 @@
-/* runs.c -- a scene lowered with some parameters left open; members and companions. */
+/* runs.c -- lowers a scene with some parameters left open; runs the members and their companions. */
 #include "expr/symbol.h"
 #include "sim/ensemble/ensemble.h"
 
@@ -146,7 +146,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* --- runs --------------------------------------------------------------------------- */
 
-/* A state y [n] and parameters [varied], or as companion 1 or 2 begins beside them, one after the other. */
+/* Write a state y [n] and parameters [varied] to `to`; for companion 1 or 2 slightly shifted. */
 static void
 member_put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
 {
@@ -159,7 +159,7 @@ member_put(size_t n, const double *y, size_t varied, const double *parameters, s
                               : parameters[i];
 }
 
-/* From {.run.order, .run.tol}. */
+/* Initialise a pass; p starts as {.run.order, .run.tol}. */
 static qdot_status
 pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const double *y,
           const double *parameters)
@@ -307,7 +307,8 @@ start(const qdot_ensemble *e, bool shaken, double *whole, double *y)
     return status;
 }
 
-/* Members that cannot start do not run; `reasons` [members], NULL: not wanted. */
+/* Prepare the start of every member. Those that cannot start do not run, and `reasons` [members]
+ * (may be NULL) says why. */
 static qdot_status
 start_all(const qdot_ensemble *e, qdot_ensemble_pass *p, char **reasons, double *whole)
 {
@@ -328,7 +329,7 @@ start_all(const qdot_ensemble *e, qdot_ensemble_pass *p, char **reasons, double 
     return QDOT_OK;
 }
 
-/* Of the runs, then of their companions, which are not looked at where there is no run. */
+/* Start the runs, then the companions of those members that have a run. */
 static qdot_status
 start_passes(qdot_ensemble *e, size_t passes)
 {
@@ -379,7 +380,7 @@ run_passes(qdot_ensemble *e, size_t passes)
     return QDOT_OK;
 }
 
-/* Whether a companion has gone as far as its run. */
+/* Whether the companion of member m has reached the end of its run. */
 static bool
 arrived(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
 {
@@ -387,7 +388,7 @@ arrived(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
            (companions->t1[m] != e->t0 || e->t1 == e->t0);
 }
 
-/* The error of a member's end, by both companions. */
+/* The error of member m's end state, estimated from its companions. */
 static double
 end_error(const qdot_ensemble *e, size_t m)
 {

@@ -1,4 +1,4 @@
-/* seen.c -- what is seen of members on their way, and their states. */
+/* seen.c -- events and intermediate states of ensemble members. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "sim/ensemble/parts.h"
 #include "tape/disc.h"
 
-/* Whether an event reads what is no part of the state that is integrated. */
+/* Whether an event depends on a velocity that is not part of the integrated state (its momentum is). */
 static bool
 reads_kept(const qdot_ensemble *e, qdot_expr g)
 {

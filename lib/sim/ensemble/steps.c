@@ -12,7 +12,7 @@
 
 enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
 
-/* A lane: its member, what of it has been seen so far, its step as a system of its own. */
+/* A vector lane: its member, what has been seen of it, and its present step as a system of its own. */
 typedef struct {
     size_t member;
     bool begun; /* the watch stands at the start of its member */
@@ -228,7 +228,7 @@ state_place(const qdot_ensemble_steps *s, size_t i)
     return i < s->n ? i : i < 2 * s->n ? i + s->varied : i - s->n;
 }
 
-/* The step's series and its start, in the lane. */
+/* Copy the series of the step and its start into the lane. */
 static void
 copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
@@ -243,7 +243,7 @@ copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y, NULL};
 }
 
-/* The watch at the start of a member. */
+/* Start watching the events of the member at its start. */
 static qdot_status
 begin_watch(const qdot_ensemble_steps *s, lane *a)
 {
@@ -262,7 +262,7 @@ begin_watch(const qdot_ensemble_steps *s, lane *a)
     return status;
 }
 
-/* Failures of the watch leave the member to a run alone. */
+/* Search the step for events. If that fails the member is repeated as a single run. */
 static qdot_status
 lane_search_roots(const qdot_ensemble_steps *s, bool last, lane *a)
 {
@@ -303,7 +303,7 @@ is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
     return false;
 }
 
-/* Look at the step, and for roots in it. */
+/* Inspect the step for hidden forces, and search it for events. */
 static qdot_status
 lane_look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
@@ -322,7 +322,7 @@ lane_look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     return a->watch ? lane_search_roots(s, step->last, a) : QDOT_OK;
 }
 
-/* Take the lane's member as it stands at its start. */
+/* Put the lane at the start of its next member. */
 static qdot_status
 lane_enter_member(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
@@ -334,7 +334,7 @@ lane_enter_member(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     return a->doubts ? qdot_ensemble_doubts_begin(a->doubts) : QDOT_OK;
 }
 
-/* Keep the start of a step, once. */
+/* Store the start of a step, unless it is stored already. */
 static qdot_status
 member_keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 {
@@ -380,7 +380,7 @@ tried(const qdot_batch_step *step, void *user)
     return a->watch || a->doubts ? lane_look(s, step, a) : QDOT_OK;
 }
 
-/* Note the roots of the step; whether all that is asked of events has been found. */
+/* Count the events of the step; returns whether all that were requested of this member have been found. */
 static bool
 lane_note_roots(qdot_ensemble_steps *s, lane *a)
 {

@@ -51,12 +51,12 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_new(const qdot_ensemble_steps_of
                                                     qdot_ensemble_steps **steps);
 void qdot_ensemble_steps_free(qdot_ensemble_steps *s);
 
-/* Before a run of so many members: nothing has been seen. QDOT_ENOMEM. */
+/* Call before a run of that many members. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members);
-/* Put the callbacks into a system. */
+/* Set the callbacks of a system so that each step is inspected. */
 void qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system);
 
-/* Of a member: the starts of its steps, if they are kept: t and the state, [1 + 2n + varied] each. */
+/* For one member: the starts of its steps, if stored: t and the state, [1 + 2n + varied] each. */
 typedef struct {
     size_t n, capacity; /* of numbers */
     double *at;

@@ -1,4 +1,4 @@
-/* companion.c -- the companion of a run as a course of its own, and how the two compare. */
+/* companion.c -- repeats a run as its companion, slightly disturbed, and compares the two. */
 #include "sim/error/companion.h"
 
 #include <float.h>
@@ -18,7 +18,8 @@
 #include "tape/rounding.h"
 #include "tape/shake.h"
 
-/* The end time of the companion: that of the run, or, if an event ended the run, its limit. */
+/* The time at which the companion ends: the end of the run, or the requested end if an event
+ * stopped the run. */
 static double
 goal(const qdot_run *run)
 {
@@ -29,10 +30,10 @@ goal(const qdot_run *run)
 
 /* --- comparing ----------------------------------------------------------------------- */
 
-/* A switch at the end is met or missed by a rounding of t. */
+/* A last piece shorter than this, relative to t, may be caused by rounding of t. */
 static const double no_length = 8 * DBL_EPSILON;
 
-/* Whether the last piece has no length, as where a motion would slide. */
+/* Whether the last piece has no duration, as at a switch where the motion would slide. */
 static bool
 ends_in_point(const qdot_trajectory *tr)
 {
@@ -96,7 +97,7 @@ count(const qdot_course *c, size_t event)
 
 /* --- the companion ------------------------------------------------------------------- */
 
-/* The part of the work of the run that a companion may do before its progress is judged. */
+/* The fraction of the run's work after which the progress of a companion is judged. */
 static const double of_whole = 0.1;
 
 /* Move y + low [2n], where a companion starts, by `by` times the error of the start: what run->apart has for this
@@ -131,7 +132,7 @@ project_start(const qdot_run *run, const qdot_ode_system *system, double t0, dou
     return status;
 }
 
-/* Whether the function of an event is 0 at the start of the run but for its rounding. */
+/* Whether the function of an event is 0 at the start of the run, within its rounding error. */
 static qdot_status
 starts_on(const qdot_run *run, const qdot_staged_event *e, double t0, bool *on)
 {
@@ -199,7 +200,7 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     move_by_error(run, number, 1, y, low);
     if (system->project) /* along what solutions may do */
         QDOT_TRY(project_start(run, system, t0, y));
-    /* a bound that the start is on stays where it is */
+    /* a start on a bound of a domain must not be moved outside */
     if (qdot_domains_outside(&run->stage.domains, y)) {
         memcpy(y, run->start, n * sizeof *y);
         memcpy(low, run->start_low, n * sizeof *low);
@@ -208,7 +209,8 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     return QDOT_OK;
 }
 
-/* Whether it met as many events, and switched alike; `acting`: events that are only seen do not count. */
+/* Whether the course has as many events and the same switches as the run; `acting`: ignore events
+ * that change nothing. */
 static bool
 met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
 {
@@ -221,7 +223,7 @@ met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
     return went_alike(&run->course, c);
 }
 
-/* A course of the same kind that has not begun. */
+/* An empty course with the same settings. */
 static qdot_course
 course_like(const qdot_course *c)
 {
@@ -253,7 +255,7 @@ qdot_run_drop_companions(qdot_run *run)
         run->way = QDOT_COMPANION_SERIES;
 }
 
-/* Companion 0 or 1 into c by that way; *has: there is one. */
+/* Compute companion 0 or 1 by the given plan into c; *has: it exists. */
 static qdot_status
 follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_meter *meter,
           qdot_course *c, bool *has, double *spent)
@@ -355,7 +357,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     c->early = number == 0 ? 1 : -1;
     c->leader = &run->course;
     c->touch_tol = has_touches(&run->course) ? run->course.touch_tol : 0;
-    /* moved off a surface that the run rests on, it would cross it without end */
+    /* limit the pieces: a companion moved off a surface on which the run rests might cross it endlessly */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
     for (;; way++) {
         way = qdot_companion_way_from(way, number, &system, method, run->report.tol, &by);
@@ -380,7 +382,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     return status;
 }
 
-/* The companion's trajectory over all that the run covers. */
+/* Make the companion's trajectory over the whole run. */
 static qdot_status
 make_companion(qdot_run *run)
 {
@@ -397,7 +399,7 @@ qdot_run_twin(qdot_run *run)
         return QDOT_OK;
     QDOT_TRY(follow(run, 1, &run->twin, &run->has_twin));
     if (run->has_twin && !covers(&run->twin, run->course.tr.t[run->course.tr.count - 1])) {
-        /* the second companion was given up on the way: only the first counts */
+        /* the second companion was abandoned: only the first one counts */
         begin_anew(&run->twin);
         run->has_twin = false;
         run->way = QDOT_COMPANION_WAYS;
@@ -407,7 +409,7 @@ qdot_run_twin(qdot_run *run)
 
 /* --- the error ----------------------------------------------------------------------- */
 
-/* Record how the pieces of the companion differ from those of the run. */
+/* Record how the pieces of the companion differ from those of the run, as a reason to distrust the run. */
 static qdot_status
 find_doubt(qdot_run *run, const qdot_course *c)
 {

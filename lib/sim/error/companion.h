@@ -12,7 +12,7 @@
  * that ends early errors are unknown. QDOT_OK also if there are none: see has_companion. */
 QDOT_MUST_CHECK qdot_status qdot_run_twin(qdot_run *run);
 
-/* Be without them. */
+/* Free the companions of the run. */
 void qdot_run_drop_companions(qdot_run *run);
 
 /* The errors of the end state of a run with pieces into its report; NaN with run->doubt if run and

@@ -1,4 +1,5 @@
-/* constraint-corners.c -- minima of the rows' lengths along a run, and the motion about them. */
+/* constraint-corners.c -- points of a run at which constraints are nearly dependent, and whether
+ * the motion turns there. */
 #include "sim/error/constraint-corners.h"
 
 #include <float.h>
@@ -12,7 +13,8 @@
  * as much is left, and where `apart` is. */
 static const double nothing = 1e-3, beside = 4, apart = 0.1;
 
-/* The cosine of a corner at most, and the part of the speed that is left beside it at least. */
+/* At a corner the directions differ by a cosine of at most `turned`; the speed beside it is at
+ * least `kept` of the usual. */
 static const double turned = 0.5, kept = 0.3;
 
 typedef struct {
@@ -27,7 +29,8 @@ remains(const piece *p, size_t k, size_t *row)
     return qdot_constrained_remains(p->held, p->tr->t[k], p->tr->y + k * p->tr->n, row);
 }
 
-/* From point k on by `way`: the first at which more is left; else the last of the piece. */
+/* From point k in the direction `way`: the first point with more than `left` of each row; else the
+ * end of the piece. */
 static size_t
 where_left(const piece *p, size_t k, int way, double left)
 {
@@ -50,7 +53,8 @@ velocities_product(const piece *p, size_t a, size_t b)
     return sum;
 }
 
-/* Whether the motion turns a corner about point k, where `least` is left. */
+/* Whether the direction of motion changes abruptly at point k, where constraint rows have the
+ * fraction `least` left. */
 static bool
 is_corner(const piece *p, size_t k, double least)
 {

@@ -1,4 +1,5 @@
-/* distance.c -- differences at stored points, found once, and windows over them. */
+/* distance.c -- distance of run and companions at stored points, computed once; its largest value
+ * near a time. */
 #include "sim/error/distance.h"
 
 #include <math.h>
@@ -11,16 +12,16 @@
 #include "sim/error/oscillations.h"
 #include "sim/course/chatter.h"
 
-/* Radians on either side. */
+/* Angle in radians by which the path must turn before and after t. */
 static const double least_turn = 0.5;
 
-/* A component that moves by fewer tolerances turns by rounding alone. */
+/* A component that moves by fewer tolerances than this seems to turn by rounding only. */
 static const double tolerances = 1000;
 
-/* If the distance to the companions grows by this factor from one point to the next, they jump apart. */
+/* A jump in time: the distance to the companions grows by this factor from one point to the next. */
 static const double jump = 32;
 
-/* Points that tell what the companions are off by near t. */
+/* The number of stored points that give the error of the companions near t. */
 enum { near_points = 3 };
 
 /* Where the companions are off nearby by more than so many times what they are off by at t, and by more than so large a
@@ -106,7 +107,7 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
     for (size_t k = 0; k < (run->has_twin ? 2 : 1) && status == QDOT_OK; k++) {
         d->n_others = k + 1;
         status = qdot_reader_init(d->others + k, of, courses[k]);
-        /* those of a run in two doubles share the rounding of a state that is read */
+        /* companions of a run in two doubles share the rounding of the states that are read */
         d->others[k].moved = run->leading ? (int)k + 1 : 0;
     }
     if (status == QDOT_OK && d->own.n_courses == 1)
@@ -149,7 +150,7 @@ distance_compare(qdot_distance *d, size_t piece, double t, const double *values,
     return QDOT_OK;
 }
 
-/* The companions' own error at a stored point; 0 if it is unknown. */
+/* The difference of run and companions at stored point k; 0 if unknown. */
 static qdot_status
 at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 {
@@ -174,7 +175,7 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 
 /* --- windows ------------------------------------------------------------------------- */
 
-/* By how much the path turns at point k: the angle of the chords that meet there. */
+/* The angle by which the path turns at point k, between the chords before and after it. */
 static double
 turn(const qdot_distance *d, size_t k)
 {
@@ -260,7 +261,7 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
     return QDOT_OK;
 }
 
-/* The companions' own error near t, which lies after point k. */
+/* The difference of run and companions near t, a time after point k. */
 static qdot_status
 look_around(qdot_distance *d, size_t piece, size_t k, double *own)
 {

@@ -1,4 +1,4 @@
-/* faded.c -- from when on the function of an event stays within its error of 0. */
+/* faded.c -- finds the time from which an event's function stays within its error of 0. */
 #include "sim/error/faded.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ close_look(look *l)
     qdot_free(l->errors);
 }
 
-/* Prepare to look at an event up to the time `end`. */
+/* Prepare to evaluate an event's function with its error up to the time `end`. */
 static qdot_status
 open_look(qdot_run *run, size_t event, double end, look *l)
 {
@@ -54,7 +54,8 @@ open_look(qdot_run *run, size_t event, double end, look *l)
     return qdot_distance_new(run, &l->of, &l->distance);
 }
 
-/* Whether g is known to differ from 0 at t by more than `least`; also where its error is not known. */
+/* Whether g(t) differs from 0 by more than its error and by more than `least`; true also if the
+ * error is unknown. */
 static qdot_status
 is_seen(look *l, double t, double least, bool *seen)
 {
@@ -107,7 +108,7 @@ least_seen(const look *l, size_t k)
     return is_met(l, k - 1, near) && is_met(l, k, near) ? 0 : l->tol * l->size;
 }
 
-/* The last of some times between occurrences k - 1 and k at which g is seen to differ from 0; NaN: it is at none. */
+/* The last of eight times between occurrences k - 1 and k at which g clearly differs from 0; NaN: none. */
 static qdot_status
 last_seen(look *l, size_t k, double *t)
 {
@@ -126,7 +127,8 @@ last_seen(look *l, size_t k, double *t)
     return QDOT_OK;
 }
 
-/* g is seen to differ from 0 at *a, and nowhere from *b on: halve the time between until it is at most `small`. */
+/* Bisect between *a, where g clearly differs from 0, and *b, from which on it does not, until they
+ * are `small` apart. */
 static qdot_status
 faded_narrow(look *l, double least, double small, double *a, double *b)
 {
@@ -162,7 +164,8 @@ faded_find(look *l, double *from)
     start = l->t[k];
     left = fabs(l->end - start);
     QDOT_TRY(faded_narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
-    /* a crossing at the end of the run: before it, g is as long within its error as it would be after it */
+    /* for a crossing at the end of the run: before it g is within its error for as long as it would
+     * be after it */
     if (left > 2 * fabs(l->t[k] - seen))
         *from = start;
     return QDOT_OK;

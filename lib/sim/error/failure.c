@@ -1,11 +1,11 @@
-/* failure.c -- a coordinate whose acceleration grows without bound. */
+/* failure.c -- explains a failed run by a coordinate whose acceleration grows without bound. */
 #include "sim/error/failure.h"
 
 #include <math.h>
 
 #include "ode/scale.h"
 
-/* A singularity is nearer than this fraction of the run. */
+/* A singularity ahead explains the failure if it is nearer than this fraction of the run. */
 static const double nothing = 1e-6;
 
 qdot_status

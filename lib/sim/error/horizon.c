@@ -1,4 +1,4 @@
-/* horizon.c -- run and companions followed until they have nothing to do with each other. */
+/* horizon.c -- compares run and companions until they have become independent: the horizon of the run. */
 #include "sim/error/horizon.h"
 
 #include <math.h>
@@ -8,10 +8,10 @@
 #include "sim/error/companion.h"
 #include "sim/error/standstill.h"
 
-/* Of the variation: what the end of a run shows where it is worth looking. */
+/* The error at the end of a run, relative to the variation of the state, from which the horizon is searched. */
 static const double worth_looking = 0.02;
 
-/* A motion smaller than so many tolerances is rounding. */
+/* A motion smaller than this many tolerances is rounding. */
 static const double tolerances = 100;
 
 /* The least fraction of the run beyond a horizon. */
@@ -20,7 +20,7 @@ static const double least_part = 0.01;
 /* The number of times beyond the horizon at which expressions are compared. */
 enum { LOOKS = 32 };
 
-/* The number of points of a run that are compared first, and its bounds. */
+/* SAMPLES: points for a first estimate of the variation; MOST_POINTS, LEAST_POINTS bound the number compared. */
 enum { SAMPLES = 64, MOST_POINTS = 4096, LEAST_POINTS = 32 };
 
 typedef struct {
@@ -86,7 +86,7 @@ qdot_horizon_variation(const qdot_trajectory *tr)
 
 /* --- distances ----------------------------------------------------------------------- */
 
-/* The number of pieces at the start that both trajectories have in common. */
+/* The number of initial pieces in which both trajectories have the same modes. */
 static size_t
 common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
 {
@@ -187,7 +187,7 @@ look_between(search *s, size_t k)
 
 /* --- the horizon --------------------------------------------------------------------- */
 
-/* The first point over the threshold from which on half of the time is; SIZE_MAX: none. */
+/* The first point above the threshold after which at least half of the time is above; SIZE_MAX: none. */
 static size_t
 first_lost(const search *s)
 {
@@ -237,7 +237,7 @@ crossing(const search *s, size_t k)
     return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
 }
 
-/* Find the time since which this companion has lost the run, if that is earlier than the horizon found so far. */
+/* Find the time at which this companion has lost the run, if it is earlier than the horizon found so far. */
 static qdot_status
 horizon_find(qdot_run *run, search *s)
 {
@@ -276,7 +276,7 @@ horizon_find(qdot_run *run, search *s)
     return QDOT_OK;
 }
 
-/* The number of points that the rest of the budget allows to compare. */
+/* The number of points that the remaining work budget allows to compare. */
 static size_t
 affordable(const qdot_run *run)
 {
@@ -312,7 +312,7 @@ qdot_horizon_find(qdot_run *run)
     if (report->scaled_error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
         || varies_by_more(run->stage.scales, tr, report->scaled_error / worth_looking))
         return QDOT_OK;
-    /* one may stay beside it for a while by chance */
+    /* use both companions: one may stay near the run for a while by chance */
     if (run->way != QDOT_COMPANION_WAYS)
         QDOT_TRY(qdot_run_twin(run));
     most = affordable(run);
@@ -371,7 +371,7 @@ qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
             companions_compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
         if (status == QDOT_OK)
             count++;
-        /* where one of them is undefined, or has ended, there is nothing to compare */
+        /* skip times at which a companion is undefined or has ended */
         if (qdot_reader_has_nothing(status))
             status = QDOT_OK;
     }

@@ -29,7 +29,7 @@
  * QDOT_OK without one too. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_horizon_find(qdot_run *run);
 
-/* V of one trajectory; a distance of QDOT_HORIZON_NONE_LEFT V means that no digit is correct. */
+/* The variation V of a trajectory; at a distance of QDOT_HORIZON_NONE_LEFT V no digit is correct. */
 double qdot_horizon_variation(const qdot_trajectory *tr);
 #define QDOT_HORIZON_NONE_LEFT 0.1
 

@@ -8,16 +8,16 @@
 
 #include "base/interrupt.h"
 
-/* Nearly all errors stay within this multiple of the noise. */
+/* Errors rarely exceed this multiple of the noise. */
 static const double levels = 4;
 
 enum { POINTS = 7, ORDER = 3 };
 static const double spacing = 0x1p-38;
 
-/* (ORDER!)^2 / (2 ORDER)!: what independent errors of variance 1 make of a difference. */
+/* (ORDER!)^2 / (2 ORDER)!: converts the variance of a difference of that order to the variance of one value. */
 static const double factor = 1.0 / 20;
 
-/* Signs without a pattern. */
+/* Pseudo-random signs, one for each component. */
 static double
 side(size_t i)
 {
@@ -39,7 +39,7 @@ level(const double *g, size_t m)
     return sqrt(factor * sum / (POINTS - ORDER));
 }
 
-/* Move each state from y, the inputs that were read, to point s of the line. */
+/* Shift each state from the inputs y to point s of a short line of states. */
 static void
 move_along(qdot_reader *r, const double *y, int s)
 {

@@ -1,4 +1,4 @@
-/* oscillations.c -- modes of the linearised motion whose periods are shorter than steps. */
+/* oscillations.c -- modes of the linearised motion that are faster than the steps of the run. */
 #include "sim/error/oscillations.h"
 
 #include <complex.h>
@@ -12,16 +12,16 @@
 
 static const double period = 6.283185307179586;
 
-/* Points compared: those behind the start, and about the end of the first step that is too long. */
+/* The points that are compared: the first ones, and those about the end of the first step that is too long. */
 enum { early = 2, before = 2, behind = 2 };
 
-/* What was followed for more steps than that exceeds the tolerance, and the companions tell its error. */
+/* If the fast mode was resolved for more steps than this, the companions include its error. */
 enum { soon = 50 };
 
-/* Velocities in tolerances: larger ones are in the estimate of a step's error. */
+/* Velocities above this many tolerances appear in the error estimate of a step. */
 static const double unseen = 100;
 
-/* Frequencies change along the run, and with them amplitudes. */
+/* Safety factor: amplitudes change along the run because frequencies do. */
 static const double at_most = 2;
 
 struct qdot_oscillations {
@@ -58,7 +58,7 @@ longest_step(const qdot_trajectory *tr)
     return h;
 }
 
-/* Whether mode k is an oscillation that steps of length h go over; of a pair, one. */
+/* Whether mode k oscillates faster than steps of length h resolve; true for one mode of a conjugate pair. */
 static bool
 is_gone_over(const qdot_oscillations *o, size_t k, double h)
 {
@@ -67,7 +67,8 @@ is_gone_over(const qdot_oscillations *o, size_t k, double h)
     return cimag(l) > fabs(creal(l)) && cabs(l) * h > period;
 }
 
-/* The modes at a state, of which the largest velocity is 1; *there: they were found. */
+/* The modes of the linearised motion at a state, scaled so that the largest velocity is 1; *there:
+ * they were found. */
 static qdot_status
 find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *there)
 {
@@ -95,7 +96,7 @@ find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *t
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* A at point j of the course; also the fastest of its modes, and the least damping. */
+/* The amplitude A at point j of the course, the fastest mode and the least damping there. */
 static qdot_status
 oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest, double *damping)
 {
@@ -117,7 +118,7 @@ oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest,
     return QDOT_OK;
 }
 
-/* The first point behind a step that is too long for that rate. */
+/* The first point after a step that is too long for a mode of that rate. */
 static size_t
 first_too_long(const qdot_trajectory *tr, double rate)
 {
@@ -182,7 +183,7 @@ qdot_oscillations_new(const qdot_course *course, qdot_oscillations **out)
     return status;
 }
 
-/* |g(y + by part of v_k) - g(y)| added to `sums` [m] as sums of squares; y [n] is in the reader. */
+/* Add |g(y + amplitude `by` times mode v_k) - g(y)|^2 to sums [m]; y [n] is in the reader. */
 static qdot_status
 try(qdot_oscillations *o, qdot_reader *r, double t, const double *y, size_t k, double by,
     const double *values, double *g, double *sums)

@@ -1,4 +1,4 @@
-/* partner.c -- which root of a companion is the k-th one of the run. */
+/* partner.c -- finds the root of a companion that corresponds to the k-th root of the run. */
 #include "sim/error/partner.h"
 
 #include <math.h>

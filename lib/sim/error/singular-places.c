@@ -1,4 +1,4 @@
-/* singular-places.c -- minima of independence along a run. */
+/* singular-places.c -- finds the times of a run at which constraints become nearly dependent. */
 #include "sim/error/singular-places.h"
 
 #include <math.h>
@@ -9,7 +9,8 @@
 #include "num/hermite.h"
 #include "sim/model/constraints.h"
 
-/* q counts as 0 below `dependent`, or below a hundred tolerances, at most `most_dependent`. */
+/* Constraints are dependent if q is below `dependent` or below a hundred tolerances, but at most
+ * `most_dependent`. */
 static const double dependent = 1e-5, most_dependent = 1e-3;
 
 /* A minimum below `shallow` of the points beside it is examined; if the sections reduce it to no
@@ -26,7 +27,7 @@ enum { sections = 60, closed_in = 12, most_told = 60 };
  * too. */
 enum { few_steps = 100, parts_of_a_step = 4, most_parts = 64 };
 
-/* Some rows of the constraints, none where these are not known, and when they were passed. */
+/* A set of constraint rows (none if unknown) that become dependent, and the times at which they do. */
 typedef struct {
     const qdot_constraints *of;
     bool *rows; /* [of->m], owned */
@@ -49,7 +50,7 @@ typedef struct {
     qdot_vec(group) groups;
 } search;
 
-/* The step whose end is stored point k. */
+/* Prepare to read the step that ends at stored point k. */
 static void
 search_enter_step(search *s, size_t k)
 {
@@ -136,7 +137,7 @@ search_descend(search *s, const double *t, const double *q, double *at, double *
     return search_look_at(s, *at, least);
 }
 
-/* Whether the constraints of two modes are the same. */
+/* Whether two modes have the same constraints. */
 static bool
 are_same(const qdot_constraints *a, const qdot_constraints *b)
 {
@@ -147,7 +148,7 @@ are_same(const qdot_constraints *a, const qdot_constraints *b)
     return same;
 }
 
-/* Whether the rows of g are among `rows`; no row is only among none. */
+/* Whether the rows of group g are all among `rows`; an empty group only matches an empty set. */
 static bool
 rows_are_among(const group *g, const bool *rows)
 {
@@ -198,7 +199,8 @@ groups_gather(search *s, size_t *i)
     return QDOT_OK;
 }
 
-/* The group of the rows `mine`, which it takes: one whose rows are some of these, or all and more; else a new one. */
+/* Find the group to which the rows `mine` belong: its rows are a subset or a superset; else make a
+ * new group. Takes `mine`. */
 static qdot_status
 find_group(search *s, group *mine, size_t *i)
 {
@@ -246,7 +248,7 @@ comes_down(const double *q)
     return q[1] <= q[0] && q[1] < q[2] && q[1] < shallow * fmax(q[0], q[2]);
 }
 
-/* Add a singular place, found at t with the quality q. */
+/* Record a singular point at time t, where the measure of independence is q. */
 static qdot_status
 search_take_place(search *s, double t, double q)
 {
@@ -263,7 +265,7 @@ search_take_place(search *s, double t, double q)
     return least < s->enough ? groups_note(s, at) : QDOT_OK;
 }
 
-/* In how many parts to look at the step that ends at stored point k, of those up to `end`. */
+/* Into how many intervals to divide the step that ends at stored point k, by the length of its neighbours. */
 static int
 parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
 {
@@ -279,7 +281,7 @@ parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
     return (int)fmin(most_parts, parts_of_a_step * h / fmax(beside, h / most_parts));
 }
 
-/* The places within the step that ends at stored point k. */
+/* Measure the independence at the inner points of the step that ends at stored point k. */
 static qdot_status
 take_inner(search *s, size_t k, int parts)
 {
@@ -350,7 +352,7 @@ qdot_singular_places_tell(const qdot_course *course, qdot_text *to)
                                                    : NULL;
     qdot_status status;
 
-    /* one constraint has nothing to depend on */
+    /* a single constraint cannot depend on others */
     if (!first || qdot_constrained_rows(first) < 2 || course->tr.count < 2)
         return QDOT_OK;
     s.y = qdot_calloc(course->tr.n, sizeof *s.y);

@@ -3,13 +3,13 @@
 
 #include <math.h>
 
-/* The part of the largest slopes below which a motion stands still. */
+/* The motion is at rest if its rates are below this part of their largest values. */
 static const double little = 1e-2;
 
 /* The most points that are inspected. */
 enum { MOST = 4096 };
 
-/* The slopes f [n] at point k of the run's only piece; false where there are none. */
+/* The rates f [n] at point k of the run's only piece; false if undefined. */
 static bool
 slopes_at(const qdot_run *run, size_t k, double *f)
 {

@@ -1,4 +1,4 @@
-/* touches.c -- an event's function at its touches, with errors. */
+/* touches.c -- evaluates an event's function, with its error, at times at which it touches 0. */
 #include "sim/error/touches.h"
 
 #include <float.h>
@@ -33,7 +33,7 @@ close_look(look *l)
     qdot_tape_free(l->of.tape);
 }
 
-/* The function g of an event at t, and its error; NaN: unknown. */
+/* The function g of an event at t and its error; NaN if unknown. */
 static qdot_status
 touch_look_at(look *l, double t, double *g, double *error)
 {
@@ -91,7 +91,7 @@ qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
     return status;
 }
 
-/* Whether the last occurrence of the event is at the end t of the run. */
+/* Whether the event last occurred at the end t of the run. */
 static bool
 ends_on(const qdot_run *run, size_t event, double t)
 {
@@ -103,7 +103,7 @@ ends_on(const qdot_run *run, size_t event, double t)
     return false;
 }
 
-/* The size of g: its largest value at a few times of the run. */
+/* The size of g: its largest |value| at eight times of the run. */
 static qdot_status
 find_size(look *l, const qdot_trajectory *tr, double *size)
 {

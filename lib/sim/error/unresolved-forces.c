@@ -1,4 +1,4 @@
-/* unresolved-forces.c -- what the equations are between the points of steps. */
+/* unresolved-forces.c -- searches the steps of a run for forces that act only between the points evaluated. */
 #include "sim/error/unresolved-forces.h"
 
 #include "sim/bind/pulses.h"

@@ -1,4 +1,4 @@
-/* blocks.c -- one solver a block of M. */
+/* blocks.c -- factors the blocks of M and solves with them. */
 #include "sim/form/blocks.h"
 
 #include <string.h>
@@ -27,7 +27,7 @@ qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block, size_t
                      row == 1 ? " does" : " do");
 }
 
-/* [M A^T; A 0], whose inverse is all that it is solved by. */
+/* Invert the bordered matrix [M A^T; A 0]; it is solved by its inverse only. */
 static qdot_status
 invert_bordered(const qdot_blocks *b, const qdot_solver *s)
 {
@@ -105,7 +105,7 @@ qdot_blocks_invert(qdot_blocks *b, size_t k)
         s->inverse[m + 1] = second * second;
         return;
     }
-    /* rows of L^-1, each of those before it; what is beyond their diagonals is 0 */
+    /* compute the rows of L^-1 from the earlier ones; entries beyond the diagonal are 0 */
     for (size_t i = 0; i < n; i++) {
         const double *L = s->a + i * n;
         double *row = s->lower + i * m, scale = 1 / L[i];

@@ -51,10 +51,10 @@ QDOT_MUST_CHECK qdot_status qdot_blocks_prepare(qdot_blocks *b, size_t k);
 void qdot_blocks_invert(qdot_blocks *b, size_t k);
 void qdot_blocks_apply(const qdot_blocks *b, size_t k, double *x);
 
-/* Copy a lower triangle, stored by rows, into block k. Returns the address behind it. */
+/* Copy a lower triangle, stored by rows, into block k. Returns the address after the numbers read. */
 const double *qdot_blocks_unpack(const qdot_blocks *b, size_t k, const double *from);
 
-/* The failure of a block whose row has no mass. */
+/* Report that M is singular because the coordinate of that row has no mass. */
 qdot_status qdot_blocks_singular(const qdot_plan *plan, const qdot_plan_block *block,
                                  size_t row);
 

@@ -1,4 +1,4 @@
-/* canonical.c -- slopes of H lowered, and the program of q' and p' from them. */
+/* canonical.c -- lowers the derivatives of H and makes the series program of Hamilton's equations. */
 #include "sim/form/canonical.h"
 
 #include "base/memory.h"
@@ -10,7 +10,7 @@
 #include "mech/study/hamilton.h"
 #include "sim/model/switch.h"
 
-/* Beyond it the inverse of M takes more than it saves. */
+/* The largest systems for Hamilton's equations: beyond them the inverse of M costs more than is saved. */
 enum { most_coordinates = 6, most_coupled = 2 };
 
 typedef struct {
@@ -21,7 +21,8 @@ typedef struct {
     qdot_expr *slope, *pull, *Q, *before; /* [n] dH/dp, -dH/dq, what is applied beside V; dL/dq' */
 } builder;
 
-/* Whether Hamilton's equations are worth it: not if M is constant, for momenta are then velocities up to factors. */
+/* Whether Hamilton's equations are worthwhile; not if M is constant, as momenta are then velocities
+ * up to factors. */
 static bool
 canonical_fits(const qdot_plan *p)
 {
@@ -38,7 +39,7 @@ canonical_fits(const qdot_plan *p)
     return moves;
 }
 
-/* Derive H and the forces; *there: whether velocities can be replaced by momenta. */
+/* Derive H and the forces; *there: the velocities can be expressed by momenta. */
 static qdot_status
 canonical_derive(builder *b, bool *there)
 {
@@ -71,7 +72,7 @@ moves(const builder *b, size_t i)
     return b->pull[i] != QDOT_ZERO || b->Q[i] != QDOT_ZERO;
 }
 
-/* Order the coordinates so that those whose momenta are not constant come first. */
+/* Order the coordinates: first those whose momenta change, then those with constant momenta. */
 static qdot_status
 order(builder *b)
 {
@@ -128,7 +129,7 @@ canonical_lower(builder *b)
     return status;
 }
 
-/* Rows: q [n], q' [n], t, p [n]; a row of q' is that of dH/dp. */
+/* The rows of the program: q [n], q' [n], t, p [n]; the rows of q' are those of dH/dp. */
 static qdot_status
 add_rows(qdot_canonical *c, qdot_program_builder *b, qdot_program_row *in, qdot_program_row *out)
 {

@@ -1,4 +1,4 @@
-/* eliminated.c -- L D L^T of A M^-1 A^T as expressions, and the series of what they leave. */
+/* eliminated.c -- eliminates multipliers symbolically by L D L^T of A M^-1 A^T; the series of the result. */
 #include "sim/form/eliminated.h"
 
 #include <string.h>
@@ -13,12 +13,12 @@
 #include "sim/model/constraints.h"
 #include "sim/model/quotient.h"
 
-/* Beyond it an elimination in symbols takes more than one in numbers. */
+/* The most constraints that are eliminated symbolically; more are cheaper in numbers. */
 enum { most_rows = 3 };
 
 /* --- the expressions ---------------------------------------------------------------- */
 
-/* S, then its factors: d on the diagonal, L below; what it is solved for; its diagonal. */
+/* S = A M^-1 A^T, later its factors (d on the diagonal, L below); the right-hand side b; the diagonal of S. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_constraints *c;
@@ -32,7 +32,7 @@ mass(const qdot_plan *p, size_t i)
     return p->M[i * (p->n + 1)];
 }
 
-/* A row's entry at a coordinate; 0 where it has none. */
+/* The entry of constraint row `row` at a coordinate, 0 if the row does not contain it. */
 static qdot_expr
 slope(const qdot_constraints *c, size_t row, size_t coordinate)
 {
@@ -121,7 +121,7 @@ elimination_factor(elimination *e)
     return true;
 }
 
-/* b becomes lambda. */
+/* Solve S lambda = b; b becomes lambda. */
 static void
 elimination_solve(elimination *e)
 {
@@ -141,7 +141,7 @@ elimination_solve(elimination *e)
     }
 }
 
-/* f + A^T lambda */
+/* f becomes f + A^T lambda */
 static void
 add_reactions(const elimination *e, qdot_expr *f)
 {
@@ -170,7 +170,7 @@ elimination_fits(const qdot_plan *p, double tol)
     return true;
 }
 
-/* Coordinate by coordinate q'', then d_k and S_kk of the rows; *there: they could be had. */
+/* Write q'' of each coordinate, then d_k and S_kk of each constraint, as outputs; *there: that was possible. */
 static qdot_status
 elimination_fill(qdot_plan *r, const qdot_plan *p, bool *there)
 {

@@ -1,4 +1,4 @@
-/* ensemble-series.c -- stage by stage: the program, what is solved for, its integrals, in lanes. */
+/* ensemble-series.c -- expands the motion of eight members in vector lanes, order by order. */
 #include "sim/form/ensemble-series.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { L = QDOT_LANES, most_order = 44 };
 
-/* Unknowns that K couples. */
+/* A block of unknowns coupled by K. */
 typedef struct {
     size_t first, n, positive; /* of these the first are of coordinates, others of constraints */
     double *A, *inverse;       /* [n x n groups] K, factored; its inverse */
@@ -42,7 +42,7 @@ struct qdot_ensemble_series {
 
 /* --- one stage ----------------------------------------------------------------------- */
 
-/* Whether the block has two unknowns, whose matrix is inverted by formula. */
+/* Whether the block has two unknowns: its matrix is inverted by a formula. */
 static bool
 is_pair(const solver *s)
 {
@@ -55,7 +55,8 @@ is_by_residual(const qdot_plan *p)
     return p->residual && p->residual->masses && !p->constraints && !p->indefinite;
 }
 
-/* The lower triangle of K of block b, of which no row of the program has any; *at behind it. */
+/* Read the lower triangle of block b of K from a tape's outputs, *at, where the program has no rows
+ * for it; advances *at. */
 static void
 take_masses(const qdot_ensemble_series *e, size_t b, const double **at)
 {
@@ -108,7 +109,7 @@ lanes_factor(const qdot_ensemble_series *e, const solver *s)
         e->kernels->factor(s->n, s->positive, s->A);
 }
 
-/* Solve for order k of the unknowns, with the factor of K or its inverse. */
+/* Compute order k: evaluate the program, then solve for the unknowns with the factor of K or its inverse. */
 static void
 stage(qdot_ensemble_series *e, int k)
 {
@@ -324,7 +325,7 @@ momentum_is_kept(const qdot_plan *p, size_t i)
     return false;
 }
 
-/* Momenta and parameters at the end of a state. */
+/* The number of components at the end of a state that stay constant: momenta and parameters. */
 static size_t
 still(const qdot_ensemble_series *e)
 {

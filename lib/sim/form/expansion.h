@@ -18,7 +18,7 @@ typedef struct {
     double *q, *v, *t;   /* rows of the inputs */
 } qdot_expansion;
 
-/* The expansion of n coordinates whose program is `taylor`. */
+/* The expansion of n coordinates by the series program `taylor`. */
 static inline qdot_expansion
 qdot_expansion_of(qdot_taylor *taylor, size_t n)
 {
@@ -46,7 +46,7 @@ qdot_expansion_begin(const qdot_expansion *e, double t, const double *y, double 
     qdot_taylor_draw(e->taylor, t);
 }
 
-/* The machine code of a program, borrowed, to be called by an integrator; its costs are 0. */
+/* The machine code of a program, borrowed, as an integrator calls it; its costs are set to 0. */
 qdot_ode_code qdot_expansion_code(qdot_taylor *taylor);
 
 #endif

@@ -1,11 +1,11 @@
-/* guarded.c -- callbacks that go to one of two series. */
+/* guarded.c -- chooses between a fast series for independent constraints and one for nearly dependent ones. */
 #include "sim/form/guarded.h"
 
 #include "base/memory.h"
 #include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 
-/* Squared sine below which the rows are not left to an elimination without pivots. */
+/* The fast elimination without pivoting is used if the squared sine between constraint rows is above this. */
 static const double least_sine = 0.1;
 
 struct qdot_guarded {
@@ -44,7 +44,7 @@ guarded_prepare(int p, void *user)
     return g->own->prepare ? g->own->prepare(p, g->own->user) : QDOT_OK;
 }
 
-/* The first state is looked at in any case: where it is not for `own` no code is written. */
+/* Test the first state in any case: if it is not for the fast series no machine code is written. */
 static qdot_status
 guarded_begin(double t, const double *y, double unit, void *user)
 {

@@ -25,7 +25,7 @@ void qdot_guarded_free(qdot_guarded *guarded);
 /* The callbacks of the series for `ode`; borrowed. */
 const qdot_ode_series *qdot_guarded_series(const qdot_guarded *guarded);
 
-/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
+/* The length of the machine code in bytes; 0 if there is none, and *why says why. */
 size_t qdot_guarded_code(const qdot_guarded *guarded, const char **why);
 
 #endif

@@ -1,4 +1,5 @@
-/* leading.c -- order by order in two doubles: what doubles found, its residual, what is missing. */
+/* leading.c -- corrects the first orders of a series in two doubles, by the residual of the
+ * solution in doubles. */
 #include "sim/form/leading.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/residual.h"
 
-/* The most corrections; after one that is no larger than `enough` no other is needed. */
+/* The most corrections of an order; no further one is made after one smaller than `enough`. */
 enum { most_corrections = 4 };
 static const double enough = 0x1p-36;
 
@@ -32,7 +33,7 @@ struct qdot_leading {
 
 /* --- M ------------------------------------------------------------------------------- */
 
-/* The block of the plan that the motion solves for as number k, from *b on. */
+/* The block of the plan that is number k among those solved for; the search starts at *b. */
 static const qdot_plan_block *
 block_of(const qdot_leading *l, size_t *b)
 {
@@ -41,7 +42,7 @@ block_of(const qdot_leading *l, size_t *b)
     return l->plan->blocks + *b;
 }
 
-/* Fill block b of M from the rows of the program that are its entries. */
+/* Fill block k of M from the rows of the program that are its entries. */
 static void
 take_entries(const qdot_leading *l, size_t k, size_t b)
 {
@@ -78,7 +79,7 @@ leading_factor(qdot_leading *l, const double *masses)
     return QDOT_OK;
 }
 
-/* Evaluate and factor M at a state, for d'Alembert's residual, whose M has a tape of its own. */
+/* For d'Alembert's residual: evaluate the tape of M at a state and factor M. */
 static qdot_status
 factor_residual(qdot_leading *l, const qdot_ode_place *at)
 {
@@ -92,7 +93,7 @@ factor_residual(qdot_leading *l, const qdot_ode_place *at)
 
 /* --- one order ----------------------------------------------------------------------- */
 
-/* Solve for the part of the accelerations of order k that doubles lack. Returns its size relative to them. */
+/* Solve for the correction of the accelerations at order k. Returns its size relative to them. */
 static double
 missing(qdot_leading *l, int k)
 {
@@ -119,7 +120,7 @@ missing(qdot_leading *l, int k)
     return most / size;
 }
 
-/* The accelerations of order k as far as doubles have them, from the velocities. */
+/* Take the accelerations of order k in doubles from the coefficients of the velocities. */
 static void
 guess(qdot_leading *l, int k)
 {

@@ -24,10 +24,10 @@ QDOT_MUST_CHECK qdot_status qdot_leading_new(const qdot_plan *plan,
                                              qdot_leading **out);
 void qdot_leading_free(qdot_leading *l);
 
-/* Set the kept momenta of a reduced plan, hi + lo [n_kept], borrowed. */
+/* Set the conserved momenta of a reduced plan, hi + lo [n_kept], borrowed. */
 void qdot_leading_keep(qdot_leading *l, const double *hi, const double *lo);
 
-/* The callbacks for qdot_ode_system; borrowed. */
+/* The callbacks for `leading` of qdot_ode_system; borrowed. */
 const qdot_ode_leading *qdot_leading_get(const qdot_leading *l);
 
 #endif

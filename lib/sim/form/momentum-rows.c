@@ -1,4 +1,5 @@
-/* momentum-rows.c -- momenta drawn into their rows, velocities copied from theirs. */
+/* momentum-rows.c -- writes conserved momenta, randomly rounded, into rows; copies velocities from
+ * their rows. */
 #include "sim/form/momentum-rows.h"
 
 #include <math.h>

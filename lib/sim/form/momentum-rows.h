@@ -22,19 +22,20 @@ typedef struct {
     bool shaken;           /* of the momenta hi alone */
 } qdot_momentum_rows;
 
-/* Make the rows of kept momenta for a plan, borrowed, whose program exists. Errors: QDOT_ENOMEM. */
+/* Make the rows of conserved momenta for a plan, borrowed, whose program exists. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_momentum_rows_init(qdot_momentum_rows *m,
                                                     const qdot_plan *plan,
                                                     qdot_expansion at, bool shaken);
 void qdot_momentum_rows_clear(qdot_momentum_rows *m);
 
-/* What the momenta are from t on: each of the two doubles about hi + lo, by chance. */
+/* Set the momenta from time t on: hi + lo rounded randomly to one of the two neighbouring doubles. */
 void qdot_momentum_rows_draw(qdot_momentum_rows *m, double t);
 
-/* Coefficients below p of velocities that follow from momenta, where others read them. */
+/* Copy coefficients of orders below p of velocities that follow from momenta to the rows where
+ * others read them. */
 void qdot_momentum_rows_show(const qdot_momentum_rows *m, int p);
 
-/* QDOT_EDOMAIN names a velocity that is not finite. */
+/* Check that the velocities are finite; the message of QDOT_EDOMAIN names one that is not. */
 QDOT_MUST_CHECK qdot_status qdot_momentum_rows_check(const qdot_momentum_rows *m);
 
 #endif

@@ -1,4 +1,4 @@
-/* motion-matrix.c -- the matrix of what a motion solves for: where it comes from, its factors. */
+/* motion-matrix.c -- the matrix K of the equations for the unknowns of a motion: its entries and factors. */
 #include "sim/form/motion-matrix.h"
 
 #include <string.h>
@@ -148,7 +148,7 @@ qdot_motion_matrix_clear(qdot_motion_matrix *K)
     *K = (qdot_motion_matrix){0};
 }
 
-/* Which blocks are solved for; their constant inverses. */
+/* Find the blocks that are solved for, and invert the constant ones. */
 static qdot_status
 make_solvers(qdot_motion_matrix *K, bool shaken)
 {
@@ -170,7 +170,7 @@ make_solvers(qdot_motion_matrix *K, bool shaken)
     return QDOT_OK;
 }
 
-/* List the sources of the entries of blocks that are not constant, lower triangles. */
+/* List where the entries (lower triangles) of blocks that are not constant come from. */
 static qdot_status
 make_entries(qdot_motion_matrix *K, qdot_taylor *taylor)
 {

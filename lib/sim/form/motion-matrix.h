@@ -17,7 +17,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/saddle-solver.h"
 
-/* An entry of K: where its value goes. */
+/* An entry of K: the address of its value, and where it is copied. */
 typedef struct {
     double *to;
     const double *from;
@@ -48,7 +48,8 @@ QDOT_MUST_CHECK qdot_status qdot_motion_matrix_init(qdot_motion_matrix *K, const
                                                     qdot_taylor *taylor, bool shaken);
 void qdot_motion_matrix_clear(qdot_motion_matrix *K);
 
-/* Before the stages of order 0, at y: what does not come of rows. Then with the rows of order 0. */
+/* Call _begin before order 0 is computed at y: reads entries that are no rows; then _take_rows for
+ * those that are. */
 QDOT_MUST_CHECK qdot_status qdot_motion_matrix_begin(qdot_motion_matrix *K, double t,
                                                      const double *y);
 QDOT_MUST_CHECK qdot_status qdot_motion_matrix_take_rows(qdot_motion_matrix *K);
@@ -56,14 +57,14 @@ QDOT_MUST_CHECK qdot_status qdot_motion_matrix_take_rows(qdot_motion_matrix *K);
 /* Prepare for solving orders 1 ... p - 1: invert blocks that are not constant. */
 void qdot_motion_matrix_prepare(qdot_motion_matrix *K, int p);
 
-/* K->by, order k of -E, becomes order k of what is solved for. */
+/* Solve K d = -E at order k: K->by is replaced by the coefficients of the unknowns. */
 void qdot_motion_matrix_solve(qdot_motion_matrix *K, int k);
 
-/* Give its factors and inverses to machine code, after _prepare. */
+/* Call after _prepare: pass the factors and inverses of K to machine code. */
 void qdot_motion_matrix_hand_over(const qdot_motion_matrix *K, qdot_taylor *taylor);
 void qdot_motion_matrix_hand_to_lanes(const qdot_motion_matrix *K, qdot_lanes_motion *code);
 
-/* How often K was factored. */
+/* How many times K was factored. */
 size_t qdot_motion_matrix_factored(const qdot_motion_matrix *K);
 
 #endif

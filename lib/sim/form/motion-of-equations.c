@@ -1,11 +1,11 @@
-/* motion-of-equations.c -- rows of M q'' = f and of its constraints. */
+/* motion-of-equations.c -- program rows of M q'' = f, optionally bordered by constraints. */
 #include "sim/form/motion-of-equations.h"
 
 #include "base/memory.h"
 #include "expr/constant.h"
 #include "sim/model/constraints.h"
 
-/* Unknowns by number: q'' of the coordinates, then those of the constraints. */
+/* Unknowns in order: q'' of the coordinates, then the multipliers of the constraints. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_tape *tape; /* of it, or with the rest of constraints for machine code */
@@ -23,14 +23,15 @@ input_is_number(const builder *b, size_t i)
     return i >= b->n && i < b->plan->n;
 }
 
-/* K_ij = K_ji = at */
+/* Set K_ij = K_ji to the row `at`. */
 static qdot_status
 couple(builder *b, size_t i, size_t j, qdot_program_row at)
 {
     return qdot_vec_push(&b->motion->entries, ((qdot_motion_entry){b->place[i], b->place[j], at}));
 }
 
-/* The k-th of the equations to come determines the acceleration of coordinate i. */
+/* The k-th of the next equations determines the acceleration of coordinate i and has the right-hand
+ * side `right`. */
 static void
 expect(builder *b, size_t i, size_t k, qdot_program_row right)
 {
@@ -53,7 +54,7 @@ solve_for(builder *b, size_t i)
     return qdot_motion_solve(b->motion, u, line->E);
 }
 
-/* A constant entry of M; *row QDOT_NO_ROW: 0. */
+/* The row of a constant entry of M; *row is QDOT_NO_ROW if the entry is 0. */
 static qdot_status
 number(builder *b, qdot_expr e, qdot_program_row *row)
 {
@@ -66,7 +67,7 @@ number(builder *b, qdot_expr e, qdot_program_row *row)
     return QDOT_OK;
 }
 
-/* Add the equations of a block of M, whose entries and f are the outputs from *at on. */
+/* Add the equations of a block of M; its f and its entries are the outputs from *at on. */
 static qdot_status
 add_block(builder *b, const qdot_plan_block *block, size_t *at)
 {
@@ -141,7 +142,7 @@ add_constrained(builder *b)
     return qdot_motion_end_block(b->motion);
 }
 
-/* Which row input i of the plan's tape is; velocities of numbers are 0. */
+/* The program row of input i of the plan's tape; parameters treated as coordinates have velocity 0. */
 static qdot_program_row
 input(const builder *b, size_t i)
 {

@@ -1,4 +1,4 @@
-/* motion-of-residual.c -- rows of d'Alembert's residual along its tree. */
+/* motion-of-residual.c -- program rows of d'Alembert's residual along its tree of functions. */
 #include "sim/form/motion-of-residual.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* motion-series.c -- stage by stage: the program, what is solved for, what it integrates to. */
+/* motion-series.c -- expands a single run order by order: program, linear solve, integration. */
 #include "sim/form/motion-series.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ stage(qdot_motion_series *s, int k)
     return QDOT_OK;
 }
 
-/* Whether no unknown is solved for: the program alone gives the whole expansion. */
+/* Whether nothing is solved for: the program gives the whole expansion. */
 static bool
 is_given(const qdot_motion_series *s)
 {
@@ -130,7 +130,7 @@ motion_series_extend(int p, void *user)
     return QDOT_OK;
 }
 
-/* Orders of what leads least end two below that of q. */
+/* Bound a step by negligible terms: forces have orders two less than q. */
 static double
 motion_series_near(int p, double step, double least, void *user)
 {
@@ -177,7 +177,7 @@ write_lanes(int p, int most, void *user)
     return qdot_lanes_motion_new(&rows, s->motion, p - 1, QDOT_BLOCKS_SOLVED, &s->code);
 }
 
-/* None is kept from earlier runs. */
+/* No vector code is kept from earlier runs. */
 static bool
 take_lanes(int p, int most, void *user)
 {
@@ -189,7 +189,7 @@ take_lanes(int p, int most, void *user)
 
 /* --- building -------------------------------------------------------------------------- */
 
-/* Whether blocks are definite and have up to `most` unknowns. */
+/* Whether all blocks are definite and have at most `most` unknowns. */
 static bool
 may_be_code(const qdot_plan *p, const qdot_motion *m, size_t most)
 {

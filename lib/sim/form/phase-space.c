@@ -31,7 +31,7 @@ qdot_phase_space_free(qdot_phase_space *s)
 
 /* --- expressions -------------------------------------------------------------------- */
 
-/* p [n] with the plan's values. A function that switches is itself, whatever the mode. */
+/* The momenta p [n] with the plan's parameter values; switching functions stay as they are in every mode. */
 static qdot_status
 momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
 {
@@ -46,7 +46,7 @@ momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
     return qdot_pool_check(plan->pool);
 }
 
-/* sum_j dp/dq_j q_j' + dp/dt */
+/* The rate of p except for accelerations: sum_j dp/dq_j q_j' + dp/dt. */
 static qdot_expr
 transported(const qdot_plan *plan, qdot_expr p)
 {
@@ -65,7 +65,7 @@ holds_velocity(const qdot_plan *plan, qdot_expr e)
     return (qdot_expr_node(plan->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
-/* Form the expressions that lower_all lowers: p [n], p' [n], then b [n] and M. */
+/* Form the expressions for lower_all: p [n], p' [n], b [n] and M. */
 static qdot_status
 write_down(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
 {

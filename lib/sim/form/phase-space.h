@@ -30,7 +30,7 @@ QDOT_MUST_CHECK qdot_status qdot_phase_space_new(qdot_scene *scene, const qdot_p
                                                  qdot_phase_space **space);
 void qdot_phase_space_free(qdot_phase_space *space);
 
-/* A phase space with room of its own, for one thread. */
+/* A phase space with work space of its own, for one thread. */
 typedef struct qdot_phase qdot_phase;
 QDOT_MUST_CHECK qdot_status qdot_phase_new(const qdot_phase_space *space, qdot_phase **phase);
 void qdot_phase_free(qdot_phase *phase);

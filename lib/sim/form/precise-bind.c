@@ -1,4 +1,4 @@
-/* precise-bind.c -- order by order in MPFR: the program of the motion, what is solved for in it. */
+/* precise-bind.c -- expands the motion in MPFR, order by order. */
 #include "sim/form/precise-bind.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 
 static const double most_bytes = 2e9;
 
-/* Unknowns that K couples. */
+/* A block of unknowns coupled by K. */
 typedef struct {
     size_t first, n;
     mpfr_t *lu;    /* [n x n] */
@@ -48,7 +48,7 @@ struct qdot_precise_bind {
 
 /* --- with constraints ---------------------------------------------------------------- */
 
-/* Slope k of the constraints, as the plan's tape has it. */
+/* Entry k of the constraint matrix A, an output of the plan's tape. */
 static const mpfr_t *
 slope(const qdot_precise_bind *e, size_t k)
 {
@@ -121,7 +121,7 @@ find_left(qdot_precise_bind *e, const mpfr_t *y)
 
             if (c->rows[k].kind > (order ? QDOT_VELOCITY : QDOT_HOLONOMIC))
                 continue;
-            /* NaN is no value of what the run could follow either */
+            /* a NaN is rejected, too */
             if (!(qdot_real_log2(qdot_precise_output(e->held[order], out++)[0]) - terms
                   <= allowed))
                 return qdot_fail(QDOT_EDOMAIN, "constraint %s does not hold beyond it",
@@ -146,7 +146,7 @@ make_held(qdot_precise_bind *e)
 
 /* --- the accelerations --------------------------------------------------------------- */
 
-/* K of a block, from its entries or column by column. */
+/* Read K of a block from its entries, or column by column from the program. */
 static void
 take_matrix(const qdot_precise_bind *e, const solver *s)
 {
@@ -168,7 +168,7 @@ take_matrix(const qdot_precise_bind *e, const solver *s)
     }
 }
 
-/* The coordinate whose row of a block is singular. */
+/* Report the coordinate in whose row the block is singular. */
 static qdot_status
 say_singular(const qdot_precise_bind *e, const solver *s, size_t failed)
 {
@@ -202,7 +202,7 @@ precise_factor(qdot_precise_bind *e)
     return QDOT_OK;
 }
 
-/* Stage k: a_k of every coordinate, orders below being there, and their integrals. */
+/* Compute order k: the accelerations of all coordinates from lower orders, and their integrals. */
 static qdot_status
 accelerations(qdot_precise_bind *e, int k)
 {
@@ -317,7 +317,7 @@ make_solvers(qdot_precise_bind *e)
     return QDOT_OK;
 }
 
-/* Orders of forces end two below that of q. */
+/* Bound a step by negligible terms: forces have orders two less than q. */
 static double
 precise_near(int p, double log2_h, void *user)
 {

@@ -27,13 +27,13 @@ void qdot_precise_bind_free(qdot_precise_bind *bind);
 /* n = 2 plan->n; valid while the bind lives. */
 const qdot_precise_system *qdot_precise_bind_system(const qdot_precise_bind *bind);
 
-/* q'' [n] at what `begin` was given last. */
+/* The acceleration q''_i at the state last passed to `begin`. */
 mpfr_srcptr qdot_precise_bind_acceleration(const qdot_precise_bind *bind, size_t i);
 
-/* The multiplier of constraint k at what `begin` was given last. */
+/* The multiplier of constraint k at the state last passed to `begin`. */
 void qdot_precise_bind_multiplier(const qdot_precise_bind *bind, size_t k, mpfr_ptr lambda);
 
-/* How often M was factored. */
+/* How many times M was factored. */
 size_t qdot_precise_bind_factored(const qdot_precise_bind *bind);
 
 #endif

@@ -1,4 +1,4 @@
-/* residual-energy.c -- energy along the residual's tree, and what does not stand in it. */
+/* residual-energy.c -- the energy from the functions of the residual's tree, and terms outside of the tree. */
 #include "sim/form/residual-energy.h"
 
 #include "expr/build.h"
@@ -9,7 +9,7 @@
 #include "mech/dynamics/dalembert.h"
 #include "sim/model/absent.h"
 
-/* Each function, or its rate, by that of its parent. */
+/* Sum each function, or its rate, with that of its parent, from the root down. */
 static void
 sum_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
 {
@@ -22,7 +22,7 @@ sum_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
     }
 }
 
-/* T + V from its terms; x [functions + 2n] is work space. */
+/* The energy T + V from its terms; x [functions + 2n] is work space. */
 static qdot_expr
 add_up(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms,
        qdot_expr *x)

@@ -59,7 +59,7 @@ align(const builder *b, const uint32_t *from, size_t step, size_t *to)
     *to = SIZE_MAX;
     if (!some)
         return QDOT_OK;
-    /* what is no node's may stand beside them: it is a number */
+    /* an applied force that belongs to no node may use the remaining slots */
     for (size_t k = s->nodes; k < s->slots; k++)
         if (b->at[k - 1] != SIZE_MAX)
             b->at[k] = b->at[k - 1] + 1;
@@ -229,7 +229,7 @@ qdot_residual_sweeps_begin(qdot_residual_sweeps *s, const qdot_taylor *places,
     return qdot_articulated_factor(s->system, S, lost, &node, &unknown);
 }
 
-/* r = what is applied less slopes of orders 1 ... k times forces of orders k - 1 ... 0. */
+/* r = applied force minus the convolution of slopes (orders 1 ... k) with forces (orders k - 1 ... 0). */
 static void
 right_side(qdot_residual_sweeps *s, int k, double scale, const double *more)
 {

@@ -1,4 +1,4 @@
-/* residual-tree.c -- functions put into nodes, and what nodes hang on. */
+/* residual-tree.c -- groups the functions of a residual into nodes and finds the parent of each node. */
 #include "sim/form/residual-tree.h"
 
 #include <string.h>
@@ -35,7 +35,7 @@ frames_join(builder *b, uint32_t f, uint32_t g)
     return true;
 }
 
-/* What must be of one node; those that such functions hang on are as well. */
+/* Join the functions that must be in one node; then their parents must be in one node, too. */
 static void
 join_all(builder *b)
 {
@@ -98,7 +98,7 @@ number_nodes(builder *b)
     return t->m <= QDOT_ARTICULATED_COMPONENTS && c > 0 && c <= QDOT_ARTICULATED_UNKNOWNS;
 }
 
-/* A component that no function of the node has. */
+/* The first component of the node to which no function has been assigned. */
 static uint32_t
 free_place(const qdot_residual_tree *t, uint32_t node)
 {
@@ -116,7 +116,7 @@ put_function(qdot_residual_tree *t, uint32_t f, uint32_t place)
     t->place[f] = place;
 }
 
-/* A function stands where its parent does, if that is free. */
+/* Assign each function to the component that its parent has, if that is free. */
 static void
 place_functions(builder *b)
 {

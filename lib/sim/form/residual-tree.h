@@ -23,12 +23,13 @@ typedef struct {
     uint8_t *unknowns;      /* [nodes] coordinates */
 } qdot_residual_tree;
 
-/* Find the tree of a residual with n coordinates. *tree NULL: it is no tree. Errors: QDOT_ENOMEM. */
+/* Find the tree of a residual with n coordinates. *tree NULL: its functions do not form a tree.
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_residual_tree_new(const qdot_residual *r, size_t n,
                                                    qdot_residual_tree **tree);
 void qdot_residual_tree_free(qdot_residual_tree *tree);
 
-/* The system of equations along it, w [n_weights] its weights. Errors: QDOT_ENOMEM. */
+/* The linear system along the tree, with weights w [n_weights]. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_residual_tree_system(const qdot_residual_tree *tree,
                                                       const qdot_residual *r,
                                                       const double *w,

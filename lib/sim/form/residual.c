@@ -1,4 +1,4 @@
-/* residual.c -- the tree of functions, its slopes and weights, and their tapes. */
+/* residual.c -- the functions of d'Alembert's residual as a tree, with slopes, weights and tapes. */
 #include "sim/form/residual.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@
 #include "tape/keymap.h"
 #include "tape/rounding.h"
 
-/* Parents are looked for among so many functions before. */
+/* The parent of a function is searched among this many functions before it. */
 enum { near = 8, looked_at = 64 };
 
 typedef struct {
@@ -49,7 +49,7 @@ qdot_residual_free(qdot_residual *r)
     qdot_free(r);
 }
 
-/* The number of a function, which is added where it is new. */
+/* The index of function e in the list; it is appended if new. */
 static qdot_status
 function_of(builder *b, qdot_expr e, uint32_t *f)
 {
@@ -62,7 +62,7 @@ function_of(builder *b, qdot_expr e, uint32_t *f)
     return qdot_vec_push(&b->functions, e);
 }
 
-/* Functions x, y and weight of a term, values in place. */
+/* Add a term: the functions x, y and the weight w of their product, with parameter values. */
 static qdot_status
 add_term(builder *b, qdot_expr x, qdot_expr y, qdot_expr w)
 {
@@ -77,7 +77,7 @@ add_term(builder *b, qdot_expr x, qdot_expr y, qdot_expr w)
     return QDOT_OK;
 }
 
-/* All at once: what they share is put in once. */
+/* Insert the parameter values into all terms at once, so that shared subexpressions are substituted once. */
 static qdot_status
 add_terms(builder *b, const qdot_dalembert_term *terms, size_t n)
 {
@@ -164,7 +164,7 @@ push_term(builder *b, qdot_expr term, qdot_expr factor)
     return qdot_vec_push(&b->terms, qdot_mul(b->plan->pool, factor, term));
 }
 
-/* e - g of two sums, whose terms are in one order: *d of what they do not share. */
+/* The difference e - g of two sums in canonical order: *d gets the terms that they do not share. */
 static qdot_status
 difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
 {

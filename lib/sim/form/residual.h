@@ -48,7 +48,7 @@ struct qdot_residual {
     qdot_expr *applied; /* [n] Q_i, the values put in */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
-    /* From q, q', t: */
+    /* Tapes of q, q', t: */
     qdot_tape *places; /* d_f in their order, slopes, Q_i without velocities */
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
@@ -57,7 +57,7 @@ struct qdot_residual {
     qdot_motion motion; /* the program of the motion (motion-of-residual.h), filled by the plan, if it
                            has masses */
 
-    /* Once asked for: h as one expression, and from q, q', t (sim/form/residual-energy.h). */
+    /* Made on demand: the energy h as an expression, and its tape of q, q', t (sim/form/residual-energy.h). */
     qdot_expr h;
     qdot_tape *energy;
     bool *absent; /* [n] coordinates that h may be the same at any value of: so a few places say */
@@ -69,7 +69,7 @@ struct qdot_residual {
  * not apply. */
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
-/* Make the programs of its tapes, if they are not there. Errors: those of series. */
+/* Make the series programs of the residual's tapes unless they exist. Errors: those of series. */
 QDOT_MUST_CHECK qdot_status qdot_residual_programs(qdot_residual *residual);
 void qdot_residual_free(qdot_residual *residual);
 

@@ -1,4 +1,4 @@
-/* saddle-solver.c -- where entries go; how independent the constraints are, here and ahead. */
+/* saddle-solver.c -- solves [M A^T; A 0]; measures how independent the constraints are, also along the step. */
 #include "sim/form/saddle-solver.h"
 
 #include <float.h>
@@ -9,14 +9,14 @@
 #include "series/taylor-motion.h"
 #include "sim/model/constrained.h"
 
-/* Constraints are nearly dependent where less than this is left of their best. */
+/* Constraints are nearly dependent if their independence falls below this part of its best value. */
 static const double nearly = 0.3;
 
 /* Of what is left of their independence now, where a place ahead at which nothing is is believed:
  * what Newton's method leaves there, and the highest of the orders it looks at. */
 static const double settled = 1e-6, shown = 0.5;
 
-/* The motion's entries are those of M, then those of A. */
+/* The entries of the motion are those of M, followed by those of A. */
 qdot_status
 qdot_saddle_solver_init(qdot_saddle_solver *s, const qdot_plan *plan, const qdot_taylor *series)
 {

@@ -41,7 +41,7 @@ void qdot_saddle_solver_clear(qdot_saddle_solver *s);
  * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_solver_look(qdot_saddle_solver *s, double t, const double *y);
 
-/* Factor it where order 0 of the entries is there. Errors: those of qdot_constrained_factor. */
+/* Factor the matrix; order 0 of its entries must be known. Errors: those of qdot_constrained_factor. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_solver_factor(qdot_saddle_solver *s);
 
 /* Relative noise of coefficients, of a series whose matrix is factored; how far ahead constraints

@@ -1,4 +1,4 @@
-/* tree-series.c -- an order is a sweep up the tree and one down. */
+/* tree-series.c -- computes each order of q'' by one sweep up the tree and one down. */
 #include "sim/form/tree-series.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { most_order = 44, lanes = 8 };
 
-/* A pivot over the mass it is of from which on four digits are lost: M may be singular. */
+/* M may be singular if a pivot, relative to its mass, is below this: four digits are lost. */
 static const double least_pivot = 1e-4;
 
 struct qdot_tree_series {
@@ -70,7 +70,7 @@ order(qdot_tree_series *s, int m)
         fill_rows(s, m);
 }
 
-/* Whether M is singular, as Cholesky's method has it. */
+/* Factor M by Cholesky's method; fails if M is singular. */
 static qdot_status
 tree_factor(qdot_tree_series *s)
 {
@@ -140,7 +140,7 @@ tree_extend(int p, void *user)
     return QDOT_OK;
 }
 
-/* Orders of forces end two below that of q. */
+/* Bound a step by negligible terms: forces have orders two less than q. */
 static double
 tree_near(int p, double step, double least, void *user)
 {

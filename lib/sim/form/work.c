@@ -1,4 +1,4 @@
-/* work.c -- counts what an expansion of a motion consists of. */
+/* work.c -- counts the operations of one Taylor expansion of a motion. */
 #include "sim/form/work.h"
 
 qdot_work

@@ -6,10 +6,10 @@
 #include "base/memory.h"
 #include "series/lanes.h"
 
-/* A larger relative change shows that the function depends on the coordinate. */
+/* A relative change above this shows that the function depends on the coordinate. */
 static const double noise = 1e-11;
 
-/* Numbers without a pattern in (0.3, 1.7), where most domains are. */
+/* Irregular sample values in (0.3, 1.7), an interval that lies in most domains. */
 static double
 place(size_t i)
 {

@@ -1,4 +1,5 @@
-/* constrained-bonds.c -- holonomic constraints for methods that hold them themselves. */
+/* constrained-bonds.c -- residuals and slopes of holonomic constraints for methods that enforce
+ * them in their steps. */
 #include "sim/model/constrained.h"
 
 #include <string.h>

@@ -5,7 +5,8 @@
 #include "sim/model/constrained.h"
 #include "tape/derivative.h"
 
-/* Whether row k is taken as that of velocities. Others are those of accelerations. */
+/* Whether constraint k is used as a condition on velocities; the others are used as conditions on
+ * accelerations. */
 static bool
 is_of_velocities(const qdot_constrained *h, size_t k)
 {
@@ -63,7 +64,8 @@ qdot_constrained_implicit(qdot_constrained *h, double t, const double *y, const 
     return QDOT_OK;
 }
 
-/* The rows of g: of velocities, or redundant. */
+/* The derivatives of the constraint equations that are conditions on velocities, and rows for
+ * redundant ones. */
 static void
 put_rows(qdot_constrained *h, double *dq, double *dv, double *M)
 {

@@ -1,4 +1,4 @@
-/* constrained-jacobian.c -- derivatives of q'' under constraints, from those of the tapes. */
+/* constrained-jacobian.c -- derivatives of q'' under constraints, from the derivatives of the tapes. */
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"
@@ -42,7 +42,7 @@ find_gains(qdot_constrained *h)
         gain(h, n + k, 1, from++);
 }
 
-/* The damping's share, see damp. */
+/* The contribution of Baumgarte's damping, see damp. */
 static void
 find_damped_gains(qdot_constrained *h)
 {

@@ -9,12 +9,12 @@
 #include "series/lanes.h"
 #include "tape/shake.h"
 
-/* The least size to which residuals are compared (constrained-project.c). */
+/* Components below this size count as this large in the rounding of residuals (constrained-project.c). */
 static const double least_size = 0x1p-10;
 
 enum { L = QDOT_LANES, most_iterations = 6, LEVELS = 2 };
 
-/* Rows that restrict positions, or velocities. */
+/* The constraint rows that restrict positions, or those that restrict velocities. */
 typedef struct {
     const qdot_tape *tape; /* the residuals of these rows */
     size_t m;
@@ -118,7 +118,7 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
 
 /* --- one of the levels --------------------------------------------------------------- */
 
-/* The part that is moved (q or q'), its carry, and its place in the inputs of the tapes. */
+/* The variables that a projection moves (q or q'), their low parts, and their position in the tapes' inputs. */
 typedef struct {
     const level *l;
     double *x, *carry, *loaded; /* [n] */
@@ -147,7 +147,7 @@ lanes_factor_saddle(qdot_constrained_lanes *h, const level *l)
     h->kernels->factor(size, h->n, h->K);
 }
 
-/* The effect of rounding of x on the rows; values below `least` count as `least`. */
+/* The rounding error of the rows caused by that of x; components below `least` count as `least`. */
 static void
 residuals_find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
 {
@@ -179,7 +179,7 @@ residuals_look(qdot_constrained_lanes *h, const newton *p)
     }
 }
 
-/* The largest ratio in a lane of a residual to its rounding; 1: none is above its rounding. */
+/* The largest ratio in a lane of a residual to its rounding error, at least 1. */
 static double
 residual_excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
 {
@@ -209,7 +209,7 @@ newton_judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
 
         if (!p->open[l])
             continue;
-        /* what is left is rounding when it shrinks no more */
+        /* when the residual shrinks no more, what is left is rounding */
         if (now <= 1 || (k > 0 && !(now < 0.5 * p->before[l]) && now < 1e4))
             p->open[l] = false;
         else if (k == most_iterations || isnan(now) || (k > 2 && !(now < p->before[l])))
@@ -259,7 +259,7 @@ newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
     }
 }
 
-/* Newton's method in lanes on the rows of one level. *factored: K is factored for these rows. */
+/* Newton's method in vector lanes on the rows of one level. *factored: K is factored for these rows. */
 static void
 newton_hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
 {

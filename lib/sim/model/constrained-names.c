@@ -1,10 +1,10 @@
-/* constrained-names.c -- names of the constraints that depend on each other. */
+/* constrained-names.c -- writes the names of constraints that depend on each other. */
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 
-/* The length of a name, without its component if `label`. */
+/* The length of a constraint's name; if `label`, without its component number. */
 static size_t
 length_of_name(const char *name, bool label)
 {
@@ -13,7 +13,7 @@ length_of_name(const char *name, bool label)
     return comma ? (size_t)(comma - name) : strlen(name);
 }
 
-/* "rod", and of a vector constraint's component "pin, 1": pin[1]. Without it if `label`. */
+/* Append a name: "rod", or for component 1 of a vector constraint pin[1]; if `label`, without the component. */
 static void
 constraint_add_name(qdot_text *to, const char *name, size_t length, bool label)
 {
@@ -59,7 +59,7 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
     }
 }
 
-/* Append the names of dependent constraints; returns the verb that goes with them. */
+/* Append the names of dependent constraints; returns the verb for that number of names. */
 static const char *
 name_dependent(const qdot_constraints *c, const bool *rows, qdot_text *names)
 {

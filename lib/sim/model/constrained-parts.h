@@ -1,11 +1,11 @@
-/* constrained-parts.h -- the members of a qdot_constrained. For sim/model/constrained*.c only. */
+/* constrained-parts.h -- the fields of a qdot_constrained. For sim/model/constrained*.c only. */
 #ifndef QDOT_SIM_CONSTRAINED_PARTS_H
 #define QDOT_SIM_CONSTRAINED_PARTS_H
 
 #include "num/least-move.h"
 #include "sim/model/constraints.h"
 
-/* The rows that restrict positions; positions and velocities; or these and accelerations. */
+/* The constraint rows of one level: on positions; on positions and velocities; or on accelerations, too. */
 typedef struct {
     qdot_saddle saddle;
     size_t m;
@@ -32,7 +32,7 @@ struct qdot_constrained {
         *w_bound; /* [m] rounding of f, w; they grow along a run */
     double *a;    /* [n + m] q'', then multipliers */
     double *weight; /* [m] of the multipliers, with room for the outputs and the work of c->scale; NULL: 1 */
-    /* If the method needs a Jacobian, else NULL; derivatives by q, q', t: */
+    /* Derivatives by q, q', t, if the method needs a Jacobian; else NULL: */
     double *slopes;      /* [outputs x (2n + 1)] of a tape */
     double *gains;       /* [(n + m) x (2n + 1)] of the equations */
     double *slopes_work; /* of the derivatives */
@@ -41,7 +41,8 @@ struct qdot_constrained {
 
 /* Set the state at which the tapes are evaluated next. */
 void qdot_constrained_load(qdot_constrained *h, double t, const double *y);
-/* Evaluate f; w at the loaded state; 0 for rows without. */
+/* Evaluate the residuals of position constraints f, and of velocity constraints w, at the loaded
+ * state; 0 for other rows. */
 void qdot_constrained_positions(qdot_constrained *h);
 void qdot_constrained_velocities(qdot_constrained *h);
 
@@ -52,10 +53,11 @@ void qdot_constrained_damp(const qdot_constrained *h, double *gamma);
  * its damping, by q, q', t at q'' and lambda held, into h->gains. */
 void qdot_constrained_gains(qdot_constrained *h);
 
-/* Evaluate f and w. */
+/* Evaluate the residuals f and w at the loaded state. */
 void qdot_constrained_residuals(qdot_constrained *h);
 
-/* Raise the bounds [m] to the effect of rounding of x (q or q') on the rows; A is evaluated. */
+/* Raise the bounds [m] to at least the rounding error of the rows caused by x (q or q'); A must be
+ * evaluated. */
 void qdot_constrained_raise_bounds(const qdot_constrained_level *level, const double *x,
                                    double *bound);
 /* Evaluate and factor M and A at the loaded state. Errors: as qdot_constrained_factor. */
@@ -74,7 +76,7 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_factor_rows(const qdot_plan *plan,
  * hold. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_check_repeated(qdot_constrained *h,
                                                             qdot_status broken);
-/* After qdot_constrained_solve: the first redundant row that does not hold; SIZE_MAX: none. */
+/* After qdot_constrained_solve: the first redundant row that the solution violates; SIZE_MAX: none. */
 size_t qdot_constrained_contradicting(qdot_constrained *h);
 /* Evaluate M and A at the loaded state into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);

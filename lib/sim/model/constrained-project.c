@@ -8,7 +8,7 @@
 
 #include "sim/model/constrained-parts.h"
 
-/* Values below it count as so large where rounding is judged: at rest all are 0. */
+/* Components below this size count as this large when rounding errors are estimated: at rest all would be 0. */
 static const double least_size = 0x1p-10;
 
 /* If a step is predicted to leave less than this fraction of a bound, the residual is not
@@ -19,7 +19,7 @@ enum { most_iterations = 6 };
 
 typedef qdot_constrained_level level;
 
-/* The effect of rounding of x (q or q') on the rows; A is evaluated. */
+/* Raise the bounds to at least the rounding error of the rows caused by x (q or q'); A must be evaluated. */
 void
 qdot_constrained_raise_bounds(const level *l, const double *x, double *bound)
 {
@@ -89,7 +89,7 @@ part_excess(const part *p)
     return most;
 }
 
-/* Evaluate the residuals at the loaded state. The outputs of the tape are the level's rows. */
+/* Evaluate the residuals at the loaded state; returns the largest, relative to its bound. */
 static double
 part_look(qdot_constrained *h, const part *p)
 {
@@ -98,7 +98,7 @@ part_look(qdot_constrained *h, const part *p)
     return part_excess(p);
 }
 
-/* hi + lo += x; qdot_sum_advance, whose header and that of expr/ share a name. */
+/* hi + lo += x in two doubles (as qdot_sum_advance, whose header has the same name as one of expr/). */
 static inline void
 carry_advance(double *hi, double *lo, double x)
 {
@@ -108,7 +108,7 @@ carry_advance(double *hi, double *lo, double x)
     *hi = s;
 }
 
-/* One step of Newton's method; loads the moved state. */
+/* Make one Newton step, and load the moved state. */
 static void
 projection_step(const part *p, size_t n, double *moved)
 {
@@ -207,7 +207,7 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
             c->rate = now / before;
         if (now <= 1)
             return QDOT_OK;
-        /* what is left is rounding when it shrinks no more */
+        /* when the residual shrinks no more, what is left is rounding */
         if (bounded && !(now < 0.5 * before) && now < 1e4)
             return QDOT_OK;
         if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))

@@ -1,4 +1,4 @@
-/* constrained-put.c -- brings a state onto the constraints after an event has set some values. */
+/* constrained-put.c -- moves a state onto the constraints after an event has set some of its values. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,10 +10,11 @@
 
 enum { most_iterations = 30 };
 
-/* Values below it count as so large where rounding is judged. */
+/* Components below this size count as this large when rounding errors are estimated. */
 static const double least_size = 0x1p-10;
 
-/* q or q' of y, its rows, and a system that holds those and the values set. */
+/* The variables q or q' of a state, their constraint rows, and the system with a further row for
+ * each value set. */
 typedef struct {
     const qdot_constrained_level *level;
     double *x, *low; /* [n] the values are x + low; low NULL: x */
@@ -24,14 +25,15 @@ typedef struct {
     qdot_saddle saddle;
 } part;
 
-/* The state that is to keep the constraints, y + low at t + t_low; who: the event that put it there. */
+/* The state y + low at time t + t_low that must satisfy the constraints; who: the event that set its values. */
 typedef struct {
     double t, t_low;
     const double *y, *low; /* [2n]; low NULL: 0 */
     const char *who;
 } place;
 
-/* Fill the system: M and A at the loaded state, a unit row for each value set, -f and zeros. */
+/* Fill the system: M and A at the loaded state, a unit row for each value that was set; right-hand
+ * side -f and zeros. */
 static void
 fill(qdot_constrained *h, part *p)
 {
@@ -75,7 +77,7 @@ size_near(const qdot_constrained *h, const part *p, size_t k)
     return slope * value;
 }
 
-/* The largest ratio of a residual to its rounding, and its row. */
+/* The largest ratio of a residual to its rounding error, and the row in which it occurs. */
 static double
 excess(const qdot_constrained *h, const part *p, size_t *worst)
 {
@@ -102,7 +104,8 @@ refuse(const qdot_constrained *h, size_t row, const char *who)
                      who, h->c->rows[row].name);
 }
 
-/* Add to noise [m] what 4 roundings of component k of the state, or of t, make of the residuals r [m]. */
+/* Add to noise [m] the change of the residuals r [m] if component k of the state, or t, changes by
+ * 4 rounding errors. */
 static void
 add_noise(qdot_constrained *h, const part *p, const place *at, double *y, size_t k, const double *r, double *noise)
 {
@@ -145,7 +148,7 @@ is_rounding(qdot_constrained *h, const part *p, const place *at, bool *is)
     return QDOT_OK;
 }
 
-/* Newton's method by the shortest way in the metric of M. */
+/* Newton's method to the nearest state on the constraints, in the metric of M. */
 static qdot_status
 bring(qdot_constrained *h, part *p, const place *at)
 {
@@ -181,7 +184,7 @@ bring(qdot_constrained *h, part *p, const place *at)
     return rounding ? QDOT_OK : refuse(h, worst, at->who);
 }
 
-/* The residuals of the level's rows in two doubles, as the right side of the system, which is filled. */
+/* The residuals of the level's rows in two doubles, as the right-hand side of the system. */
 static qdot_status
 measure_in_two(const qdot_constrained *h, part *p, const place *at)
 {

@@ -6,14 +6,14 @@
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 
-/* A start may break a constraint by the rounding of decimals as people type them. */
+/* A start may violate a constraint by this much: users type rounded decimals. */
 static const double start_tolerance = 1e-9;
 
 /* How far beside a start its constraints are looked at, and what is left of a row there
  * that was dependent upon the others only at the start. */
 static const double beside = 1e-3, independent = 1e-7;
 
-/* The residual of a velocity near the start up to which rows count as redundant. */
+/* Rows are redundant near the start if a velocity leaves a residual below this. */
 static const double hidden = 1e-9;
 
 enum { tries = 4, iterations = 12 };
@@ -29,7 +29,7 @@ typedef struct {
     qdot_row_space rows;
 } place;
 
-/* A at p->y, of holonomic rows or of all. */
+/* A at p->y: the holonomic rows, or all rows. */
 static void
 take_slopes(place *p, bool all)
 {
@@ -44,7 +44,7 @@ take_slopes(place *p, bool all)
             memset(p->A + k * n, 0, n * sizeof *p->A);
 }
 
-/* A state beside y on the constraints; whether one was found. */
+/* Find another state on the constraints near y, in a random direction; returns whether one was found. */
 static bool
 step_aside(place *p, const double *y, int which)
 {
@@ -236,7 +236,7 @@ move_velocities(place *p, size_t *worst, double *by)
     return most < 1e-9 * size;
 }
 
-/* Whether the constraints leave a hidden condition at a state beside the start, or (`later`) a little after it. */
+/* Check for a hidden condition of the constraints at a state near the start, or if `later` shortly after it. */
 static qdot_status
 check_hidden(place *p, const double *y, bool later)
 {
@@ -334,7 +334,7 @@ qdot_constrained_start(qdot_constrained *h, double t, double *y, double *low)
                           h->c->rows[k].kind == QDOT_HOLONOMIC
                               ? "the time derivative of left - right"
                               : "left - right");
-    /* the bounds, before anything is judged by them */
+    /* first set the bounds by which residuals are judged */
     if (l->m > 0) {
         QDOT_TRY(qdot_constrained_factor_metric(h, l));
         qdot_constrained_raise_bounds(l, y, h->f_bound);

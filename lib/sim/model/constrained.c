@@ -51,7 +51,7 @@ qdot_constrained_load(qdot_constrained *h, double t, const double *y)
     h->in[2 * h->plan->n] = t;
 }
 
-/* Residuals of positions, of velocities at the loaded state, by row; 0 for rows without. */
+/* Residuals of position constraints at the loaded state, by row; 0 for other rows. */
 void
 qdot_constrained_positions(qdot_constrained *h)
 {
@@ -81,7 +81,7 @@ qdot_constrained_residuals(qdot_constrained *h)
     qdot_constrained_velocities(h);
 }
 
-/* Copy M and A from the outputs into a level. Returns the output after them. */
+/* Copy M and A from the tape's outputs into a level. Returns the address of the next output. */
 static const double *
 unpack(qdot_constrained *h, level *l, const double *from)
 {
@@ -161,7 +161,7 @@ dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
     return status;
 }
 
-/* Fail for a row in use that has shrunk to rounding; redundant ones may. */
+/* Fail if a row in use has shrunk to its rounding error; redundant rows may. */
 static qdot_status
 without_others(const qdot_constraints *c, const qdot_saddle *s, const size_t *row)
 {
@@ -237,7 +237,7 @@ constrained_evaluate(qdot_constrained *h, level *all, const double *y)
     return gamma;
 }
 
-/* The multipliers of least norm are those of the scene: c->scale times those of the rows. */
+/* Weigh the rows so that multipliers of least norm are those of the scene: c->scale times those of the rows. */
 static void
 weigh_multipliers(qdot_constrained *h)
 {
@@ -294,7 +294,7 @@ qdot_constrained_accelerate(qdot_constrained *h, double t, const double *y, doub
     return QDOT_OK;
 }
 
-/* A q'' - gamma of row k; *size: its largest term. */
+/* The residual A q'' - gamma of row k; *size: its largest term. */
 static double
 left_of(const qdot_constrained *h, size_t k, double *size)
 {
@@ -311,7 +311,7 @@ left_of(const qdot_constrained *h, size_t k, double *size)
     return sum;
 }
 
-/* The effect of drift on the second derivatives, from the terms that would damp it. */
+/* How much drift off the constraints changes q'', estimated from the terms that would damp the drift. */
 static double
 by_drift(qdot_constrained *h)
 {
@@ -483,7 +483,7 @@ shake(qdot_constrained *h)
     return qdot_tape_shake(h->plan->tape, &h->equations);
 }
 
-/* Room for a Jacobian; outputs: the most of a tape. */
+/* Allocate work space for a Jacobian; `outputs`: the most outputs of a tape. */
 static qdot_status
 make_slopes(qdot_constrained *h, size_t outputs)
 {

@@ -142,7 +142,7 @@ double qdot_constrained_remains(qdot_constrained *constrained, double t, const d
  * which. false also if that cannot be found out. */
 bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y, bool *rows);
 
-/* A row with at least this part in a dependency (qdot_saddle_parts) is named. */
+/* A row is named in messages if its share in a linear dependency (qdot_saddle_parts) is at least this. */
 #define QDOT_CONSTRAINED_PART 1e-6
 /* Append the names of the rows marked in rows [m]: "constraint a", "constraints a, b and c"; if
  * these are many, a vector constraint is named once for all its components. */
@@ -152,18 +152,19 @@ void qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_tex
  * stop being independent"; if none is marked, "constraints stop being independent". */
 void qdot_constrained_say_dependent(const qdot_constraints *c, const bool *rows, qdot_text *to);
 
-/* Fail with QDOT_ESINGULAR: the rows marked in rows [m] depend on each other; or row `row` of A has become 0. */
+/* Fail with QDOT_ESINGULAR: the rows marked in rows [m] depend on each other; or row `row` of A has
+ * become 0. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_fail_dependent(const qdot_constraints *c,
                                                             const bool *rows);
 QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constraints *c,
                                                                size_t row);
 
-/* lambda [m] of the rows at t, y = (q, q') [2n] made those of the scene's constraints. */
+/* Convert multipliers lambda [m] of the rows at t, y = (q, q') [2n] to those of the scene's constraints. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_rescale(const qdot_constrained *constrained, double t,
                                                      const double *y, double *lambda);
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
 const qdot_constraints *qdot_constrained_of(const qdot_constrained *constrained);
-/* Independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
+/* The number of independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);
 /* How often a matrix was factored. */
 size_t qdot_constrained_factored(const qdot_constrained *constrained);

@@ -1,4 +1,4 @@
-/* constraints.c -- f, its derivatives and slopes of every row, lowered. */
+/* constraints.c -- lowers f, its time derivatives and its gradient for every constraint. */
 #include "sim/model/constraints.h"
 
 #include <string.h>
@@ -88,7 +88,7 @@ add_slopes(builder *b, size_t k)
     return QDOT_OK;
 }
 
-/* e with the rates of parameters that events set replaced by 0. */
+/* Replace the rates of parameters that events set by 0 in e. */
 static qdot_expr
 without_rates(const qdot_plan *p, qdot_expr e)
 {
@@ -100,7 +100,7 @@ without_rates(const qdot_plan *p, qdot_expr e)
     return e;
 }
 
-/* Residuals, and gamma = -(what is left of the last derivative at q'' = 0). */
+/* Add the residuals of row k, and gamma = -(its last time derivative at q'' = 0). */
 static qdot_status
 add_derivatives(builder *b, size_t k)
 {
@@ -199,7 +199,8 @@ read_massless(builder *b)
     return QDOT_OK;
 }
 
-/* In the metric massless coordinates are so light that they alone are moved onto their equations. */
+/* Give massless coordinates so little mass in the metric that a projection moves only them onto
+ * their equations. */
 static qdot_status
 read_masses(builder *b)
 {
@@ -291,7 +292,7 @@ find_signs(builder *b)
     return qdot_pool_check(b->plan->pool);
 }
 
-/* Lower the tape that series are made of; after find_signs. */
+/* Lower the tape from which series are made; call after find_signs. */
 static qdot_status
 lower_series(builder *b)
 {
@@ -312,7 +313,7 @@ lower_series(builder *b)
     return status;
 }
 
-/* A and gamma, for other forms of the equations. */
+/* Keep A and gamma as expressions, for other forms of the equations. */
 static qdot_status
 keep_expressions(builder *b)
 {

@@ -1,4 +1,4 @@
-/* contact.c -- the surfaces of events whose contacts may last. */
+/* contact.c -- makes switching surfaces for events whose contacts may last. */
 #include "sim/model/contact.h"
 
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "expr/symbol.h"
 #include "sim/model/substitute.h"
 
-/* Whether u moves with time and its speed jumps: there the motion would meet the event anew. */
+/* Whether u depends on t with a velocity that jumps: there the motion would hit the surface again. */
 static qdot_status
 find_jerk(qdot_pool *pool, qdot_expr u, bool *jerks)
 {
@@ -20,7 +20,8 @@ find_jerk(qdot_pool *pool, qdot_expr u, bool *jerks)
     return *jerks ? QDOT_OK : qdot_jumps(pool, qdot_diff(pool, u, QDOT_T), UINT32_MAX, jerks);
 }
 
-/* Whether an event sets velocities, and perhaps coordinates, only, and is a place: u of q and t. */
+/* Whether the contact at an event may last: it sets velocities, at most coordinates too, and u
+ * depends on q and t only. */
 static bool
 may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 {

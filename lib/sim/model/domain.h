@@ -12,7 +12,7 @@ typedef struct {
     char *text; /* "0 < theta < pi" */
 } qdot_domain;
 
-/* Start from {0}. */
+/* The domains of a run's coordinates. Start from {0}. */
 typedef struct {
     size_t n;
     qdot_domain *at;

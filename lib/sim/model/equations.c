@@ -1,4 +1,4 @@
-/* equations.c -- the blocks of M, and the tape of both sides by them. */
+/* equations.c -- finds the blocks of M, and lowers both sides of the equations block by block. */
 #include "sim/model/equations.h"
 
 #include "expr/calculus.h"

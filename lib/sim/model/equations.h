@@ -47,7 +47,7 @@ typedef enum {
     QDOT_FORM_BORDERED     /* multipliers solved for by machine code: plan->bordered */
 } qdot_form;
 
-/* All decisions about a run: made by sim/plan, const from then on, read by everybody else. */
+/* All decisions about a run: made by sim/plan, constant from then on, read everywhere else. */
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
     unsigned uses;   /* users besides the first (sim/plan/kept.h) */
@@ -75,7 +75,8 @@ struct qdot_plan {
     qdot_plan_block *blocks; /* [structure.blocks] */
     const qdot_ode_method *method;
     bool chosen; /* the plan chose the method */
-    /* Of a geometric method (sim/plan/geometric.h): q' may stand for the momenta; else these. */
+    /* For a geometric method (sim/plan/geometric.h): if `halves`, q' may replace the momenta; else
+     * phase_space computes them. */
     bool halves;
     qdot_phase_space *phase_space;
 
@@ -135,7 +136,7 @@ struct qdot_plan {
     bool by_start;     /* whether a reduced plan exists depends on the start and the tolerance */
     qdot_tape *momenta; /* from q, q', t: [n_kept] */
 
-    /* While the plan is made: the mode that its equations are frozen to; else NULL. */
+    /* Only while the plan is made: the mode in which switches are frozen; else NULL. */
     const struct qdot_switches *mode;
     const long *side;
     /* [surfaces] of that mode: the shares of the surfaces along which the motion slides, functions
@@ -174,7 +175,8 @@ size_t qdot_plan_inputs(const qdot_plan *plan);
 QDOT_MUST_CHECK qdot_status qdot_plan_number(const qdot_plan *plan, qdot_expr e,
                                              double *value, int *side, double *low);
 
-/* e with parameter values substituted, multipliers by those among the inputs. Nil: the pool keeps the failure. */
+/* e with parameter values inserted, and multipliers replaced by those among the inputs. Nil: the
+ * pool keeps the failure. */
 qdot_expr qdot_plan_substitute(const qdot_plan *plan, qdot_expr e);
 
 #endif

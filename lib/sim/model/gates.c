@@ -1,4 +1,4 @@
-/* gates.c -- finds the gates of equations, and those that are open. */
+/* gates.c -- finds the switching functions in equations, and those whose value matters. */
 #include "sim/model/gates.h"
 
 #include <string.h>
@@ -123,7 +123,7 @@ add_pairs(finder *f, qdot_expr e, qdot_gate_kind kind)
     return QDOT_OK;
 }
 
-/* Add a node if it is a gate. */
+/* Add a node to the list if it is a switching function. */
 static qdot_status
 gates_add(finder *f, qdot_expr e)
 {
@@ -233,7 +233,7 @@ find_truth(const opening *o, size_t i)
         if (known)
             truth = holds ? QDOT_GATE_TRUE : QDOT_GATE_FALSE;
     } else if (gate->kind == QDOT_GATE_LOGIC) {
-        /* the one that decides alone */
+        /* the value of one argument that decides the result of `and` or `or` */
         const uint8_t decisive = op == QDOT_AND ? QDOT_GATE_FALSE : QDOT_GATE_TRUE;
 
         truth = op == QDOT_NOT ? 0 : (uint8_t)(either - decisive);
@@ -270,7 +270,7 @@ open_pair(opening *o, size_t of, const qdot_gate_pair *pair)
     open_gate(o, of, o->g->decides[pair->surface]);
 }
 
-/* The arguments that may be the largest, and the pairs that tell. */
+/* Mark the arguments that may be the largest, and the comparisons that decide which one is. */
 static void
 open_extreme(opening *o, size_t i, const size_t *arguments)
 {

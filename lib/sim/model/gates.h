@@ -17,7 +17,7 @@
 #include "base/memory.h"
 #include "sim/model/surface.h"
 
-/* The sign of a difference by the side of a surface: u, or -u. */
+/* A comparison whose sign follows from the side of a surface: that of u, or of -u. */
 typedef struct {
     size_t surface; /* SIZE_MAX: the argument does not change along a run */
     int turned;     /* -1: the surface has -u; else 1 */
@@ -43,7 +43,7 @@ typedef struct {
     size_t pair;  /* of its pairs */
 } qdot_gate;
 
-/* Start from {0}. */
+/* The switching functions of equations. Start from {0}. */
 typedef struct {
     size_t surfaces;
     qdot_vec(qdot_gate) gates; /* those of children first */
@@ -54,11 +54,11 @@ typedef struct {
     bool branches;   /* in some mode a gate is closed */
 } qdot_gates;
 
-/* Whether a node switches by itself, where what it is of moves. */
+/* Whether a node is a switching function whose argument changes along a run. */
 bool qdot_gates_is_switch(const qdot_pool *pool, qdot_expr e);
 /* Whether an expression contains anything that changes along a run. */
 bool qdot_gates_moves(const qdot_pool *pool, qdot_expr e);
-/* u or -u, whichever prints without a sign in front; *turned: it is -u. */
+/* u or -u, whichever prints without a leading minus; *turned: it is -u. */
 qdot_expr qdot_gates_upright(qdot_pool *pool, qdot_expr u, bool *turned);
 
 /* Find the gates of e [n], whose surfaces are at [m]. `deciding`: also of what these decide by, which is

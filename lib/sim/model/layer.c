@@ -1,4 +1,4 @@
-/* layer.c -- finds broken powers of what switches, and how wide their layers are. */
+/* layer.c -- finds non-integer powers of switching functions, and the width of a layer for each. */
 #include "sim/model/layer.h"
 
 #include <math.h>
@@ -11,10 +11,10 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
+/* The least time that a motion spends in a layer, relative to the largest |t|: 1024 doubles of it. */
 static const double passage = 0x1p-42;
 
-/* How much wider than the error of a step a layer is; what it may leave out, of the tolerance. */
+/* Width of a layer in units of a step's error; the share of the tolerance that it may leave out. */
 static const double beyond_steps = 16, share = 0.01;
 
 /* Whether `base` is 0 where u is 0: u, -u, |u|, or the larger or smaller of u and 0; *only: the sign of u

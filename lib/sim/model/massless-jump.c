@@ -1,4 +1,5 @@
-/* massless-jump.c -- solves the equations of coordinates without mass for what `then` leaves open. */
+/* massless-jump.c -- finds, from the equations of massless coordinates, the values that an event's
+ * `then` does not set. */
 #include "sim/model/massless-jump.h"
 
 #include "base/memory.h"
@@ -26,7 +27,7 @@ behind(const jump *j, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_subs(j->pool, e, j->n_from, j->from, j->to);
 }
 
-/* A and b of A x = b, the first n equations R = 0 for the first n unknowns, behind the jump. */
+/* Write A and b of A x = b, the first n equations R = 0 for the first n unknowns after the jump. */
 static qdot_status
 write_linear(const jump *j, size_t n)
 {
@@ -94,7 +95,7 @@ add_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
     return n + 1;
 }
 
-/* Set q, q' to the values that `then` gives. */
+/* Replace q, q' by the values that the event's `then` gives them. */
 static void
 put_event(jump *j)
 {

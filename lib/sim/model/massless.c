@@ -1,4 +1,4 @@
-/* massless.c -- which coordinates have no mass, and what their equations hold. */
+/* massless.c -- finds coordinates without mass, and which variables their equations determine. */
 #include "sim/model/massless.h"
 
 #include "base/memory.h"
@@ -35,7 +35,7 @@ qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i)
     return !has_mass(p, i) && !is_held(scene, p, i);
 }
 
-/* How many of the symbols from `first` on f_i holds, of massless coordinates alone or of all. */
+/* How many of the n symbols from input `first` on occur in f_i: those of massless coordinates, or all. */
 static size_t
 held(const qdot_plan *p, size_t i, size_t first, bool massless)
 {
@@ -102,7 +102,7 @@ qdot_massless_switch(const qdot_plan *p, const qdot_switches *s)
     return false;
 }
 
-/* Whether e, with values, holds such a jet of a coordinate among these [n]. */
+/* Whether e, with parameter values, contains the time derivative of that order of a massless coordinate. */
 static bool
 holds_any(qdot_scene *scene, qdot_expr e, const bool *massless, uint32_t order)
 {

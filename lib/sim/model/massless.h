@@ -26,7 +26,7 @@
  * determines nothing. */
 QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
 
-/* Whether coordinate i is one, by p->M. */
+/* Whether coordinate i has no mass, judged by p->M. */
 bool qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i);
 
 /* Whether what these equations determine decides a switch, as the velocity of a slider: by which side that starts is for
@@ -41,13 +41,13 @@ typedef struct {
     bool *of_positions;   /* [n] */
 } qdot_massless;
 
-/* Before there is a plan; derives M and f. Cleared in any case. */
+/* Find the massless coordinates before there is a plan; derives M and f. x is cleared on failure. */
 QDOT_MUST_CHECK qdot_status qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_massless *x);
-/* The number of values q, q' [2n] of a start that the equations of massless coordinates determine. */
+/* The number of start values q, q' [2n] that the equations of massless coordinates determine. */
 size_t qdot_massless_determines(const qdot_massless *x);
 void qdot_massless_clear(qdot_massless *x);
 
-/* The kind of constraint that the equation of massless coordinate i is. */
+/* The kind of constraint (on positions, velocities ...) that the equation of massless coordinate i imposes. */
 qdot_constraint_kind qdot_massless_kind(const qdot_plan *p, size_t i);
 
 #endif

@@ -11,12 +11,12 @@
 
 typedef struct qdot_momenta qdot_momenta; /* one a thread */
 
-/* Make the kept momenta of a reduced plan, borrowed. `tape`: its tape or a shaken one, borrowed. */
+/* Make the conserved momenta of a reduced plan, borrowed. `tape`: its own tape or a shaken one, borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_momenta_new(const qdot_plan *reduced,
                                              const qdot_tape *tape, qdot_momenta **momenta);
 void qdot_momenta_free(qdot_momenta *m);
 
-/* The tape of a reduced plan, its own or a shaken one, with work space to evaluate it. */
+/* A tape of a reduced plan (its own or a shaken one) with work space to evaluate it. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_tape *tape;
@@ -32,7 +32,7 @@ void qdot_momenta_tape_clear(qdot_momenta_tape *e);
 const double *qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y,
                                  const double *p);
 
-/* The callbacks that compute the momenta of a start and the velocities from them; borrowed. */
+/* Callbacks that compute the momenta of a start, and velocities from momenta; borrowed. */
 const qdot_ode_following *qdot_momenta_following(const qdot_momenta *m);
 
 /* The momenta are hi + lo, [n_kept] each: borrowed, changed by the callback `enter`. */

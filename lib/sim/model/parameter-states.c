@@ -16,7 +16,7 @@
 
 typedef qdot_vec(qdot_expr) expressions;
 
-/* The parameters that events set, each once. */
+/* List the parameters that events set, without repetition. */
 static qdot_status
 parameters_find(const qdot_scene *scene, expressions *found)
 {
@@ -33,7 +33,7 @@ parameters_find(const qdot_scene *scene, expressions *found)
     return QDOT_OK;
 }
 
-/* The value of a parameter; what tells that it has none. */
+/* The value of a parameter in the request; an error if it has none. */
 static qdot_status
 parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter,
                 qdot_expr *value)
@@ -46,7 +46,7 @@ parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr pa
     return qdot_constant_unset(scene->pool, parameter);
 }
 
-/* One behind the other in the memory of s. open: they have no values. */
+/* Fill the arrays one after another in the memory of s. open: the parameters have no values yet. */
 static qdot_status
 parameter_states_fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *asked,
                       const expressions *found, bool open)
@@ -203,7 +203,7 @@ typedef struct {
     expressions sides;
 } builder;
 
-/* The sign of a relation, "<" or ">=", as it was typed. */
+/* The sign of a relation, "<" or ">=", in the direction in which it was typed. */
 static const char *
 sign_of(int op, bool turned)
 {
@@ -212,7 +212,7 @@ sign_of(int op, bool turned)
     return op == QDOT_EQ ? "=" : signs[turned][op == QDOT_LT];
 }
 
-/* left OP right, if an event may break it. */
+/* Add the condition `left OP right` if an event may violate it. */
 static qdot_status
 condition_add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condition condition)
 {
@@ -309,7 +309,7 @@ qdot_parameter_conditions_find(const qdot_plan *plan, const qdot_scene *scene,
     return status;
 }
 
-/* An equality may be broken by this much, by rounding. */
+/* An equality may be violated by this relative amount, because of rounding. */
 static const double equal = 1e-12;
 
 static bool

@@ -16,7 +16,7 @@
 #include "mech/scene/scene.h"
 #include "sim/model/equations.h"
 
-/* A request extended by these coordinates. Start from {0}. */
+/* A request in which parameters that events set are further coordinates. Start from {0}. */
 typedef struct {
     qdot_run_request request; /* borrows from the original one, and from: */
     qdot_expr *expressions;   /* states, symbols, values, q0, v0 */
@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_find(const qdot_plan *plan
                                                            qdot_parameter_conditions *c);
 void qdot_parameter_conditions_clear(qdot_parameter_conditions *c);
 
-/* QDOT_EDOMAIN with the first condition that does not hold at t and y [2n], after `event`. */
+/* QDOT_EDOMAIN names the first condition that is violated at t and y [2n], after `event`. */
 QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_check(
     const qdot_parameter_conditions *c, const char *event, double t, const double *y, size_t n);
 

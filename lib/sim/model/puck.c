@@ -16,7 +16,7 @@
 
 /* --- finding ------------------------------------------------------------------------- */
 
-/* Twice the exponent of factor i of a product; false if that is no integer. */
+/* Twice the exponent of factor i of a product; false if it is no integer. */
 static bool
 twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
 {
@@ -39,7 +39,7 @@ half_slope(qdot_pool *pool, qdot_expr e, qdot_expr v)
     return qdot_mul(pool, QDOT_HALF, qdot_diff(pool, e, v));
 }
 
-/* e with the velocities that constraints relate replaced by the others. */
+/* e with the velocities that constraints relate expressed by the other velocities. */
 static qdot_expr
 untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
 {
@@ -48,7 +48,7 @@ untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
                : qdot_subs(pool, e, puck->n_tied, puck->tied_symbol, puck->to);
 }
 
-/* Tie a velocity of w by f = 0, the last whose coefficient is a number. */
+/* Solve the constraint f = 0 for a velocity of w: the last one whose coefficient is a number. */
 static qdot_status
 tie(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
 {
@@ -75,7 +75,7 @@ tie(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
     return qdot_pool_check(pool);
 }
 
-/* Find the velocities in w that constraints relate. */
+/* Find the velocities in w that constraints relate to others. */
 static qdot_status
 find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *puck)
 {
@@ -94,7 +94,7 @@ find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *p
     return qdot_pool_check(pool);
 }
 
-/* Find the slopes of the related velocities by the free ones. */
+/* Find the derivatives of the related velocities by the free ones. */
 static qdot_status
 find_follow(qdot_pool *pool, qdot_puck *puck)
 {
@@ -140,7 +140,7 @@ choose_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *p
     return qdot_pool_check(pool);
 }
 
-/* G and d: G d is half the slope of |w|^2 by these velocities. */
+/* Find G and d, where G d is half the gradient of |w|^2 by the free velocities. */
 static qdot_status
 find_rest(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
 {
@@ -244,7 +244,7 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
 
 /* --- near rest ----------------------------------------------------------------------- */
 
-/* Powers of |w|, but for even positive ones. */
+/* How powers of |w| are written, except for even positive ones. */
 typedef struct {
     const qdot_puck *puck;
     enum {
@@ -314,7 +314,7 @@ mean(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
     return sum;
 }
 
-/* C where w = 0. */
+/* C at w = 0. */
 static qdot_expr
 at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 {

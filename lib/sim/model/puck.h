@@ -33,7 +33,7 @@
 #include "sim/model/equations.h"
 #include "sim/model/switch.h"
 
-/* s G s - 1 up to which a puck creeps: a power of two. */
+/* Binary exponent of the largest s G s - 1 at which a disc creeps. */
 enum { QDOT_PUCK_CREEP_EXPONENT = -12 };
 
 /* Append the pucks in M q'' = f of the switches, and their surfaces. Errors: those of the pool,
@@ -42,7 +42,7 @@ QDOT_MUST_CHECK qdot_status qdot_pucks_find(const qdot_scene *scene,
                                             const qdot_run_request *request,
                                             qdot_switches *switches);
 
-/* The puck of a surface; NULL: it is none. */
+/* The disc of a surface; NULL if the surface belongs to none. */
 static inline const qdot_puck *
 qdot_puck_of(const qdot_switches *s, size_t surface)
 {
@@ -51,7 +51,7 @@ qdot_puck_of(const qdot_switches *s, size_t surface)
     return k > 0 ? &s->pucks.at[k - 1] : NULL;
 }
 
-/* Whether a side of a puck is one in which its direction is that of its shares. */
+/* Whether a disc on this side has the direction given by its shares: it rests or creeps. */
 static inline bool
 qdot_puck_is_held(long side)
 {

@@ -19,7 +19,8 @@ jumps(const qdot_pool *pool, qdot_expr e)
            || qdot_expr_is_function(pool, e, QDOT_TAN) || qdot_expr_is_function(pool, e, QDOT_ATAN2);
 }
 
-/* The outermost function of these in e; NIL: there is none. Whether e holds it alone is told by the slope. */
+/* The outermost jumping function in e; nil if there is none. Whether e depends on it only, its
+ * derivative tells. */
 static qdot_status
 find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
 {
@@ -34,7 +35,7 @@ find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
     return status;
 }
 
-/* g = c f + k' as numbers: c and k = -k'/c; c NIL if it is not. */
+/* Write g = c f + k' with numbers c and k': returns c and k = -k'/c; c is nil if g has another form. */
 static qdot_status
 split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
 {
@@ -55,7 +56,7 @@ split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr 
     return qdot_pool_check(pool);
 }
 
-/* sin(phase), which goes as g at even multiples of pi if `forward` is positive. */
+/* Set u = sin(phase), which has the direction of g at even multiples of pi if `forward` is positive. */
 static void
 put_sine(qdot_pool *pool, qdot_expr phase, qdot_expr forward, qdot_repeated *out)
 {

@@ -25,7 +25,7 @@ typedef struct {
     bool touches;   /* whatever u does, g only touches 0: k is the value to which f jumps, or g is v^2 */
 } qdot_repeated;
 
-/* Of g, with parameter values. Errors: of the pool; of a constant that is not real. */
+/* Find u for the function g with parameter values. Errors: of the pool; of a constant that is not real. */
 QDOT_MUST_CHECK qdot_status qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out);
 
 /* What is watched for the zeros of g: first v in place of |v|, v^2 or a product of such (`touches`), simple factors in

@@ -6,7 +6,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 
-/* Whether the exponent is a whole number. *n out: 1 if it is odd, 2 if it is even, with its sign. */
+/* Whether the exponent is an integer. *n: 1 if odd, 2 if even, with the sign of the exponent. */
 static bool
 exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
 {
@@ -18,7 +18,7 @@ exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
     return true;
 }
 
-/* The power of 2 near a number that is far from 1; 0 for others. */
+/* The binary exponent of a number that is far from 1; 0 if it is not. */
 static long
 far(const qdot_pool *pool, qdot_expr number)
 {
@@ -30,7 +30,7 @@ far(const qdot_pool *pool, qdot_expr number)
     return e > FAR || e < -FAR ? e : 0;
 }
 
-/* A sum times a power of 2, if all its coefficients are far from 1, to one side. */
+/* Multiply a sum by a power of 2 if all its coefficients are far from 1 in the same direction. */
 static qdot_expr
 scaled(qdot_pool *pool, qdot_expr sum)
 {

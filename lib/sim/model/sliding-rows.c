@@ -1,4 +1,4 @@
-/* sliding-rows.c -- states brought back onto the surfaces along which the motion slides. */
+/* sliding-rows.c -- moves states back onto the surfaces along which the motion slides. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
-/* Sweeps over the rows [Kaczmarz 1937]; of rows that are linear and apart one is enough. */
+/* Sweeps over the rows [Kaczmarz 1937]; one is enough for linear rows that share no coordinate. */
 enum { MOST_SWEEPS = 100 };
 
 void
@@ -106,7 +106,8 @@ qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t, const
     return QDOT_OK;
 }
 
-/* Move y along the gradient of row r to its zero, by one Newton step. Returns whether y changed. */
+/* Move y along the gradient of row r towards the zero of the row, by one Newton step. Returns
+ * whether y changed. */
 static bool
 keep_row(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, double *y)
 {

@@ -15,7 +15,7 @@
 #include "sim/model/puck.h"
 #include "sim/model/switch.h"
 
-/* With up to this many coordinates M^-1 f is formed in symbols and integrated. */
+/* Up to this many coordinates M^-1 f is formed symbolically. */
 enum { MOST_SOLVED = 3 };
 
 bool
@@ -34,7 +34,7 @@ typedef struct {
     const qdot_puck *puck; /* NULL: the surface is of none */
 } unknown;
 
-/* The system while it is filled: q'', then multipliers, then shares. */
+/* The linear system while it is filled: unknowns q'', then multipliers, then sliding shares. */
 typedef struct {
     qdot_plan *p;
     qdot_scene *scene;
@@ -43,7 +43,7 @@ typedef struct {
     qdot_expr *A, *b, *x;
     bool *massless; /* [n] */
     bool some_massless;
-    /* Shares that equations of massless coordinates determine: their surfaces, symbols and values. */
+    /* Shares that follow from equations of massless coordinates: their surfaces, symbols and values. */
     size_t n_settled, *settled;
     qdot_expr *symbols, *values;
 } sliding;
@@ -56,7 +56,7 @@ share_symbol(const sliding *s, size_t j)
     return u->puck ? u->puck->share[u->c] : s->p->mode->surfaces.at[u->surface].side;
 }
 
-/* The place of a share of a puck in p->share. */
+/* The address in p->share of component c of a disc's share. */
 static qdot_expr *
 place_of(const qdot_plan *p, const qdot_puck *puck, size_t c)
 {
@@ -81,7 +81,7 @@ cannot(const char *why)
     return qdot_fail(QDOT_EFAILED, "%s", why);
 }
 
-/* df/dt along the motion; parameters that events set have no rate. */
+/* df/dt along the motion; parameters that events set have rate 0. */
 static qdot_expr
 rate(const qdot_plan *p, qdot_expr f)
 {
@@ -99,7 +99,7 @@ holds(const qdot_plan *p, qdot_expr e, uint32_t what)
     return e != QDOT_NIL && (qdot_expr_node(p->pool, e)->holds & what) != 0;
 }
 
-/* Row r of the system: f, differentiated `times`, is 0. */
+/* Fill row r of the system: f, differentiated `times` by t, is 0. */
 static qdot_status
 fill_row(sliding *s, size_t r, qdot_expr f, int times)
 {
@@ -133,7 +133,7 @@ holds_rates(const sliding *s, qdot_expr f)
     return false;
 }
 
-/* M q'' - sum B s = f0; the equation of a massless coordinate, differentiated until it holds q''. */
+/* M q'' - sum B s = f0; an equation of a massless coordinate is differentiated until it contains q''. */
 static qdot_status
 fill_forces(sliding *s)
 {
@@ -190,7 +190,8 @@ fill_constraints(sliding *s)
     return qdot_pool_check(p->pool);
 }
 
-/* What an unknown share holds at 0: u of its surface, frozen to the mode, or a component of w. */
+/* The function that an unknown share keeps at 0: u of its surface, with the other switches frozen,
+ * or a component of w. */
 static qdot_status
 held(const qdot_plan *p, const unknown *of, qdot_expr *u)
 {
@@ -261,7 +262,7 @@ keep_shares(sliding *s)
     }
 }
 
-/* Add the reactions of the contacts to f[i]; the forces do not contain them. */
+/* Add the reactions of the contacts to f[i], which does not contain them. */
 static void
 add_reactions(sliding *s, size_t i)
 {
@@ -310,7 +311,7 @@ put_in(sliding *s, bool all)
     return qdot_pool_check(p->pool);
 }
 
-/* With the unknowns of now; those that creep, if there are some, are settled by it. */
+/* Solve the system for its present unknowns; it also determines the shares of creeping discs. */
 static qdot_status
 solve(sliding *s)
 {
@@ -373,7 +374,7 @@ sliding_settle(sliding *s, size_t i, size_t j, qdot_expr B)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether u of share j holds coordinate i or its velocity. */
+/* Whether u of share j contains coordinate i or its velocity. */
 static bool
 is_own(const sliding *s, size_t i, size_t j)
 {
@@ -420,7 +421,7 @@ find_massless(sliding *s)
     return QDOT_OK;
 }
 
-/* Shares that were settled may hold those found behind them. */
+/* Insert the shares found last into the values of those settled before. */
 static qdot_status
 keep_settled(sliding *s)
 {

@@ -27,7 +27,7 @@
 #include "sim/model/equations.h"
 #include "sim/model/switch.h"
 
-/* Whether the motion slides along a surface in this mode, or a puck rests or creeps. */
+/* Whether in this mode the motion slides along a surface, or a disc rests or creeps. */
 bool qdot_sliding_is(const qdot_switches *switches, const long *side);
 
 /* Freeze p->M and p->f to the mode of the plan; where the motion slides find p->share, and put it

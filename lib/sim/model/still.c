@@ -1,4 +1,4 @@
-/* still.c -- the largest set of coordinates whose equations hold at 0, found by dropping others. */
+/* still.c -- finds the largest set of coordinates that stay at 0, by dropping those that do not. */
 #include "sim/model/still.h"
 
 #include <string.h>
@@ -33,7 +33,7 @@ coordinate_stays(const set *z, size_t i)
     return on(z, z->plan->f[i]) == QDOT_ZERO;
 }
 
-/* Whether M depends on no coordinate while those of the set are 0. */
+/* Whether M is independent of coordinates while those of the set are 0. */
 static bool
 is_regular(const set *z)
 {
@@ -46,7 +46,7 @@ is_regular(const set *z)
     return true;
 }
 
-/* Drop those whose equations do not hold, until none is left to drop. */
+/* Drop coordinates whose equations do not hold at 0, until all that are left hold. */
 static qdot_status
 reduce(set *z)
 {
@@ -72,7 +72,7 @@ reduce(set *z)
     return qdot_grave(qdot_pool_check(p->pool)); /* there may be no value there */
 }
 
-/* Find the coordinates that are 0 and at rest, and are not accelerated. */
+/* Find the coordinates that are 0, at rest, and not accelerated. */
 static bool
 still_begin(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
             double *rate)

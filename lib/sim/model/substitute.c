@@ -15,7 +15,7 @@ typedef struct {
     const qdot_expr *symbols, *values;
 } table;
 
-/* The value of the function of which `node` is an application; nil if none is given. */
+/* The value given for the user function that `node` applies; nil if none is given. */
 static qdot_expr
 function_value(qdot_pool *pool, const table *t, qdot_expr node)
 {

@@ -14,10 +14,10 @@
 /* A puck that has begun to move, so slowly that its direction is that of its shares
  * (sim/model/puck.h). Other surfaces have no such mode. */
 #define QDOT_SIDE_CREEPS (-1)
-/* The side of a surface whose switches are not frozen. */
+/* The value of a side if the switches of the surface are not frozen. */
 #define QDOT_SIDE_OPEN LONG_MIN
 
-/* The side of a surface at which nothing switches in this mode (sim/model/gates.h). */
+/* The value of a side if no switch of the surface matters in this mode (sim/model/gates.h). */
 #define QDOT_SIDE_IDLE (LONG_MIN + 1)
 
 typedef struct {
@@ -35,7 +35,8 @@ typedef struct {
                        side 0: a power of two; 0: there is none */
 } qdot_surface;
 
-/* A vector w of velocities whose direction is in the equations (sim/model/puck.h). */
+/* A vector w of velocities whose direction enters the equations, as with dry friction in a plane
+ * (sim/model/puck.h). */
 enum { QDOT_PUCK_MOST = 6, QDOT_PUCK_MOST_TIED = 4 };
 
 typedef struct {

@@ -1,4 +1,4 @@
-/* switch-freeze.c -- expressions on one side of every surface. */
+/* switch-freeze.c -- rewrites expressions for a given side of every surface. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -41,7 +41,7 @@ surface_is_held(const freezer *f, const qdot_gate_pair *pair)
     return pair->surface != SIZE_MAX && f->side && f->side[pair->surface] == QDOT_SIDE_SLIDES;
 }
 
-/* The side of u, or its symbol; for a constant u its sign or floor. */
+/* The side of u as a number, or its symbol; for a constant u its sign or floor. */
 static qdot_expr
 side_of(const freezer *f, const qdot_gate_pair *pair, bool steps)
 {
@@ -70,7 +70,7 @@ rebuild(const freezer *f, const qdot_gate *gate)
     return e;
 }
 
-/* A power in the layer of surface i (sim/model/layer.h): 0, or what it is at the rim where it is held there. */
+/* A power with a layer at surface i (sim/model/layer.h): 0 inside, or its value at the rim if held there. */
 static qdot_expr
 layered(const freezer *f, size_t i, int only, qdot_expr power, qdot_expr exponent)
 {
@@ -129,7 +129,7 @@ freeze_relation(const freezer *f, const qdot_gate *gate)
     return qdot_rel(pool, gate->op, side_of(f, &f->gates.pairs.at[gate->pair], false), QDOT_ZERO);
 }
 
-/* The argument that min or max selects; the first of equal ones. */
+/* The argument that min or max selects, the first one among equals. */
 static qdot_expr
 freeze_extreme(const freezer *f, const qdot_gate *gate)
 {
@@ -174,7 +174,7 @@ freeze_value(const freezer *f, const qdot_gate *gate)
     }
 }
 
-/* Whether a switch is left as it is. */
+/* Whether a switch keeps its form, because one of its surfaces has no side in this mode. */
 static bool
 stays(const freezer *f, const qdot_gate *gate)
 {

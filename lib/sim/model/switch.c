@@ -1,4 +1,4 @@
-/* switch.c -- finds the functions that switch in the equations. */
+/* switch.c -- finds the switching functions of the equations and their surfaces. */
 #include "sim/model/switch.h"
 
 #include <stdio.h>
@@ -85,7 +85,7 @@ add_atom(qdot_switches *s, qdot_expr e)
     return QDOT_OK;
 }
 
-/* Collect all functions in e that switch. */
+/* Collect all switching functions in e. */
 static qdot_status
 switches_collect(qdot_switches *s, qdot_expr e)
 {
@@ -122,7 +122,8 @@ switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
     return found;
 }
 
-/* Make s->level from T, each declared potential and a stated Lagrangian, if they switch: M, or with the time. */
+/* Make s->level, the energy that must not jump: from T if M switches, and from potentials or a
+ * Lagrangian that switch or depend on t. */
 static qdot_status
 find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request, qdot_expr mass)
 {
@@ -213,7 +214,7 @@ see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
     return status;
 }
 
-/* Whether `base` is linear in t, of nothing else, and 0 at a time of the run. */
+/* Whether `base` is a linear function of t only that is 0 at a time of the run. */
 static bool
 vanishes_in_time(qdot_pool *pool, const qdot_run_request *request, qdot_expr base)
 {
@@ -232,7 +233,7 @@ vanishes_in_time(qdot_pool *pool, const qdot_run_request *request, qdot_expr bas
     return at[0] * at[1] <= 0;
 }
 
-/* Collect broken powers of times that the run begins at, ends at or passes (sim/model/layer.h), as |t - a|. */
+/* Collect non-integer powers of t - a for times a of the run (sim/model/layer.h), as surfaces |t - a|. */
 static qdot_status
 collect_times(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
 {

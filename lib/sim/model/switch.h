@@ -53,7 +53,7 @@ typedef struct qdot_switches {
  * milliseconds. */
 enum { QDOT_MANY_COORDINATES = 32 };
 
-/* The number of surfaces at which the equations switch, without those of contacts and pucks. */
+/* The number of surfaces at which the equations switch, without those of contacts and discs. */
 static inline size_t
 qdot_switches_own(const qdot_switches *s)
 {

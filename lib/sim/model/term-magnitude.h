@@ -11,7 +11,7 @@
 
 #include "expr/id.h"
 
-/* That sum, as an expression; nil absorbs. */
+/* The sum of the magnitudes of a sum's terms, as an expression; nil for nil. */
 qdot_expr qdot_term_magnitude(qdot_pool *pool, qdot_expr e);
 
 #endif

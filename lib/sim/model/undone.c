@@ -1,4 +1,4 @@
-/* undone.c -- the equations of `then`, solved for the values before it. */
+/* undone.c -- inverts an event: solves the equations of its `then` for the values before it. */
 #include "sim/model/undone.h"
 
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "normal/solve/linear.h"
 #include "sim/model/substitute.h"
 
-/* Unknowns are symbols of their own, for the values of the targets before the event. */
+/* The unknowns are new symbols, for the values of the targets before the event. */
 typedef struct {
     qdot_pool *pool;
     size_t n;
@@ -36,7 +36,8 @@ undone_holds_unknown(const undoing *x, qdot_expr e)
     return false;
 }
 
-/* The coefficients of the unknowns `of` [m] in a linear equation, and the rest; whether it is linear. */
+/* Write a linear equation as row [m] of coefficients of the unknowns `of` [m] and a rest; returns
+ * whether it is linear. */
 static bool
 is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *row, qdot_expr *rest)
 {
@@ -57,7 +58,7 @@ is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *
            && qdot_normal(pool, qdot_sub(pool, qdot_sub(pool, e, *rest), sum), NULL) == QDOT_ZERO;
 }
 
-/* Replace the values before the event that are known already in the equations. */
+/* Insert the values before the event that are known already into the other equations. */
 static void
 put_known(undoing *x)
 {
@@ -72,7 +73,7 @@ put_known(undoing *x)
     }
 }
 
-/* Solve the equations `of` [m] for the unknowns of these; *found: they are linear, and have one solution. */
+/* Solve equations number `of` [m] for the unknowns of the same numbers; *found: linear, with one solution. */
 static qdot_status
 undone_solve(undoing *x, size_t m, const size_t *of, bool *found)
 {
@@ -100,7 +101,8 @@ undone_solve(undoing *x, size_t m, const size_t *of, bool *found)
     return qdot_grave(status);
 }
 
-/* The targets whose values before the event are unknown, but are looked for in the equations; their number. */
+/* List the targets whose values before the event are still unknown but occur in the equations;
+ * returns their number. */
 static size_t
 list_open(const undoing *x, size_t *open)
 {
@@ -112,7 +114,8 @@ list_open(const undoing *x, size_t *open)
     return m;
 }
 
-/* Find a value that no equation of `then` contains from the event's own equation f = 0, if that is linear in it. */
+/* Find a value that no equation of `then` contains from the event's own equation f = 0, if it is
+ * linear in that value. */
 static qdot_status
 recall(undoing *x)
 {

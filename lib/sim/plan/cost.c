@@ -1,4 +1,4 @@
-/* cost.c -- the models of costs: a table of coefficients, and what is not linear. */
+/* cost.c -- cost models: tables of coefficients, and terms that are not linear. */
 #include "sim/plan/cost.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 /* --- the table ----------------------------------------------------------------------- */
 
-/* What models are linear in: 1, then numbers of a qdot_work. */
+/* The quantities in which cost models are linear: 1, then fields of a qdot_work. */
 enum {
     ONE, CALLS, OPERATIONS, LENGTH, CONVOLUTIONS, COORDINATES, UNKNOWNS, SQUARES, CUBES, FACTORED,
     FACTORED_CUBES, FILLED, FILLING, VECTORS, PRODUCTS, BEGUN, FEATURES
@@ -26,7 +26,7 @@ typedef struct {
     double pair[FEATURES];  /* c[2] */
 } model;
 
-/* M q'' = f by kernels, fitted first; only its ratio to the costs of other forms means anything. */
+/* The cost of M q'' = f by kernels, fitted first; only its ratio to the costs of other forms matters. */
 static const model explicit_kernels = {
     .start = {[ONE] = 60, [CALLS] = 15, [LENGTH] = 2, [COORDINATES] = 10, [FACTORED] = 5,
               [FACTORED_CUBES] = 0.2},
@@ -90,7 +90,8 @@ static const model constrained_inverse = {
     .order = {[ONE] = 20, [LENGTH] = 1.2, [CONVOLUTIONS] = 3.5, [COORDINATES] = 10, [SQUARES] = 0.5},
     .pair = {[CONVOLUTIONS] = 0.12}};
 
-/* Eight members: by kernels, with AVX-512; as code, five scenes at orders 8 to 26, to 8 %. */
+/* The costs of eight members in lanes: by kernels with AVX-512; as machine code, fitted to five
+ * scenes at orders 8 to 26 within 8 %. */
 static const model lanes_kernels = {
     .start = {[ONE] = 300, [CALLS] = 100, [LENGTH] = 5, [COORDINATES] = 20, [CUBES] = 1.0 / 6},
     .order = {[LENGTH] = 2, [CONVOLUTIONS] = 3, [COORDINATES] = 10, [UNKNOWNS] = 5, [SQUARES] = 1},
@@ -100,7 +101,7 @@ static const model lanes_code = {
     .order = {[COORDINATES] = 10},
     .pair = {[CONVOLUTIONS] = 0.123}};
 
-/* A projection by its residuals and derivatives, three times at either level, and the metric. */
+/* A projection costs three evaluations of residuals and derivatives on either level, and one of the metric. */
 enum { PROJECTIONS = 3 };
 static const double of_projection = 150, of_call = 10, of_row = 60, of_slope = 15,
                     of_coordinate = 10;
@@ -109,7 +110,7 @@ static const double of_projection = 150, of_call = 10, of_row = 60, of_slope = 1
  * looked at. */
 static const double of_pivots = 200;
 
-/* Writing code takes as long as worth/p expansions save by it: 40 to 300 us. */
+/* Machine code is worth writing if this many expansions, divided by p, follow: writing takes 40 to 300 us. */
 static const struct {
     double of_explicit, by_length, of_implicit, of_eliminated, of_bordered;
 } worth = {800, 5000, 1500, 500, 400};
@@ -119,7 +120,7 @@ static const struct {
 enum { narrow = 18, narrow_explicit = 10 };
 static const double loops = 3.7, decoded = 3000;
 
-/* Highest orders of series, and the tolerance that forms are compared at. */
+/* The highest order of a series; the tolerance at which forms are compared. */
 enum { most_order = 40 };
 static const double middle_tol = 1e-9;
 

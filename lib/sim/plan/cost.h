@@ -31,22 +31,22 @@ qdot_ode_cost qdot_cost_bordered(const qdot_work *work, const qdot_ode_cost *oth
 /* At least, of M q'' = f with a full block of n coordinates and no more than so many
  * convolutions. */
 qdot_ode_cost qdot_cost_least(size_t n, double convolutions);
-/* A motion in lanes: all of them at once. */
+/* The cost of a motion in vector lanes, for eight members together. */
 qdot_ode_cost qdot_cost_lanes(const qdot_work *work);
-/* Numbers of so many bits: of a plan with `digits`. */
+/* The cost of a plan with `digits` at that precision, in MPFR. */
 void qdot_cost_precise(const qdot_plan *plan, mpfr_prec_t bits, double cost[3]);
 
 /* The cost of projecting the state after every step with constraints. */
 double qdot_cost_projection(const qdot_plan *plan);
 
-/* The models of one executor: kernels alone. */
+/* The cost without machine code, by kernels only. */
 qdot_ode_cost qdot_cost_of_kernels(const qdot_ode_cost *cost);
 /* Steps of a way as long as the radius of convergence, at a middling tolerance: forms are
  * compared at one, for a plan is kept for runs under any. */
 double qdot_cost_steps(const qdot_ode_cost *cost);
-/* The cost of such steps with constraints, under a tolerance, with the projection after every step. */
+/* The cost of steps with constraints at a tolerance, including the projection after every step. */
 double qdot_cost_constrained_steps(const qdot_plan *plan, const qdot_ode_cost *cost, double tol);
-/* An evaluation of a tape. */
+/* The cost of one evaluation of a tape. */
 double qdot_cost_evaluation(const qdot_tape *tape);
 
 #endif

@@ -1,4 +1,4 @@
-/* form.c -- candidates for the form of the equations, and the cheapest of them. */
+/* form.c -- compares the costs of several forms of the equations and chooses the cheapest. */
 #include "sim/plan/form.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@
 #include "sim/model/switch.h"
 #include "sim/plan/cost.h"
 
-/* Hamilton's equations save this much of the others' convolutions where they are taken. */
+/* Hamilton's equations are taken if they need at most this part of the convolutions of other forms. */
 static const double canonical_saves = 0.85;
 
 static void
@@ -28,7 +28,7 @@ plan_take_form(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
 
 /* --- M q'' = f ------------------------------------------------------------------------ */
 
-/* Fail if a block of M that is constant has no inverse. */
+/* Fail if a constant block of M has no inverse. */
 static qdot_status
 check_blocks(const qdot_plan *p)
 {
@@ -172,7 +172,7 @@ qdot_plan_make_lanes(qdot_plan *p)
 
 /* --- constraints ---------------------------------------------------------------------- */
 
-/* Measure the cost of the form with the constraints expanded as series, which is always possible. */
+/* Measure the cost of the form in which constraints are expanded in series; it is always possible. */
 static qdot_status
 measure_constrained(qdot_plan *p)
 {
@@ -189,7 +189,7 @@ measure_constrained(qdot_plan *p)
     return QDOT_OK;
 }
 
-/* Multipliers eliminated beforehand, if that is cheaper than the form so far. */
+/* Take the form with multipliers eliminated symbolically if it is cheaper than the best so far. */
 static qdot_status
 offer_eliminated(qdot_plan *p, double tol, double *least)
 {

@@ -17,7 +17,8 @@
  * the form that it has so far. Errors: those of the program; QDOT_ESINGULAR. */
 QDOT_MUST_CHECK qdot_status qdot_plan_measure(qdot_plan *plan);
 
-/* Choose the form of the equations of a smooth plan without constraints, which is complete otherwise. */
+/* Choose the form of the equations for a smooth plan without constraints; everything else of the
+ * plan is complete. */
 QDOT_MUST_CHECK qdot_status qdot_plan_choose_form(qdot_plan *plan, qdot_scene *scene,
                                                   const qdot_run_request *request);
 /* Choose the form of the equations of a plan with constraints. */

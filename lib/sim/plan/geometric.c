@@ -7,7 +7,7 @@
 #include "ode/geometric/geometric.h"
 #include "sim/form/phase-space.h"
 
-/* The first coordinate whose row of M is no row of numbers; n: none. */
+/* The first coordinate whose row of M is not constant; n if all are. */
 static size_t
 varying_mass(const qdot_plan *p)
 {
@@ -18,7 +18,7 @@ varying_mass(const qdot_plan *p)
     return i / p->n;
 }
 
-/* The first coordinate whose force holds velocities; n: none. */
+/* The first coordinate whose force depends on velocities; n if none does. */
 static size_t
 velocity_force(const qdot_plan *p)
 {
@@ -36,7 +36,8 @@ geometric_refuse(const qdot_plan *p, const char *why, const char *name, const ch
     return qdot_hint("method %s", instead);
 }
 
-/* The constraints may be on positions alone, and the method must know them. */
+/* Refuse constraints that the method does not support: it must know constraints, and they must be
+ * on positions. */
 static qdot_status
 check_constraints(const qdot_plan *p, const qdot_scene *scene, qdot_run_treatment treatment)
 {

@@ -1,4 +1,4 @@
-/* kept.c -- the latest plans of a scene, the newest first. */
+/* kept.c -- caches the latest plans of a scene, newest first. */
 #include "sim/plan/kept.h"
 
 #include <string.h>

@@ -16,7 +16,7 @@
 
 #include "sim/form/derived.h"
 
-/* A plan that would be made of the request, with one use more; NULL: none is kept. */
+/* The cached plan for this request, with its reference count raised; NULL if there is none. */
 qdot_plan *qdot_kept_find(const qdot_scene *scene, const qdot_run_request *request);
 
 /* Keep a plan that was made of the request, of a scene in which nothing switches. Without memory it is

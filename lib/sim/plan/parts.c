@@ -1,4 +1,4 @@
-/* parts.c -- find groups of coordinates whose equations do not share a variable. */
+/* parts.c -- finds groups of coordinates whose equations share no variable. */
 #include "sim/plan/parts.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ groups_join(size_t *group, size_t n, size_t i, size_t j)
             group[k] = low;
 }
 
-/* Unite the group of i with those of all coordinates that appear in e. */
+/* Merge the group of coordinate i with those of all coordinates that occur in e. */
 static qdot_status
 join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
 {
@@ -42,7 +42,7 @@ join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
     return QDOT_OK;
 }
 
-/* *groups: the number of groups. */
+/* Find the groups of coupled coordinates; *groups: their number. */
 static qdot_status
 find_groups(const qdot_plan *p, size_t *group, size_t *groups)
 {
@@ -57,7 +57,7 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     *groups = 1;
     for (size_t i = 1; i < n; i++)
         *groups += group[i] == i;
-    /* in most scenes M alone couples all coordinates */
+    /* in most scenes M by itself couples all coordinates, so test it first */
     for (size_t i = 0; i < n && *groups > 1; i++) {
         QDOT_TRY(join_all(p, group, i, p->f[i]));
         for (size_t j = 0; j <= i; j++)
@@ -129,7 +129,7 @@ make_part(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request,
     return status == QDOT_OK ? part_finish(r, scene, request) : status;
 }
 
-/* The cost of one step of every part. */
+/* The cost of one step of every decoupled part. */
 static double
 cost(const qdot_plan *p)
 {

@@ -1,4 +1,4 @@
-/* plan.c -- M and f with numbers in place, and which method and form integrate them. */
+/* plan.c -- derives M and f with parameter values; chooses the method and the form that integrate them. */
 #include "sim/plan/plan.h"
 
 #include <string.h>
@@ -84,7 +84,7 @@ copy_values(qdot_plan *p, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* lambda of a constraint of which a run keeps mu f: lambda' among the inputs, lambda = mu lambda'. */
+/* For a constraint used as mu f: its multiplier lambda' becomes an input, and lambda = mu lambda'. */
 static qdot_status
 name_multiplier(qdot_plan *p, qdot_scene *scene, size_t k)
 {
@@ -146,7 +146,7 @@ name_coordinates(qdot_plan *p, qdot_scene *scene, const qdot_run_request *reques
     return qdot_pool_check(p->pool);
 }
 
-/* M and f of the scene with the values in place. */
+/* Derive M and f of the scene with parameter values. */
 static qdot_status
 plan_derive(qdot_plan *p, qdot_scene *scene)
 {
@@ -181,7 +181,7 @@ plan_derive(qdot_plan *p, qdot_scene *scene)
 
 /* --- Taylor series ------------------------------------------------------------------ */
 
-/* Taylor series are for equations that do not switch. */
+/* Refuse Taylor series if the equations switch. */
 static qdot_status
 check_series(qdot_plan *p, const char *hindrance)
 {
@@ -197,7 +197,7 @@ check_series(qdot_plan *p, const char *hindrance)
     return qdot_hint("method rk8pd");
 }
 
-/* Fill the part of the plan that belongs to constraints (sim/model/constraints.h). */
+/* Fill the constraints of the plan (sim/model/constraints.h). */
 static qdot_status
 constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
@@ -212,7 +212,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (!hindrance)
         hindrance = qdot_program_hindrance(p->constraints->positions);
     QDOT_TRY(check_series(p, hindrance));
-    /* methods that keep the past have no use for a state moved off it */
+    /* multistep methods cannot use a state that a projection has moved off their history */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
     if (!p->smooth)
@@ -221,7 +221,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
 }
 
-/* Ensembles take no start with an error: their companions start beside exact values. */
+/* Refuse ensembles with an uncertain start: the companions of their members begin at exact values. */
 static qdot_status
 check_exact(const qdot_run_request *request)
 {
@@ -230,7 +230,8 @@ check_exact(const qdot_run_request *request)
                : QDOT_OK;
 }
 
-/* What has no equations of its own for coordinates without mass; digits of them where nothing jumps. */
+/* Refuse massless coordinates where a method cannot treat them, and `digits` where such coordinates
+ * may jump. */
 static qdot_status
 check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
@@ -251,7 +252,7 @@ check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_reque
 
 /* --- ensembles ---------------------------------------------------------------------- */
 
-/* Whether coordinates couple whose M may be of any sign. */
+/* Whether M couples coordinates and need not be positive definite. */
 static bool
 is_indefinite(const qdot_plan *p)
 {
@@ -312,7 +313,7 @@ plan_make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (qdot_plan_needs_jacobian(p) || p->share || p->method->geometric)
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
-    /* events that set parameters look at the steps of the whole */
+    /* with events that set parameters do not divide the equations: these affect all of them */
     return p->n_states > 0 ? QDOT_OK : qdot_parts_find(p, scene, request);
 }
 

@@ -1,4 +1,4 @@
-/* routh.c -- find cyclic coordinates, eliminate their velocities, keep that where it is cheaper. */
+/* routh.c -- eliminates the velocities of cyclic coordinates (Routh) if that makes the equations cheaper. */
 #include "sim/plan/routh.h"
 
 #include <math.h>
@@ -18,14 +18,14 @@
 #include "sim/plan/cost.h"
 #include "sim/plan/form.h"
 
-/* Longer expressions than this many operations are not simplified. */
+/* Expressions with more operations than this are not simplified. */
 enum { SHORT = 120, SHORT_ENTRY = 60 };
 
 /* Cancellation in a velocity is ignored while the sum of its terms' sizes is below `harmless` times
  * max(1, |velocity|). Above, the rounding of a term counts `roundings` times over a run. */
 static const double harmless = 4, roundings = 64;
 
-/* Three ways to put the eliminated velocities into the other equations. */
+/* Three ways to insert the eliminated velocities into the other equations. */
 typedef enum { PUT_IN, HELD, SIMPLIFIED, WAYS } way;
 
 typedef struct {
@@ -49,14 +49,14 @@ typedef struct {
 
 /* --- what is cyclic ------------------------------------------------------------------ */
 
-/* Irregular numbers in (0.3, 1.7), an interval that most domains contain. */
+/* Irregular sample values in (0.3, 1.7), an interval that most domains contain. */
 static double
 sample_place(size_t i)
 {
     return 0.3 + 1.4 * fmod(0.5545497 * (double)(i + 1), 1);
 }
 
-/* Whether M and f, as a tape, may be independent of q_i: they are, at a few values. */
+/* Whether M and f seem to be independent of q_i, tested at a few values. */
 static bool
 may_be_absent(const routh *e, size_t i)
 {
@@ -77,7 +77,7 @@ may_be_absent(const routh *e, size_t i)
     return true;
 }
 
-/* Whether row i of M is free of velocities, so that p_i is linear in them. */
+/* Whether row i of M contains no velocities, so that p_i is linear in them. */
 static bool
 is_linear(const routh *e, size_t i)
 {
@@ -101,7 +101,7 @@ is_state(const routh *e, size_t i)
     return in_scene(e, i) >= e->scene->coordinates.n;
 }
 
-/* The number of coordinates that M couples with coordinate i. */
+/* The number of other coordinates that M couples with coordinate i. */
 static size_t
 coupled(const routh *e, size_t i)
 {
@@ -188,7 +188,7 @@ take_out(routh *e)
     }
 }
 
-/* Solve row c for q_c' and eliminate it from the remaining rows. */
+/* Solve equation c for q_c' and eliminate q_c' from the remaining equations. */
 static void
 routh_eliminate(routh *e, size_t c)
 {
@@ -230,7 +230,7 @@ may_be_pivot(const routh *e, size_t i)
     return !e->p->indefinite || coupled(e, i) == 0 || (sign & (QDOT_GE0 | QDOT_LE0));
 }
 
-/* Of the remaining cyclic coordinates the one with the shortest pivot; SIZE_MAX: none. */
+/* The remaining cyclic coordinate with the shortest pivot; SIZE_MAX: none. */
 static size_t
 shortest(const routh *e)
 {
@@ -307,7 +307,7 @@ routh_put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
     }
 }
 
-/* The cost of a step of r, or of an evaluation where there are no series. */
+/* The cost of a step of r, or of one evaluation if there is no series. */
 static qdot_status
 find_cost(qdot_plan *r)
 {
@@ -342,7 +342,7 @@ fill_plan(routh *e, way how, qdot_plan *r)
         status = qdot_tape_new(e->pool, 2 * n + 1, r->inputs, e->h, rates, &r->momenta);
     qdot_free(left);
     qdot_free(rates);
-    /* a momentum may contain functions that switch */
+    /* the expressions of momenta may contain switching functions */
     if (status == QDOT_OK)
         r->smooth = r->smooth && !qdot_program_hindrance(r->tape);
     return status == QDOT_OK ? find_cost(r) : status;
@@ -372,7 +372,7 @@ cost_of_all(const qdot_plan *p)
     return p->method->series ? p->cost : qdot_cost_evaluation(p->tape);
 }
 
-/* Find the cheapest way; the plan takes it if it is cheaper than the full equations. */
+/* Compare the ways; the plan takes the cheapest if it is cheaper than the full equations. */
 static qdot_status
 routh_choose(routh *e)
 {
@@ -402,7 +402,7 @@ routh_choose(routh *e)
 
 /* --- what cancels --------------------------------------------------------------------- */
 
-/* For each eliminated velocity: its pivot, then the terms above the pivot. */
+/* For each eliminated velocity: its pivot, then the terms of its numerator. */
 typedef qdot_vec(qdot_expr) expressions;
 
 static qdot_status
@@ -422,7 +422,7 @@ list_terms(const routh *e, expressions *out)
     return qdot_pool_check(e->pool);
 }
 
-/* in [2n + 1 + h]: the start of the run, and the momenta there. */
+/* Set the inputs in [2n + 1 + h]: the start of the run and the momenta there. */
 static qdot_status
 find_start(routh *e, const qdot_plan *r, double *in)
 {
@@ -578,7 +578,7 @@ qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene, const qdot_run_request *re
     if (status == QDOT_OK && !request->by_clock)
         status = routh_reduce(&e);
     routh_clear(&e);
-    /* a pivot vanishes, or an expression is not defined at 0: keep the full equations */
+    /* a pivot vanishes, or an expression is undefined at the start: keep the full equations */
     if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_ELIMIT) {
         qdot_plan_free(plan->reduced);
         plan->reduced = NULL;

@@ -25,7 +25,7 @@
 
 #include "sim/model/equations.h"
 
-/* Coordinates that are eliminated are coupled with fewer others in M, which elimination fills. */
+/* A coordinate is eliminated only if M couples it with fewer others than this, because elimination fills M. */
 enum { QDOT_ROUTH_COUPLED = 6 };
 
 /* Into plan->reduced; NULL where nothing is cyclic or nothing is gained, or by a clock. The plan is made

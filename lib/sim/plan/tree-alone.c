@@ -1,4 +1,4 @@
-/* tree-alone.c -- decide whether the equations along the tree suffice, without M and f. */
+/* tree-alone.c -- decides whether the equations along the tree suffice, so that M and f need not be derived. */
 #include "sim/plan/tree-alone.h"
 
 #include "base/memory.h"
@@ -25,7 +25,8 @@ may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *requ
            && !qdot_plan_needs_jacobian(p) && request->tol > QDOT_ODE_LEADING_TOL;
 }
 
-/* pattern [n x n]: pairs of coordinates of one node, or of a node and one that it depends on. */
+/* Mark pairs of coordinates that M may couple: of one node, or of a node and one of its ancestors;
+ * pattern [n x n]. */
 static void
 find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
 {
@@ -49,7 +50,7 @@ find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
         }
 }
 
-/* A lower bound of what steps by M q'' = f cost if M has `entries` entries off the diagonal. */
+/* A lower bound of the cost of steps by M q'' = f, if M has that many entries off the diagonal. */
 static double
 least_cost(size_t n, size_t entries)
 {

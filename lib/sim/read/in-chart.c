@@ -13,7 +13,7 @@ qdot_in_chart_clear(qdot_in_chart *in)
     *in = (qdot_in_chart){0};
 }
 
-/* What is written with a root has no value where the motion has left the places it can write. */
+/* Refuse expressions with a root if the motion has left the region in which that root is valid. */
 static qdot_status
 check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
 {
@@ -39,7 +39,8 @@ check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
     return QDOT_OK;
 }
 
-/* Express them, from no quarters where no angle stands by itself. */
+/* Express them in the coordinates of the run; `quarters` counts turns of the angles, 0 if no angle
+ * occurs by itself. */
 static qdot_status
 chart_express(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
 {

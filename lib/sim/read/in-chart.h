@@ -8,7 +8,7 @@
 #include "sim/run/chart-run.h"
 #include "sim/run/run.h"
 
-/* Expressions in the coordinates of the run, as they hold over one stretch of its angles. */
+/* Expressions in the coordinates of the run, valid over one stretch of its angles. */
 typedef struct {
     qdot_run *run;
     size_t m;
@@ -23,7 +23,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
                                                   size_t m, const qdot_expr *exprs,
                                                   double t);
-/* Whether the expressions also hold at time t: it is in the same stretch. */
+/* Whether the expressions are also valid at t: it lies in the same stretch. */
 bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
 void qdot_in_chart_clear(qdot_in_chart *in);
 
@@ -32,7 +32,7 @@ QDOT_MUST_CHECK qdot_status qdot_in_chart_values(qdot_run *run, size_t m, const 
                                                  const qdot_exact_times *times, double *values,
                                                  double *errors);
 
-/* The end of the stretch of `from` on the way to `to`, or `to` if that is nearer. */
+/* The end of the stretch that contains `from`, towards `to`; `to` if that is nearer. */
 double qdot_in_chart_end(const qdot_in_chart *in, double from, double to);
 
 #endif

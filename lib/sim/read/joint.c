@@ -1,4 +1,4 @@
-/* joint.c -- an expression along several runs as one of the coordinates of all. */
+/* joint.c -- combines several runs: an expression of values along all of them, as a function of t. */
 #include "sim/read/joint.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ qdot_joint_clear(qdot_joint *j)
     *j = (qdot_joint){0};
 }
 
-/* Symbols for the inputs of run k; the first run keeps its own. */
+/* Make new symbols for the inputs of run k; the first run keeps its own. */
 static qdot_status
 make_inputs(const qdot_plan *plan, size_t k, qdot_expr *own)
 {
@@ -38,7 +38,7 @@ make_inputs(const qdot_plan *plan, size_t k, qdot_expr *own)
     return status == QDOT_OK ? qdot_pool_check(plan->pool) : status;
 }
 
-/* The value of a member in the inputs `own` of its run, except t, which all have in common. */
+/* The value of member m in terms of its run's inputs `own` and of t, which all runs have in common. */
 static qdot_expr
 member_express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 {
@@ -53,7 +53,7 @@ member_express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
                      own + behind);
 }
 
-/* Make the inputs of all and put the values of the members in their place. */
+/* Make the inputs of all runs, and replace the members in the expression by their values. */
 static qdot_status
 joint_put_together(qdot_joint *j, const qdot_run_expression *x, size_t *begin, qdot_expr *from, qdot_expr *to)
 {

@@ -20,7 +20,7 @@ typedef struct {
     qdot_reading of;            /* of e */
 } qdot_joint;
 
-/* Errors: QDOT_ENOMEM, those of qdot_reader_lower. Clear it in any case. */
+/* Combine the runs of an expression. Errors: QDOT_ENOMEM, those of qdot_reader_lower. Clear j in any case. */
 QDOT_MUST_CHECK qdot_status qdot_joint_init(qdot_joint *j, const qdot_run_expression *x);
 void qdot_joint_clear(qdot_joint *j);
 

@@ -1,4 +1,4 @@
-/* occurrences.c -- the events of a run, with the errors of their times from its companions. */
+/* occurrences.c -- the events of a run, with errors of their times estimated from its companions. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -49,7 +49,7 @@ sort_by_event(const qdot_course *c, size_t events, by_event *out)
     return QDOT_OK;
 }
 
-/* The time of the companion's occurrence that is the k-th of the run's event; NaN: none. */
+/* The time of the companion's occurrence that corresponds to the k-th one of the run's event; NaN: none. */
 static double
 time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
 {
@@ -90,7 +90,7 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
     return status;
 }
 
-/* Drop the occurrences of an event after `from`, up to which they are known, and its touches. */
+/* Drop the occurrences and touches of an event after the time `from`, up to which they are known. */
 static void
 drop_from(qdot_run *run, const char *event, double from)
 {
@@ -133,7 +133,7 @@ leave_out_faded(qdot_run *run)
     return QDOT_OK;
 }
 
-/* run->occurrences, by the companions. */
+/* Fill run->occurrences, with errors from the companions. */
 static qdot_status
 find_errors(qdot_run *run)
 {
@@ -168,7 +168,8 @@ qdot_run_event_at_end(qdot_run *run, size_t k, const char **name, bool *undecide
     return *name && !run->precise ? qdot_touches_end(run, k, undecided) : QDOT_OK;
 }
 
-/* In t, of a run that counts its times from an origin; the sum is rounded. */
+/* For a run that counts its times from an origin: convert the times of occurrences to t, with
+ * rounding error. */
 static void
 tell_in_t(qdot_run *run)
 {

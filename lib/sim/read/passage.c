@@ -1,4 +1,4 @@
-/* passage.c -- the extrema of an expression up to a singular place that is passed exactly. */
+/* passage.c -- the extrema of an expression near a coordinate singularity that the motion passes exactly. */
 #include "sim/read/passage.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { NODES = 16, TRIES = 4 };
 
-/* Half of the first interval, as a fraction of the step at the place. */
+/* Half of the first interval about the singularity, as a fraction of the step there. */
 static const double part = 0.1;
 
 /* A function is smooth if its last Chebyshev coefficients are below this fraction of the largest. */
@@ -26,7 +26,8 @@ qdot_passage_at(const qdot_run *run, double t)
     return SIZE_MAX;
 }
 
-/* e as it is from one side of the place, to be read on the side `before` or behind it. */
+/* The expression e as valid on one side of the singularity, to be evaluated on the side `before` or
+ * after it. */
 static qdot_expr
 expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, bool before)
 {
@@ -47,7 +48,7 @@ expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, boo
     return now;
 }
 
-/* The values of e at the Chebyshev nodes on one side of t, the one of that sign. */
+/* The values of e at Chebyshev nodes on one side of t, the side given by `sign`. */
 static qdot_status
 read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *values, double *error)
 {
@@ -93,7 +94,7 @@ find_extrema(const double *c, double middle, int sign, qdot_passage *p)
     }
 }
 
-/* Read e on both sides of the place, and fit the polynomial. */
+/* Evaluate e on both sides of the singularity and fit a polynomial. */
 static qdot_status
 fit_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c, double *error)
 {
@@ -112,7 +113,7 @@ fit_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c
     return QDOT_OK;
 }
 
-/* Where in the interval the distance is 0: the stretches begin just behind it. */
+/* Where in the interval the distance from the singularity is 0: stretches begin just after that time. */
 static qdot_status
 find_middle(qdot_run *run, size_t k, bool before, double h, double *middle)
 {

@@ -23,7 +23,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_passage_extrema(qdot_run *run, qdot_expr e, size_t k, bool before,
                                                  double t, qdot_passage *p, bool *found);
 
-/* The index of the stretch that begins at t where a place is passed; SIZE_MAX: none. */
+/* The index of the stretch that begins at t if the motion passes a singularity there; SIZE_MAX: none. */
 size_t qdot_passage_at(const qdot_run *run, double t);
 
 #endif

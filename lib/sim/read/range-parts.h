@@ -58,7 +58,7 @@ typedef struct {
     double values[QDOT_CHEBYSHEV_MOST], c[QDOT_CHEBYSHEV_MOST];
 } qdot_range_part;
 
-/* Rounding of the nodes, as a fraction of the length of the part. */
+/* The rounding error of the nodes, relative to the length of the interval. */
 static inline double
 qdot_range_blur(const qdot_range_part *p)
 {
@@ -79,7 +79,7 @@ qdot_range_time(const qdot_range_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* Whether the part is so short that its nodes are mostly rounding. */
+/* Whether the interval is so short that rounding dominates the differences of its nodes. */
 static inline bool
 qdot_range_is_short(const qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -95,7 +95,7 @@ qdot_range_is_beside_switch(const qdot_range_scan *s, const qdot_range_part *p)
     return (s->odd[0] && p->a == s->ends[0]) || (s->odd[1] && p->b == s->ends[1]);
 }
 
-/* How far the polynomial of a part may be from the values, whose nodes are in s->bounds. */
+/* How far the polynomial of an interval may be from the values at its nodes, by the bounds in s->bounds. */
 static inline double
 qdot_range_miss(const qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -114,7 +114,7 @@ qdot_range_meet(qdot_range_scan *s, double x)
 
 /* --- a step (range-step.c) ------------------------------------------------------------ */
 
-/* The value at t; QDOT_EDOMAIN where it is undefined. */
+/* The value of the expression at t; QDOT_EDOMAIN if it is undefined. */
 QDOT_MUST_CHECK qdot_status qdot_range_at(qdot_range_scan *s, double t, double *x);
 
 /* All that lies between a and b, where no course begins another step. s->most_parts limits the
@@ -127,7 +127,7 @@ QDOT_MUST_CHECK qdot_status qdot_range_step(qdot_range_scan *s, double a, double
  * (if it is finite there is none). */
 void qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p);
 
-/* Extrapolate the values towards a short part from both sides; s->bounds.box is known. */
+/* Extrapolate the values towards a short interval from both sides; s->bounds.box must be known. */
 void qdot_range_look_towards(qdot_range_scan *s, const qdot_range_part *p);
 
 /* --- by intervals (range-seek.c) ----------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* range-poles.c -- parts of a range that no polynomial fits however short they are. */
+/* range-poles.c -- finds poles: intervals that no polynomial fits however short they are. */
 #include "sim/read/range-parts.h"
 
 /* A part that no polynomial fits however short it is holds a jump, or a pole where values are
@@ -12,14 +12,14 @@ enum { NEAREST = 4, INCREMENTS = 10, LEAST_INCREMENTS = 4 };
 static const double far_beside = 1024, grown = 8;
 static const double slow = 0.994;
 
-/* Values of the part have bounds: what they do is no pole, and may be nothing but rounding. */
+/* Whether the values in the interval have finite bounds, so that it contains no pole. */
 static bool
 has_bounds(const qdot_range_scan *s)
 {
     return isfinite(s->bounds.box->lo) && isfinite(s->bounds.box->hi);
 }
 
-/* The largest size of values near a short part that do not indicate a pole. */
+/* The largest |value| near a short interval that does not indicate a pole. */
 static double
 bounded(qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -37,7 +37,7 @@ bounded(qdot_range_scan *s, const qdot_range_part *p)
     return most;
 }
 
-/* Called for a part that cannot be halved. */
+/* Decide whether an interval that cannot be halved contains a pole. */
 void
 qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p)
 {
@@ -82,7 +82,7 @@ increments_beside(qdot_range_scan *s, const qdot_range_part *p, int side, double
     return n - 1;
 }
 
-/* Whether increments fall or grow by about the same ratio all along, as noise does not. */
+/* Whether increments change by about the same factor throughout, unlike noise. */
 static bool
 is_regular(const double *d, int n, double *ratio)
 {

@@ -23,7 +23,7 @@ slack_of(const qdot_range_scan *s, double x)
     return fmax(slack * fabs(x), QDOT_RANGE_NOISES * s->noise);
 }
 
-/* The ends of a step may be points by themselves. */
+/* Enclose a step; an end at which the values are a point by themselves is left out by one double. */
 static void
 step_enclose(qdot_range_scan *s, double a, double b, int nodes)
 {
@@ -36,7 +36,7 @@ step_enclose(qdot_range_scan *s, double a, double b, int nodes)
 
 /* --- seeking ------------------------------------------------------------------------- */
 
-/* A stretch of the step, and an upper bound of its values; negated when the least is sought. */
+/* An interval of the step with an upper bound of the values; values are negated when the minimum is sought. */
 typedef struct {
     double a, b, most;
 } stretch;
@@ -163,7 +163,7 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     step_enclose(s, p->a, p->b, p->n);
     lo = h->box->lo;
     hi = h->box->hi;
-    /* a pole, or sin(x)/x, or beside a switch: as values are */
+    /* a pole, sin(x)/x, or a switch nearby: use the values only */
     if (shortest
         && (!isfinite(lo) || !isfinite(hi) || qdot_range_is_beside_switch(s, p)))
         return;

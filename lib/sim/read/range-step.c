@@ -26,16 +26,16 @@ static const double tight = 0x1p-44;
  * converged. */
 static const double no_progress = 0.25;
 
-/* A part so short, relative to its step, or so blurred is extrapolated from both sides. */
+/* An interval this short relative to its step, or with this much rounding, is extrapolated from both sides. */
 static const double deep = 0x1p-24, blurred = 0x1p-14;
 
-/* An end of the range where the limit from within is another value. */
+/* At an end of the range the value jumps if it differs from the limit from inside by this, relatively. */
 static const double jump = 0x1p-30;
 
 typedef qdot_range_scan scan;
 typedef qdot_range_part part;
 
-/* The result of the values at the nodes of a part. */
+/* What the values at the nodes tell about an interval. */
 typedef enum {
     ROUGH,     /* no polynomial fits the values */
     UNSURE,    /* one fits, but a peak may hide between the nodes */
@@ -91,7 +91,7 @@ fit(scan *s, part *p, int nodes, bool *good)
     return QDOT_OK;
 }
 
-/* Judge a part by its polynomial through the values at the nodes. */
+/* Judge an interval by the polynomial through the values at its nodes. */
 static verdict
 judge_fit(scan *s, const part *p, bool *good)
 {
@@ -135,7 +135,7 @@ part_judge(scan *s, const part *p, bool *good)
         return v;
     if (qdot_range_is_beneath(s, p))
         return s->kind == QDOT_RANGE_MEAN ? SURE : SURPASSED;
-    /* where values have bounds for sure, the polynomial of an edge is not taken for it */
+    /* where values are certainly bounded do not use the polynomial near an edge */
     if (v == HOLLOW)
         return s->kind == QDOT_RANGE_MEAN || s->bounds.resting ||
                        qdot_range_is_beside_switch(s, p) || isinf(s->bounds.box->lo) ||
@@ -145,7 +145,7 @@ part_judge(scan *s, const part *p, bool *good)
     return v;
 }
 
-/* The value at an end of a part: x as it was read, or the limit from inside if the function jumps there. */
+/* The value at an end of an interval: x as evaluated, or the limit from inside if the function jumps there. */
 static double
 from_within(scan *s, const part *p, int end, double x)
 {
@@ -158,7 +158,7 @@ from_within(scan *s, const part *p, int end, double x)
     return limit;
 }
 
-/* Whether values low ... high, which are off by so much, may be beyond those met so far. */
+/* Whether values low ... high with the uncertainty `off` may exceed the extremes found so far. */
 static bool
 may_surpass(const scan *s, double low, double high, double off)
 {
@@ -199,7 +199,7 @@ is_level(const scan *s, const part *p)
                   <= fmax(QDOT_RANGE_NOISES * s->noise, tight * qdot_chebyshev_size(p->n, p->c));
 }
 
-/* Ends, extrema, integral of a part. */
+/* Add the values at the ends, the extrema and the integral of an interval. */
 static qdot_status
 take_part(scan *s, const part *p, bool good, bool sure)
 {
@@ -276,7 +276,7 @@ find_blur(scan *s, double t)
     return QDOT_OK;
 }
 
-/* Noise and blur in the step; 0 where they are not known. */
+/* Rounding noise of the values in the step, and of its nodes; 0 if unknown. */
 static qdot_status
 find_noise(scan *s, double a, double b)
 {
@@ -306,7 +306,7 @@ middling(const part *p)
     return (sum - largest) / (p->n - 1);
 }
 
-/* Whether bounds by the series of the step keep the expression within the values met so far. */
+/* Whether bounds by the step's series exclude that the expression exceeds the extremes found so far. */
 static qdot_status
 is_surpassed(scan *s, double a, double b, bool *surpassed)
 {
@@ -362,7 +362,7 @@ qdot_range_step(scan *s, double a, double b)
         }
         if (!short_one)
             v = part_judge(s, &p, &good);
-        /* what it jumps between while its inputs rest is their rounding */
+        /* if the inputs are constant, jumps between values are rounding */
         short_one = short_one || (v == ROUGH && s->bounds.resting);
         if (s->parts == 0 && depth == 1)
             s->typical = middling(&p);
@@ -394,7 +394,7 @@ qdot_range_step(scan *s, double a, double b)
             QDOT_TRY(qdot_range_seek(s));
         s->sought = s->sought || s->parts >= SEEKING;
         s->nodes = 16;
-        /* beside where it may be undefined, as sin(x)/x is */
+        /* cut beside the middle, where the expression may be undefined, as sin(x)/x at 0 */
         ends[depth++] =
             p.a + (v == SINGULAR ? QDOT_POLYNOMIAL_BOUNDS_BESIDE : 0.5) * (p.b - p.a);
     }

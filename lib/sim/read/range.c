@@ -21,7 +21,7 @@
 #include "sim/read/range-parts.h"
 #include "sim/read/stretches.h"
 
-/* Parts of a step before it is given up. */
+/* A step is given up after this many intervals. */
 enum { MOST_PARTS = 8192 };
 
 typedef qdot_range_scan scan;
@@ -122,7 +122,7 @@ check_bounds(const scan *s, qdot_range_kind kind)
                      s->pole);
 }
 
-/* Changes of a state below its roughness are none: nothing hides in them. */
+/* Changes of an input below its roughness are ignored; no force can hide in them. */
 static qdot_status
 find_least(scan *s)
 {
@@ -171,7 +171,7 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
 
 /* --- the error ------------------------------------------------------------------------ */
 
-/* The rounding of e, taken at the ends of the range. */
+/* The rounding error of e, evaluated at the ends of the range. */
 static qdot_status
 rounding(const question *q, double *error)
 {
@@ -341,7 +341,7 @@ express(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdo
     return status;
 }
 
-/* Combine the result over one stretch with that over those before it. */
+/* Combine the result over one stretch with that over the earlier ones. */
 typedef struct {
     double length, sum, most, least, first, error, sum_error;
     bool begun;

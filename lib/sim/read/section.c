@@ -1,4 +1,4 @@
-/* section.c -- Poincaré's section of a run: crossings, what is read there, its errors. */
+/* section.c -- Poincaré sections: the crossings of a run, the values there, and their errors. */
 #include "sim/read/section.h"
 
 #include <float.h>
@@ -16,7 +16,7 @@
 #include "sim/error/partner.h"
 #include "sim/read/in-chart.h"
 
-/* Step of t for slopes, relative to t and to the whole time. */
+/* The difference of t for numerical derivatives, relative to t and to the duration of the run. */
 static const double slope_over = 0x1p-28;
 
 /* The crossings of the run, or of one of its companions. */
@@ -143,7 +143,7 @@ widen(size_t n, size_t m, double *errors)
     return QDOT_OK;
 }
 
-/* The errors of rows [n] of the run, in s from row `first` on. */
+/* The errors of rows [n] of the run, stored in s from row `first` on. */
 static qdot_status
 section_find_errors(section *x, qdot_section *s, size_t first)
 {
@@ -191,7 +191,7 @@ grow(double **at, size_t n)
     return more != NULL;
 }
 
-/* Append a row for each crossing of the run. */
+/* Append a row to the section for each crossing of the run. */
 static qdot_status
 add_rows(section *x, qdot_section *s)
 {
@@ -250,7 +250,7 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
     return status;
 }
 
-/* Of a run made in other coordinates: one stretch of its angles after the other. */
+/* For a run in other coordinates: find the crossings in one stretch of its angles after the other. */
 static qdot_status
 find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
 {

@@ -38,7 +38,7 @@ qdot_stretches_init(qdot_stretches *s, size_t n, const qdot_course *const *cours
     return QDOT_OK;
 }
 
-/* Whether the equations switch at an end t of a piece. */
+/* Whether the equations switch at the end t of a piece. */
 static bool
 switches_at(const qdot_trajectory *tr, size_t piece, double t)
 {
@@ -49,7 +49,7 @@ switches_at(const qdot_trajectory *tr, size_t piece, double t)
     return false;
 }
 
-/* The pieces of a ... b, where no course has a point. */
+/* Find the pieces that contain a ... b, an interval inside which no course has a point. */
 static void
 stretches_enter(qdot_stretches *s)
 {
@@ -98,7 +98,7 @@ qdot_stretches_next(qdot_stretches *s)
 
         s->a = s->from < s->to ? t[k] : t[n - 1 - k];
         s->b = s->from < s->to ? t[k + 1] : t[n - 2 - k];
-        /* points of two courses that differ by rounding are one */
+        /* points of two courses that differ by rounding count as one */
         if (s->a == s->b || (s->n > 1 && k + 2 < n &&
                              fabs(s->b - s->a) <= 16 * DBL_EPSILON * fabs(s->b)))
             continue;

@@ -21,13 +21,13 @@ typedef struct {
     size_t *pieces; /* [n] the piece of each course that holds the stretch */
 } qdot_stretches;
 
-/* Before the first stretch of from ... to. QDOT_ENOMEM; clear it in any case. */
+/* Prepare to go through the intervals between points in from ... to. QDOT_ENOMEM; clear s in any case. */
 QDOT_MUST_CHECK qdot_status qdot_stretches_init(qdot_stretches *s, size_t n,
                                                 const qdot_course *const *courses,
                                                 double from, double to);
 void qdot_stretches_clear(qdot_stretches *s);
 
-/* Go to the first, or the next; false: none is left. */
+/* Go to the first interval, or the next; false if none is left. */
 bool qdot_stretches_next(qdot_stretches *s);
 
 #endif

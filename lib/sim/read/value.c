@@ -1,4 +1,4 @@
-/* value.c -- any expression along a run, and its error. */
+/* value.c -- evaluates any expression along a run, with its error. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -95,7 +95,7 @@ read_values(qdot_run *run, const qdot_reading *of, size_t k, const double *times
     return status;
 }
 
-/* The piece that t lies in; of two the later. */
+/* The piece of the run that contains t; at a time between two pieces the later one. */
 static size_t
 piece_at(const qdot_trajectory *tr, double t)
 {
@@ -163,7 +163,7 @@ qdot_in_chart_values(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot
     return status;
 }
 
-/* The times, part by part: each in one stretch of the angles. */
+/* Evaluate at times group by group, each within one stretch of the angles. */
 static qdot_status
 values_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
                 double *values, double *errors)
@@ -193,7 +193,7 @@ values_along(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_t
     return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
 }
 
-/* Values along a run that counts its times from an origin. */
+/* Evaluate along a run that counts its times from an origin. */
 static qdot_status
 values_from_origin(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
                    double *values, double *errors)

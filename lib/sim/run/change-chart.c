@@ -1,4 +1,4 @@
-/* change-chart.c -- which runs are made in another chart, and the request for it. */
+/* change-chart.c -- decides which runs are repeated in other coordinates, and makes the request for them. */
 #include "sim/run/change-chart.h"
 
 #include <math.h>
@@ -13,10 +13,11 @@
 #include "sim/run/chart-start.h"
 #include "sim/run/collide.h"
 
-/* A run came near a singular place if N falls below so much of its largest value, or of 1. */
+/* A run came near a coordinate singularity if the distance N falls below this part of its largest
+ * value, or of 1. */
 static const double near_place = 0.05;
 
-/* Looked at in so many parts of a step. */
+/* The number of points at which each step is inspected. */
 enum { parts = 8 };
 
 /* Rounding held the steps so far above their tolerance, or the error is so large, that other
@@ -25,7 +26,7 @@ static const double poor = 100, poor_error = 1000, least_poor = 1e-9;
 
 /* --- which groups ---------------------------------------------------------------------------- */
 
-/* The sign of a distance at the start, and how near a run came to 0 of it. */
+/* The sign of a distance at the start, its smallest and its largest absolute value along a run. */
 typedef struct {
     int sign;
     double least, most;
@@ -60,7 +61,7 @@ measure_at(qdot_reader *r, double t, double *before, nearness *x)
     return QDOT_OK;
 }
 
-/* Along a run; where the sign changes it is 0 between two points. */
+/* Measure a distance along a run; if its sign changes it is 0 between two points. */
 static qdot_status
 measure_run(const qdot_run *run, qdot_expr distance, nearness *x)
 {
@@ -131,7 +132,7 @@ chart_put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr 
     return qdot_pool_check(s->pool);
 }
 
-/* Make the run; *run NULL where it does not arrive. */
+/* Make the run in other coordinates; *run is NULL if it does not reach its end. */
 static qdot_status
 run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker *by,
        qdot_run **run)
@@ -156,7 +157,7 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     return status;
 }
 
-/* Note the times at which the run leaves the positions that a root of the scene can express. */
+/* Add a notice of the times at which the run leaves the region in which a root of the scene is valid. */
 static qdot_status
 say_branches(qdot_run *run)
 {
@@ -193,7 +194,7 @@ say_chart(qdot_run *run)
     return qdot_text_status(&run->notice);
 }
 
-/* Whether the run is good for as long as signs, or roots, go as they may. */
+/* Whether the run is valid only as long as certain signs or roots do not change. */
 static bool
 depends_on_signs(const qdot_chart *c)
 {
@@ -204,7 +205,8 @@ depends_on_signs(const qdot_chart *c)
     return depends;
 }
 
-/* Whether events saw a sign that has changed, or the motion went where it has no one way. */
+/* Whether an event used a sign that has changed, or the motion passed a point where its direction
+ * is undefined. */
 static bool
 is_lost(const qdot_run_chart *x)
 {
@@ -308,7 +310,7 @@ is_better(const qdot_run *other, const qdot_run *run)
            (isnan(run->report.error) && !isnan(other->report.error));
 }
 
-/* `chart_change` from the start that the run has settled on the constraints, if it has one. */
+/* Apply `chart_change` to the start that the run has projected onto the constraints, if it has one. */
 static qdot_status
 change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
                qdot_run *run, qdot_run **out)
@@ -335,7 +337,7 @@ change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_ma
     return status;
 }
 
-/* Put `other` in the place of *run if it is better. */
+/* Replace *run by `other` if that is better; free the worse one. */
 static void
 take_better(const qdot_run_maker *by, qdot_run *other, qdot_run **run)
 {

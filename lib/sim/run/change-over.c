@@ -1,11 +1,11 @@
-/* change-over.c -- a stiff run once more by another method, if that is as accurate. */
+/* change-over.c -- repeats a stiff run with an implicit method, and takes that if it is as accurate. */
 #include "sim/run/change-over.h"
 
 #include <math.h>
 
 #include "sim/course/run-state.h"
 
-/* The method for stiff scenes, and the tolerance below which its steps err by rounding. */
+/* The method for stiff scenes, and the tolerance below which rounding dominates the error of its steps. */
 static const char stiff_method[] = "radau";
 static const double tightest = 1e-13;
 
@@ -19,7 +19,7 @@ is_accurate(const qdot_run *run, double tol)
     return run->report.scaled_error <= fmax(rather_wait * tol, 1e-10);
 }
 
-/* *run's place is taken by `other`, which may be NULL. */
+/* Replace *run by `other` unless that is NULL. */
 static void
 run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
 {
@@ -29,7 +29,7 @@ run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
     *run = other;
 }
 
-/* The most changes of the method that are listed one by one. */
+/* The most changes of the method that are listed individually. */
 enum { most_told = 4 };
 
 static qdot_status

@@ -21,7 +21,8 @@ typedef struct {
     void (*free)(qdot_run *run);
 } qdot_run_maker;
 
-/* Replace *run by the other one, with a notice, where it is stiff. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* If *run is stiff, replace it by a run with an implicit method, with a notice. Errors:
+ * QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_run_change_over(qdot_scene *scene,
                                                  const qdot_run_request *request,
                                                  const qdot_run_maker *by,

@@ -1,4 +1,4 @@
-/* chart-run.c -- angles continued along a run, and the end state in the coordinates given. */
+/* chart-run.c -- follows angles continuously along a run; converts the end state to the given coordinates. */
 #include "sim/run/chart-run.h"
 
 #include <float.h>
@@ -15,10 +15,11 @@
  * Each step of the run is looked at in `parts`. */
 static const double sure = 0.8, far = 2.0, turn = 6.283185307179586;
 
-/* As near a singular place, of the largest distance so far, rounding decides the direction. */
+/* So near to a singularity, relative to the largest distance so far, rounding decides the direction. */
 static const double no_direction = 1e-13;
 
-/* So small, of the largest so far, the square of a slope of P is 0: w^2 = P crosses itself there. */
+/* The gradient of P is 0 if its square is below this part of its largest value: w^2 = P crosses
+ * itself there. */
 static const double no_slope = 1e-12;
 enum { parts = 16 };
 
@@ -72,7 +73,7 @@ turns(const qdot_chart_moved *m)
     return m->bare != QDOT_NIL;
 }
 
-/* Angle i from x and y as they were read. */
+/* Compute angle i from the values x and y that were read. */
 static void
 turn_to(following *f, size_t i)
 {
@@ -93,7 +94,7 @@ turn_to(following *f, size_t i)
         f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
 }
 
-/* Whether the sign of a root read at t is not that before. */
+/* Whether the sign of a root at t differs from that before. */
 static bool
 changes_branch(const following *f)
 {
@@ -103,7 +104,7 @@ changes_branch(const following *f)
     return false;
 }
 
-/* The angles that were read, each continued from those now; the largest change. */
+/* Continue each angle from its last value to the one just read; returns the largest change. */
 static double
 turn_all(following *f)
 {
@@ -197,7 +198,7 @@ change_branches(following *f)
     }
 }
 
-/* Angles that still jump by about half a turn do so upward, whatever rounding says. */
+/* Angles that still jump by about half a turn do so upwards, so that rounding does not decide. */
 static void
 half_turns(following *f)
 {
@@ -206,7 +207,7 @@ half_turns(following *f)
             f->next[i] += turn;
 }
 
-/* Follow to t, in as many parts as it takes. */
+/* Follow the angles to the time `end`, in as many intervals as needed. */
 static qdot_status
 follow_to(following *f, double end)
 {
@@ -255,7 +256,7 @@ follow_run(following *f, const qdot_trajectory *tr)
     return QDOT_OK;
 }
 
-/* Expressions of angle i with signs +1 and -1: x, and y or what it is sin of half an angle times. */
+/* Expressions of angle i for signs +1 and -1: x, and y or the factor of the sine of half an angle. */
 static void
 express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr *xy)
 {
@@ -340,7 +341,7 @@ angles_follow(qdot_run *run)
     return status;
 }
 
-/* The first time at which the coordinates given have values. */
+/* The first time at which the given coordinates have values. */
 static double
 first_time(const qdot_run *run)
 {
@@ -395,7 +396,7 @@ qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
 
 /* --- the report ---------------------------------------------------------------------------- */
 
-/* A velocity may be undefined at a singular place. */
+/* Read end value i (of q or q') with its error; a velocity may be undefined at a singularity. */
 static qdot_status
 chart_read_end(qdot_run *run, const qdot_run_maker *by, size_t i, double *error)
 {

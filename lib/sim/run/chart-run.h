@@ -17,7 +17,7 @@
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 
-/* A time from which on angles are counted from so many quarters, with the same signs. */
+/* A time from which on angles are counted from a given number of quarter turns, with constant signs. */
 typedef struct {
     double t;
     uint64_t passed; /* signs whose place is passed exactly at t, bit by bit */
@@ -47,7 +47,7 @@ void qdot_run_chart_free(qdot_run_chart *x);
 qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
                                  bool *turns);
 
-/* Follow the angles and signs of the run, if that was not done yet. */
+/* Follow the angles and signs of the run, unless that was done before. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
 
 /* The quarters [moved], and the signs behind them, for the stretch of time t; follows the run if that was not done yet, and
@@ -55,10 +55,10 @@ QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
 QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
                                                     const long **quarters);
 
-/* Limit the comparison of companions to the whole run, but for a start at a singular place. */
+/* Limit the comparison of companions to the whole run, except for a start at a singularity. */
 void qdot_run_chart_limit(qdot_run *run);
 
-/* Put the end state, with its error, into the report of a run that has a chart. */
+/* Put the end state in the given coordinates, with its error, into the report of a run made in others. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_report(qdot_run *run,
                                                   const qdot_run_maker *by);
 

@@ -1,4 +1,4 @@
-/* chart-start.c -- a chart with the start of the run that is to be made in it. */
+/* chart-start.c -- converts the start of a run to other coordinates. */
 #include "sim/run/chart-start.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* chart-start.h -- a chart with the start of the run that is to be made in it. */
+/* chart-start.h -- converts the start of a run to other coordinates. */
 #ifndef QDOT_SIM_CHART_START_H
 #define QDOT_SIM_CHART_START_H
 
@@ -9,7 +9,7 @@
 qdot_expr qdot_chart_at_start(const qdot_scene *s, const qdot_run_request *request,
                               qdot_expr e);
 
-/* The value of e there, and its sign, 1 or -1. Errors: as qdot_constant_double. */
+/* The value of e at the start and its sign, 1 or -1. Errors: as qdot_constant_double. */
 QDOT_MUST_CHECK qdot_status qdot_chart_start_sign(const qdot_scene *s,
                                             const qdot_run_request *request, qdot_expr e,
                                             int *sign, double *value);

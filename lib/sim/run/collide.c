@@ -1,4 +1,4 @@
-/* collide.c -- which pair a run came near to, and the run in the coordinates of its collision. */
+/* collide.c -- finds the pair that nearly collided in a run, and repeats the run in regularised coordinates. */
 #include "sim/run/collide.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static const double tight = 1e-15, tight_by_points = 1e-13;
  * what is near in time is near among the points. */
 enum { parts = 8, most_refined = 64 };
 
-/* The event at which the run has come to its end. */
+/* The name of the event that ends the regularised run at the requested time. */
 static const char *const at_end = "end#";
 
 /* Lengths of s that are tried, in units of 2 (t1 - t0)/R at the start, what a bound motion takes
@@ -43,7 +43,7 @@ static const double lengths[] = {8, 1e5};
 
 /* --- which pair -------------------------------------------------------------------------------- */
 
-/* A scene without polar coordinates, in which pairs are looked for. */
+/* A scene without polar coordinates, in which colliding pairs are searched. */
 typedef struct {
     qdot_run_chart *x;
     qdot_scene *scene; /* x->chart.scene, or the one given */
@@ -108,7 +108,7 @@ with_numbers(const ground *g, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, release, NULL);
 }
 
-/* Solve M q'' = f, M numbers, for symbols in the place of f, which may be long. */
+/* Solve M q'' = f with constant M for symbols in the place of f, whose expressions may be long. */
 static qdot_status
 accelerations_solve_for(const ground *g, qdot_expr M, qdot_expr f)
 {
@@ -191,7 +191,7 @@ pair_measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* The pair that the run came nearest to; *found. */
+/* The pair whose distance became smallest in the run; *found. */
 static qdot_status
 pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
             qdot_collision_pair *pair, bool *found)
@@ -224,7 +224,7 @@ pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
 
 /* --- the run in s ------------------------------------------------------------------------------ */
 
-/* The end of the run as an event of the scene in s. */
+/* Add the end time of the run as an event of the scene with independent variable s. */
 static qdot_status
 add_end(const ground *g)
 {
@@ -249,7 +249,7 @@ at_start(const ground *g, qdot_expr e)
                                          &g->request->t0));
 }
 
-/* The run in s: its length, start and scales. */
+/* The run with independent variable s: its length, start and scales. */
 typedef struct {
     size_t n;         /* coordinates */
     double T, R, k;   /* the time, R at the start */
@@ -318,7 +318,7 @@ collision_make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run *
     return by->make(c->scene, &other, out);
 }
 
-/* Whether the run in s came to its end, or an event of the scene given stopped it. */
+/* Whether the run over s reached its end, or was stopped by an event of the given scene. */
 static bool
 arrives(const qdot_run *run)
 {
@@ -396,7 +396,7 @@ time_occurrences(qdot_course *c, size_t clock, size_t end)
     return status;
 }
 
-/* Time a course by component `clock`; `end` is the event of the end, at t1. */
+/* Convert a course over s to t, which is its component `clock`; `end` is the event at t1. */
 static qdot_status
 time_course(qdot_course *c, size_t clock, size_t end, double t1)
 {
@@ -448,7 +448,7 @@ say_stop(qdot_run *run, double t)
     return status;
 }
 
-/* Give a run that was integrated over the regular variable s its times and its horizon in t. */
+/* Convert the times and the horizon of a run over the regular variable s to t. */
 static qdot_status
 put_in_time(const ground *g, qdot_run *run)
 {
@@ -480,7 +480,7 @@ put_in_time(const ground *g, qdot_run *run)
     return QDOT_OK;
 }
 
-/* The drift of the energy, if it is conserved. */
+/* Measure the drift of the energy, if it is conserved. */
 static qdot_status
 measure_energy(const ground *g, const qdot_run_maker *by, qdot_run *run)
 {
@@ -527,7 +527,8 @@ say_collision(const ground *g, qdot_run *run)
     return status == QDOT_OK ? qdot_text_status(&run->notice) : status;
 }
 
-/* Why the run that failed was not carried through. Points without a force as 1/R^2 do not collide. */
+/* Add a notice why the collision in the failed run is not passed. Without a force like 1/R^2 there
+ * is no collision. */
 static qdot_status
 say_hindrance(const ground *g, qdot_run *run)
 {
@@ -540,7 +541,7 @@ say_hindrance(const ground *g, qdot_run *run)
 
 /* --- all of it ----------------------------------------------------------------------------------- */
 
-/* The run with that pair; *out NULL where it does not arrive. */
+/* Make the run with that pair regularised; *out is NULL if it does not reach its end. */
 static qdot_status
 collision_pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
                qdot_run **out)

@@ -20,7 +20,7 @@ moving(const qdot_plan *p)
     return p->reduced ? p->reduced : p;
 }
 
-/* Coordinates whose momenta are kept. */
+/* Write the coordinates whose momenta are conserved. */
 static void
 say_kept(const qdot_plan *r, qdot_text *out)
 {
@@ -107,7 +107,7 @@ say_time(const qdot_plan *p, qdot_text *out)
                      time ? "stands" : "does not stand");
 }
 
-/* The constraints, how they are solved, how the state is kept on them. */
+/* Describe the constraints, how they are solved, and how the state is kept on them. */
 static void
 say_constraints(const qdot_plan *p, qdot_text *out)
 {
@@ -162,7 +162,7 @@ say_blocks(const qdot_plan *p, qdot_text *out)
     }
 }
 
-/* The code that computes an expansion to order p in a run under tol. */
+/* Describe the machine code that expands to order p in a run with tolerance tol. */
 static qdot_status
 say_code(qdot_bind *bind, double tol, int p, qdot_text *out)
 {
@@ -261,7 +261,7 @@ name_all(const qdot_plan *p, qdot_text *out)
         qdot_text_format(out, "%s %s", i ? "," : "", p->names[i]);
 }
 
-/* The events, bounds and switches that watch the steps. */
+/* List the events, domains and switches that are searched for in every step. */
 static void
 say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
 {
@@ -277,7 +277,7 @@ say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
         qdot_text_format(out, "%sswitches", found ? " and " : "");
 }
 
-/* Groups of coordinates that are integrated apart, or would be. */
+/* Describe the groups of decoupled coordinates that are integrated separately, or would be without events. */
 static qdot_status
 say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
 {
@@ -325,7 +325,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
     return QDOT_OK;
 }
 
-/* The surfaces at which the equations switch, and other ends of pieces. */
+/* List the surfaces at which the equations switch, and other reasons to divide the run. */
 static qdot_status
 say_switches(const qdot_stage *s, qdot_text *out)
 {
@@ -344,7 +344,7 @@ say_switches(const qdot_stage *s, qdot_text *out)
     return QDOT_OK;
 }
 
-/* The components of the run: coordinates, and parameters that events set. */
+/* List the components of the run: coordinates, and parameters that events set. */
 static void
 say_coordinates(const qdot_plan *p, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* long-run.c -- foresees the number of steps of a run from its first ones. */
+/* long-run.c -- predicts the number of steps of a run from its first steps. */
 #include "sim/run/long-run.h"
 
 #include <math.h>
@@ -7,14 +7,14 @@
 #include "base/memory.h"
 #include "ode/integrate.h"
 
-/* The tolerance of a run for which none was said. */
+/* The default tolerance of a run. */
 static const double tol_unsaid = 1e-12;
 
-/* A look at so many steps, and at more where these make a long run likely. */
+/* The steps used for the prediction: `few_steps`, or `first_steps` if those make a long run likely. */
 enum { few_steps = 2, first_steps = 64 };
 static const double unlikely = QDOT_LONG_STEPS / 50;
 
-/* Points are kept up to 2 GB; half of it is left for their low parts and the companions'. */
+/* Stored points may take 2 GB; half is reserved for their low parts and for the companions' points. */
 static const double most_bytes = 1e9;
 
 static qdot_status
@@ -28,7 +28,7 @@ count(double t, const double *y, bool *stop, void *user)
     return QDOT_OK;
 }
 
-/* The number of steps of the whole; 0 if the first `looked` ones do not tell. */
+/* Predict the number of steps of the whole run from the first `looked` ones; 0 if they do not tell. */
 static qdot_status
 foresee(const qdot_long_run *run, int looked, double *steps)
 {

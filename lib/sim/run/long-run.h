@@ -17,7 +17,7 @@
 #define QDOT_LONG_STEPS 2e4
 #define QDOT_LONG_TOL 3e-16
 
-/* A run that is foreseen. */
+/* A run whose number of steps is to be predicted. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_ode_system *system;

@@ -1,4 +1,4 @@
-/* origin.c -- writes the scene and the request of a run far from 0 in the time from its start. */
+/* origin.c -- rewrites the scene and the request of a run far from t = 0 in the time s = t - t0. */
 #include "sim/run/origin.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "expr/exact.h"
 #include "expr/walk.h"
 
-/* Times so many lengths of the run away from 0 are counted from its start. */
+/* A run counts times from its start if that is more than this many durations of the run away from t = 0. */
 static const double far = 1024;
 
 typedef struct {
@@ -29,7 +29,7 @@ write_in_s(qdot_expr e, void *user)
     return e == QDOT_NIL ? e : qdot_subs(w->pool, e, 1, &t, &w->time);
 }
 
-/* Whether t stands in the scene, or in a value of a parameter. */
+/* Whether the scene, or the value of a parameter, depends explicitly on t. */
 static bool
 origin_has_time(qdot_scene *s, const qdot_run_request *r)
 {
@@ -47,7 +47,7 @@ origin_has_time(qdot_scene *s, const qdot_run_request *r)
     return found;
 }
 
-/* Write the scene in s; what events set is kept behind the values of the request. */
+/* Rewrite the scene in terms of s; what events set is stored after the values of the request. */
 static qdot_status
 write_scene(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
 {

@@ -11,7 +11,7 @@
 #include "mech/scene/saved.h"
 #include "sim/model/request.h"
 
-/* A request whose times are s. Start from {0}. */
+/* A request in terms of s. Start from {0}. */
 typedef struct {
     qdot_run_request request; /* borrows from the one asked for */
     double origin;            /* 0: nothing was done */
@@ -20,7 +20,7 @@ typedef struct {
     qdot_expr *values; /* of parameters, then of what events set, as it was */
 } qdot_origin;
 
-/* End it in any case. Errors: those of constants, QDOT_ENOMEM. */
+/* Rewrite scene and request; call _end in any case. Errors: those of constants, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_origin_begin(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked);
 void qdot_origin_end(qdot_origin *o);
 

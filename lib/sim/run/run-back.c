@@ -1,4 +1,4 @@
-/* run-back.c -- what a run back in time has taken for granted. */
+/* run-back.c -- reports the assumptions that a run backwards in time has made. */
 #include "sim/run/run-back.h"
 
 static bool

@@ -1,4 +1,4 @@
-/* run-doubts.c -- what makes the error of a run unknown, whatever its companions agree on. */
+/* run-doubts.c -- reasons for which the error of a run is unknown even if its companions agree. */
 #include "sim/run/run-doubts.h"
 
 #include <fenv.h>
@@ -40,7 +40,7 @@ find_hidden(qdot_run *run)
     return lose(run, text);
 }
 
-/* If the motion turned round in a constraint's cusp, nothing is known of it from there on. */
+/* If the motion reversed at a cusp of a constraint, its further course is unknown. */
 static qdot_status
 find_corner(qdot_run *run)
 {
@@ -61,7 +61,7 @@ find_corner(qdot_run *run)
     return lose(run, text);
 }
 
-/* If an event that acts where it rises or falls touches 0 but for rounding, it may act there or not. */
+/* If an event with a direction touches 0 within rounding, it is unknown whether it occurs there. */
 static qdot_status
 find_touch(qdot_run *run)
 {

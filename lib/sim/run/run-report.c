@@ -1,4 +1,4 @@
-/* run-report.c -- what a run tells of itself. */
+/* run-report.c -- fills the report of a run. */
 #include "sim/run/run-report.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "sim/form/derived.h"
 
-/* The steps of each part that was integrated apart. */
+/* Report the steps of each part that was integrated separately. */
 static qdot_status
 say_apart(qdot_run *run)
 {

@@ -1,4 +1,4 @@
-/* run-start.c -- reads the limits and the start of a run, and brings it onto the constraints. */
+/* run-start.c -- reads the time limits and the start of a run, and projects the start onto the constraints. */
 #include "sim/run/run-start.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "sim/start/start.h"
 #include "tape/shake.h"
 
-/* Refuse different limits that round to one double: the run would have no length. */
+/* Refuse different time limits that round to the same double. */
 static qdot_status
 check_length(qdot_run *run, const qdot_run_request *request)
 {
@@ -51,7 +51,7 @@ read_start(qdot_run *run, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* run->apart, with a place for each parameter that events set: these have no error. */
+/* Read run->apart, the errors of the start; parameters that events set have none. */
 static qdot_status
 read_apart(qdot_run *run, const qdot_run_request *request)
 {
@@ -116,12 +116,13 @@ check_start(qdot_run *run)
                   run->start[d->coordinate], d->text);
         return qdot_hint("start %s = ...", name);
     }
-    /* the bind of the run itself: it keeps what it finds of the constraints */
+    /* use the bind of the run itself, as it remembers what it finds about the constraints */
     QDOT_TRY(qdot_course_prepare(&run->course));
     return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
 }
 
-/* The start brought onto the constraints and checked. Where what has no mass decides a switch it stays as it was said. */
+/* Project the start onto the constraints and check it. A massless coordinate that decides a switch
+ * keeps its given value. */
 static qdot_status
 settle_and_check(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
 {

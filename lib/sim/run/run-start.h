@@ -15,7 +15,7 @@
 QDOT_MUST_CHECK qdot_status qdot_run_start(qdot_run *run, qdot_scene *scene,
                                            const qdot_run_request *request);
 
-/* After the run: name the constraints that it found redundant in run->notice. */
+/* After the run: add a notice that names the constraints found to be redundant. */
 QDOT_MUST_CHECK qdot_status qdot_run_name_redundant(qdot_run *run, qdot_scene *scene,
                                                     const qdot_run_request *request);
 

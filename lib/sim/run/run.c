@@ -33,7 +33,7 @@
 #include "sim/model/still.h"
 #include "tape/shake.h"
 
-/* The work that is left where `auto` changes over to a method for stiff scenes (ode/stiffness.h). */
+/* `auto` changes to a method for stiff scenes if at least this much work (ns) is left (ode/stiffness.h). */
 static const double worth_changing = 3e6;
 
 /* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
@@ -95,7 +95,7 @@ qdot_run_bytes(const qdot_run *run)
     const size_t points = bytes_of(&run->course.tr) + bytes_of(&run->companion.tr) +
                           bytes_of(&run->twin.tr);
 
-    /* of `digits`: those points again in long numbers, and the companion's */
+    /* with `digits` also the points of the run and of its companion in MPFR */
     return sizeof *run +
            points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
 }
@@ -116,7 +116,7 @@ check_tolerance(double tol)
 
 /* --- the run ------------------------------------------------------------------------ */
 
-/* Whether the run so far is kept after this status. */
+/* Whether an incomplete run with this status is kept. */
 static bool
 is_kept(qdot_status status)
 {
@@ -143,7 +143,7 @@ say_crossings(qdot_run *run, bool *interrupted)
     return qdot_text_status(&run->notice);
 }
 
-/* Add to the notice that the tolerance is below the rounding of the equations. */
+/* Add a notice that the tolerance is below the rounding error of the equations. */
 static qdot_status
 say_raised(qdot_run *run, double tol)
 {
@@ -164,7 +164,8 @@ last_state(const qdot_run *run)
     return run->course.tr.y + (run->course.tr.count - 1) * run->course.tr.n;
 }
 
-/* The constraints that are nearly dependent where the run stopped; whether there are any. */
+/* Append to the reason the constraints that are nearly dependent where the run stopped; whether
+ * there are any. */
 static bool
 say_dependent(const qdot_run *run, qdot_text *reason)
 {
@@ -185,7 +186,7 @@ say_dependent(const qdot_run *run, qdot_text *reason)
     return found;
 }
 
-/* Set the reason of a run whose integration failed. */
+/* Write the reason why the integration failed. */
 static qdot_status
 say_failure(qdot_run *run, qdot_status status)
 {
@@ -212,7 +213,7 @@ say_failure(qdot_run *run, qdot_status status)
     return status;
 }
 
-/* Integrate; QDOT_OK whenever there is a run to keep, *interrupted by Ctrl-C. */
+/* Integrate the run; QDOT_OK if any part of it is kept, *interrupted if Ctrl-C ended it. */
 static qdot_status
 integrate(qdot_run *run, double tol, bool *interrupted)
 {
@@ -246,7 +247,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
     return qdot_run_say_course(run);
 }
 
-/* Show the companion the states of the run at the times that it needs. */
+/* Give a companion the states of the run at the times at which it compares. */
 static qdot_status
 show_states(qdot_run *run, qdot_companion *companion)
 {
@@ -269,18 +270,18 @@ show_states(qdot_run *run, qdot_companion *companion)
     }
     qdot_free(y);
     qdot_trajectory_close(cursor);
-    /* without them the error is that of the end alone */
+    /* without these states the error is that of the end only */
     return qdot_grave(status);
 }
 
-/* Whether nothing is met on the way, and nothing can divide the run into pieces, of a run from an exact start. */
+/* Whether the run has an exact start and nothing divides it: no events, no switches. */
 static bool
 is_alone(const qdot_run *run)
 {
     return run->apart == NULL && run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
-/* Whether nothing changes the motion on the way: events are only seen. */
+/* Whether nothing changes the motion discontinuously: no switches, and no event with an effect. */
 static bool
 is_undisturbed(const qdot_run *run)
 {
@@ -296,7 +297,7 @@ measure_multipliers(qdot_run *run)
     return qdot_multipliers_measure(run->course.binds.at, &run->course.tr, &run->multipliers);
 }
 
-/* Begin the companions that run beside the run; their courses keep what they go through. */
+/* Start the companions that run in parallel; their courses record their motion. */
 static qdot_status
 start_companion(qdot_run *run, double tol, qdot_companion **out)
 {
@@ -341,7 +342,7 @@ say_lost(qdot_run *run, const char *reason)
     return qdot_run_say_doubt(run, text);
 }
 
-/* The error by two companions beside the run, on threads of their own. */
+/* Integrate, with two companions on parallel threads that estimate the error. */
 static qdot_status
 run_beside(qdot_run *run, double tol, bool *interrupted)
 {
@@ -396,7 +397,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* The error by a companion that meets its own events, after the run. */
+/* Integrate, then estimate the error by a companion with events of its own. */
 static qdot_status
 run_after(qdot_run *run, double tol, bool *interrupted)
 {
@@ -417,7 +418,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* Integrate, and find the error. */
+/* Integrate, and estimate the error: by parallel companions where possible, else by later ones. */
 static qdot_status
 integrate_with_error(qdot_run *run, double tol, bool *interrupted)
 {
@@ -453,7 +454,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < 2 * run->plan->n; i++)
         run->difference[i] = NAN;
-    /* what acts begins at a double */
+    /* run in two doubles only if no event acts: an event's time is a double */
     run->leading = run->plan->leading && is_undisturbed(run);
     status = integrate_with_error(run, tol, interrupted);
     if (status == QDOT_OK && run->course.tr.result.unfit)
@@ -478,7 +479,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     return status;
 }
 
-/* The tolerance that a run of many steps takes, in place of tol. */
+/* The tolerance that a run of many steps uses instead of tol, into *better. */
 static qdot_status
 foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
 {
@@ -502,7 +503,7 @@ foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
     return QDOT_OK;
 }
 
-/* Add to the notice that the tolerance is a tighter one. */
+/* Add a notice that a tighter tolerance than tol was used. */
 static qdot_status
 say_tighter(qdot_run *run, double tol)
 {
@@ -577,7 +578,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
     return interrupted ? QDOT_EINTR : QDOT_OK;
 }
 
-/* Make the run, anew where it is long, and while a touch of an event is none. */
+/* Make the run; repeat it with other settings if it is long, or until a touching event is decided. */
 static qdot_status
 make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
@@ -604,7 +605,7 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
 }
 
-/* Make a run; again by a method for stiff scenes if `auto` finds that it is one, or under a tighter tolerance. */
+/* Make the run; repeat it with a stiff method if `auto` finds it stiff, or with a tighter tolerance. */
 static qdot_status
 make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {
@@ -617,7 +618,7 @@ make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
     return qdot_run_tighten(scene, request, &by, out);
 }
 
-/* Make the run once more in the scales that it shows; it stays where that fails. */
+/* Repeat the run with the scales found in it; keep the first run if that fails. */
 static qdot_status
 make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **run)
 {
@@ -648,7 +649,7 @@ make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **ru
 
 static const char start_as_exact[] = "the error of the run that the start was taken from is not in that of this run";
 
-/* With the parameters that events set among its coordinates. */
+/* Make a run in which parameters that events set are further coordinates. */
 static qdot_status
 make_in_states(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {

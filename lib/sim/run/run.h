@@ -61,7 +61,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_values_beyond(qdot_run *run, size_t m,
  * same time, values [m] before that. Not of runs with `digits`. */
 QDOT_MUST_CHECK qdot_status qdot_run_point_values(qdot_run *run, size_t m, const qdot_expr *exprs,
                                                   size_t k, double *values);
-/* Whether point k + 1 has the same time: an event lies between. */
+/* Whether point k + 1 has the same time as point k, because an event occurred between. */
 bool qdot_run_is_before_event(const qdot_run *run, size_t k);
 
 /* As qdot_run_values for a run with `digits`, at one time, an exact constant: values [m]
@@ -90,7 +90,7 @@ typedef enum {
 QDOT_MUST_CHECK qdot_status qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e,
                                            double from, double to, double *value, double *error);
 
-/* An expression of several runs: where `symbol` stands in it, it is `value` along runs[run]. */
+/* A symbol in an expression of several runs: it has the value of `value` along runs[run]. */
 typedef struct {
     qdot_expr symbol, value;
     size_t run;
@@ -118,7 +118,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_event_at_end(qdot_run *run, size_t k, const
  * the companion; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,
                                                  const qdot_run_occurrence **list, size_t *n);
-/* The stretches [*n] of time in which it is not known whether an event occurs; borrowed. */
+/* The time spans [*n] in which it is unknown whether an event occurs; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_faded_events(qdot_run *run, const qdot_run_faded **list, size_t *n);
 /* Whether the scene of the run had an event of that name. */
 bool qdot_run_has_event(const qdot_run *run, const char *name);

@@ -1,16 +1,16 @@
-/* scales.c -- largest sizes along the run, their powers of ten, and what is said of them. */
+/* scales.c -- finds the scales of a run: its largest coordinates and velocities, rounded to powers of ten. */
 #include "sim/run/scales.h"
 
 #include <math.h>
 
-/* Coordinates below this have a scale of their own. */
+/* Coordinates whose largest value is below this get a scale of their own. */
 static const double small = 1e-3;
 
 /* A is no rounding if its error is below this part of it, and it is above that part of the largest
  * coordinate. */
 static const double sure = 0.1, least_part = 1e-12;
 
-/* The work of a run, in about nanoseconds, that is not done twice. */
+/* A run with more work than this (about ns) is not repeated. */
 static const double most_work = 3e8;
 
 /* The most coordinates that a notice names. */
@@ -53,7 +53,7 @@ largest_of(const qdot_trajectory *tr, size_t first, size_t n)
     return most;
 }
 
-/* The scales of coordinates into found [n], 0 where there is none. */
+/* Find scales of coordinates, into found [n]; 0 for coordinates that need none. */
 static void
 find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
                  double *found)
@@ -77,7 +77,7 @@ find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
             found[i] = largest;
 }
 
-/* Find scales of velocities: of coordinates that have a scale; of all if no velocity of the motion is large. */
+/* Find scales of velocities: of coordinates that have a scale, or of all if every velocity is small. */
 static void
 find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
                 double *found)

@@ -1,4 +1,4 @@
-/* slides.c -- the stretches of a run in which a surface was held, in words. */
+/* slides.c -- describes when a motion stuck to a surface or slid along it. */
 #include "sim/run/slides.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 /* The most time spans that are listed; the others are counted. */
 enum { MOST_LISTED = 3 };
 
-/* A stretch of a course in which a surface was held. */
+/* A time span in which the motion was held on a surface. */
 typedef struct {
     double begin, end;
     double unsure; /* of the begin, beside what companions tell */
@@ -24,7 +24,7 @@ mode_of(const qdot_course *c, size_t piece)
     return c->stage->modes.at[c->tr.pieces.at[piece].mode];
 }
 
-/* Whether piece k slides along a surface; its end that is a point only does not count. */
+/* Whether the motion slides along a surface in piece k, for more than one point. */
 static bool
 slides(const qdot_course *c, size_t k, size_t surface)
 {
@@ -103,7 +103,7 @@ add_time(const qdot_run *run, double t, double error, qdot_text *to)
     }
 }
 
-/* Bounces that would have ended behind the end of the run: there it has not come to rest. */
+/* Remove contacts whose bounces would end only after the end of the run: no rest was reached. */
 static void
 leave_out_unended(const qdot_run *run, stretches *of)
 {
@@ -111,7 +111,7 @@ leave_out_unended(const qdot_run *run, stretches *of)
         of->n--;
 }
 
-/* The stretches of the run, then those of its companions; [2] of those that there are. */
+/* List the spans of the run, then those of its companions, if it has any. */
 static qdot_status
 list_all(const qdot_run *run, size_t surface, stretches all[3])
 {
@@ -121,7 +121,7 @@ list_all(const qdot_run *run, size_t surface, stretches all[3])
     return run->has_twin ? list_stretches(&run->twin, surface, &all[2]) : QDOT_OK;
 }
 
-/* The largest distance of any two of the times [n]; NaN: there is one alone. */
+/* The largest difference between the times [n]; NaN for a single one. */
 static double
 slides_spread(const double *t, size_t n)
 {
@@ -192,7 +192,7 @@ tell(qdot_run *run, size_t surface)
     return status;
 }
 
-/* Whether the run slid along a surface that values are read by: the sides of others stand in no equation. */
+/* Whether the run slid along a surface whose side enters values; other sides occur in no equation. */
 static bool
 is_read(const qdot_run *run, size_t surface)
 {

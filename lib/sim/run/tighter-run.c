@@ -1,4 +1,4 @@
-/* tighter-run.c -- a run once more under a tighter tolerance, if that leaves digits at its end. */
+/* tighter-run.c -- repeats a run with a tighter tolerance if digits then remain at its end. */
 #include "sim/run/tighter-run.h"
 
 #include <math.h>
@@ -8,14 +8,15 @@
 
 static const double tightest = 1e-15;
 
-/* The work of a run, in about nanoseconds, beyond which it is not made again. */
+/* A run with more work than this (about ns) is not repeated. */
 static const double most_work = 1e9;
 
-/* A power of t is no larger, and nearly the same at half the time; so much may be lost by it. */
+/* Power law of the error growth: its exponent is at most `most_power`, the same within `alike` at
+ * half the time; `few` is the error allowed at the end. */
 static const double most_power = 4, alike = 1.5, few = 1e-2;
 enum { looked_at = 16 };
 
-/* The distance of the run and its companion at time t, of each component over its size; NAN: unknown. */
+/* The scaled distance of the run from its companion at t, the largest over components; NAN: unknown. */
 static double
 distance_at(const qdot_run *run, double t)
 {
@@ -32,7 +33,7 @@ distance_at(const qdot_run *run, double t)
     return most;
 }
 
-/* The largest distance between t and 2 t, as places of an orbit make it larger and smaller. */
+/* The largest distance between t and 2 t, as the distance oscillates along an orbit. */
 static double
 most_between(const qdot_run *run, double t)
 {
@@ -64,7 +65,8 @@ can_be_tighter(const qdot_run *run, const qdot_run_request *request)
            && run->meter.work < most_work && request->tol > tightest;
 }
 
-/* Whether it is likely to keep digits: neighbouring motions part exponentially, or by a power of t. */
+/* Whether a tighter tolerance probably keeps digits to the end, if errors grow exponentially, or as
+ * a power of t. */
 static bool
 is_likely(const qdot_run *run, const qdot_run_request *request)
 {

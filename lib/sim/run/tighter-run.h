@@ -15,7 +15,7 @@
 
 #include "sim/run/change-over.h"
 
-/* Replace *run by that one, with a notice. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Replace *run by a run with tighter tolerance, with a notice. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_run_tighten(qdot_scene *scene, const qdot_run_request *request,
                                              const qdot_run_maker *by, qdot_run **run);
 

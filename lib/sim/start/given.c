@@ -1,4 +1,4 @@
-/* given.c -- the start as balls: its expressions, or two doubles where it was moved. */
+/* given.c -- the start of a run as balls: from its exact expressions, or as two doubles after a projection. */
 #include "sim/start/given.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ qdot_given_clear(qdot_given *g)
     *g = (qdot_given){0};
 }
 
-/* y + low, to what is left of two doubles after they were solved for. */
+/* Set x to y + low; the radius is the rounding error of two doubles. */
 static void
 set_moved(arb_t x, double y, double low)
 {
@@ -28,7 +28,7 @@ set_moved(arb_t x, double y, double low)
     arb_clear(rest);
 }
 
-/* The value that was asked for, if it is still that; else y + low. */
+/* Set x to the exact requested value if the start still has it; else to y + low. */
 static qdot_status
 set_one(const qdot_given *g, qdot_expr asked, double y, double low, arb_t x)
 {

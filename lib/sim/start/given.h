@@ -20,17 +20,18 @@ typedef struct {
     arb_ptr at; /* [n] q, q' */
 } qdot_given;
 
-/* The values y + low [2n] of the start that was asked for. Clear it in any case. */
+/* Set up the start y + low [2n] of a request as balls. Clear g in any case. */
 QDOT_MUST_CHECK qdot_status qdot_given_init(qdot_given *g, const qdot_plan *plan,
                                             const qdot_run_request *request, const double *y,
                                             const double *low);
 void qdot_given_clear(qdot_given *g);
 
-/* Expressions [m] of the plan's inputs there, rounded; 0 where they cannot be told from 0. */
+/* Evaluate expressions [m] of the plan's inputs at the start, rounded; 0 for those not proved
+ * different from 0. */
 QDOT_MUST_CHECK qdot_status qdot_given_evaluate(const qdot_given *g, size_t m,
                                                 const qdot_expr *e, double *out);
 
-/* A ball as a double; 0 if it may be 0, NAN if it is NULL or not finite. */
+/* A ball as a double: 0 if it contains 0, NAN if it is NULL or not finite. */
 double qdot_given_double(arb_srcptr b);
 
 #endif

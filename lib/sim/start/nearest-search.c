@@ -1,4 +1,4 @@
-/* nearest-search.c -- searches points on F = 0 and moves along it towards the centre. */
+/* nearest-search.c -- finds points on F = 0 and moves along that surface towards a centre. */
 #include <math.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static const double on_it = 1e-8;   /* F = 0 is met: what is left is for balls *
 static const double alike = 1e-6;   /* points nearer than this are one */
 static const double as_near = 1e-9; /* distances nearer than this are equal */
 
-/* Slopes below this fraction of the largest of their row so far are rounding. */
+/* A gradient below this fraction of the largest one of its row so far is rounding. */
 static const double rounding = 1e-13;
 
 typedef struct {
@@ -46,7 +46,7 @@ unknown_place(const search *s, size_t i)
     return s->p->first + s->index[i];
 }
 
-/* |A_k|, or its largest so far where all that is left of it is rounding. */
+/* Set the size of row k: its length, or the largest so far if the present one is rounding. */
 static void
 measure_row(search *s, size_t k, double length)
 {
@@ -80,7 +80,7 @@ search_evaluate(search *s, const double *at, bool measure)
     return isnan(sum) ? INFINITY : sum;
 }
 
-/* The rows of A over the free unknowns, in the metric. */
+/* Compute the rows of A for the free unknowns in the metric, B = A C^-T. */
 static void
 factor_rows(search *s)
 {
@@ -106,7 +106,7 @@ factor_rows(search *s)
     qdot_row_space_factor(&s->rows, s->B, 1e-10, false);
 }
 
-/* C^-T x, in place. */
+/* x becomes C^-T x. */
 static void
 from_metric(const search *s, double *x)
 {
@@ -200,7 +200,7 @@ restore(search *s, double *at)
     return search_holds(s, at);
 }
 
-/* Along F = 0 against the gradient of the distance, each step brought back onto it. */
+/* Move along F = 0 against the gradient of the distance; each step is projected back onto F = 0. */
 static void
 slide(search *s, double *at)
 {
@@ -335,7 +335,7 @@ newton_system(search *s, const double *at, double *K, double *r)
     }
 }
 
-/* Newton's method on the conditions of a minimum, as long as its steps shrink. */
+/* Newton's method for the stationary point of the distance on F = 0, while its steps shrink. */
 static qdot_status
 polish(search *s, double *at)
 {
@@ -404,7 +404,7 @@ random_sign(uint64_t *seed)
     return ((double)(*seed >> 11) * 0x1p-53) * 2 - 1;
 }
 
-/* The k-th point: the centre, then pairs about it at different distances. */
+/* The k-th start of the search: the centre, then pairs of points about it at different distances. */
 static void
 choose_point(const search *s, int k, double *at)
 {
@@ -472,7 +472,7 @@ search_look_around(search *s, double *at, double *best, double *other, qdot_near
     return QDOT_OK;
 }
 
-/* C of W over the free unknowns; without it where W is not positive definite. */
+/* Factor W over the free unknowns as C C^T; C stays unset if W is not positive definite. */
 static qdot_status
 factor_metric(search *s)
 {

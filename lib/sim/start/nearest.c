@@ -28,7 +28,7 @@ qdot_nearest_end(qdot_nearest *p)
 
 /* --- balls -------------------------------------------------------------------------- */
 
-/* Where F and A are evaluated: the given values, the unknowns as they are given, at + low, or 0. */
+/* Where F and A are evaluated: with the unknowns as exact given values, as at + low, or all 0. */
 typedef struct {
     const qdot_nearest *p;
     enum { AS_GIVEN, MOVED, AT_ZERO } unknowns;
@@ -62,7 +62,7 @@ point_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
     return true;
 }
 
-/* Expressions [m], each rounded once. */
+/* Evaluate expressions [m], each rounded once. */
 static qdot_status
 point_evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
 {
@@ -90,7 +90,7 @@ has_unknowns(const qdot_nearest *p, qdot_expr e)
     return false;
 }
 
-/* Find the linear rows, and what they are; F and A are `out` [m + m*n]. */
+/* Find the linear rows of F and their constant coefficients; `out` [m + m*n]: F and A. */
 static qdot_status
 find_linear(qdot_nearest *p, const qdot_expr *out)
 {

@@ -33,7 +33,7 @@ typedef struct {
     const qdot_domains *domains; /* of the unknowns; NULL: none */
     const qdot_given *given;     /* [inputs] the start that is asked for */
 
-    /* made by _begin */
+    /* set by _begin: */
     qdot_tape *tape, *curved; /* F and A; second derivatives where there are any */
     qdot_expr *A;             /* [m * n] */
     uint32_t *place;          /* [3 * curves] k, i, j of each second derivative */
@@ -71,7 +71,7 @@ QDOT_MUST_CHECK qdot_status qdot_nearest_find(qdot_nearest *p, const bool *free,
                                               const double *W, double *at, double *other,
                                               qdot_nearest_outcome *outcome);
 
-/* Make F = 0 at at + low as far as two doubles go, moving the free unknowns least. */
+/* Make F = 0 at at + low to the precision of two doubles, moving the free unknowns as little as possible. */
 QDOT_MUST_CHECK qdot_status qdot_nearest_refine(qdot_nearest *p, const bool *free,
                                                 double *at, double *low);
 

@@ -1,4 +1,4 @@
-/* start.c -- which values a start keeps, which are solved for, and what is said of it. */
+/* start.c -- decides which start values are kept, solves for the others, and describes the result. */
 #include "sim/start/start.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static const double breaks = 1e-14; /* relative to max(1, |x|) */
 
 enum { MOST_LISTED = 24, MOST_ANSWERED = 4 };
 
-/* Positions or velocities: what must hold of them. */
+/* One level of a start, positions or velocities, with the equations that must hold for it. */
 typedef struct {
     qdot_scene *scene;
     const qdot_plan *plan;
@@ -38,7 +38,7 @@ typedef struct {
 
 /* --- the equations ------------------------------------------------------------------ */
 
-/* Row k: a constraint of the scene, as it stands there; behind these the equations of the plan. */
+/* Constraint k: first those of the scene as declared, after them the equations of the plan. */
 static qdot_constraints_row
 row_at(const level *l, size_t k)
 {
@@ -101,14 +101,14 @@ level_clear(level *l)
     qdot_free(l->free);
 }
 
-/* Whether coordinate i belongs to this level: without mass, or with mass. */
+/* Whether coordinate i belongs to this level: those without mass and those with mass have separate levels. */
 static bool
 is_own(const level *l, size_t i)
 {
     return l->massless == (l->plan->massless && l->plan->massless[i]);
 }
 
-/* Whether i is a coordinate, not a parameter that events set. */
+/* Whether i is a coordinate of this level, not a parameter that events set. */
 static bool
 is_moving(const level *l, size_t i)
 {
@@ -218,7 +218,7 @@ level_refuse(const level *l, const double *residual)
                : status;
 }
 
-/* Append the values of a solution x that differ from another one, "x = 1, y = 0". */
+/* Append the values of a solution x that differ from those of another one, as "x = 1, y = 0". */
 static void
 print_answer(const level *l, const double *x, const double *other, qdot_text *out)
 {
@@ -300,7 +300,7 @@ say_moved(const level *l, const double *at, qdot_text *notice)
 
 /* --- contradictions ----------------------------------------------------------------- */
 
-/* Whether the equations `kept` can hold together. */
+/* Whether the equations marked in `kept` have a common solution within the domains. */
 static qdot_status
 can_hold(const level *l, const bool *kept, const qdot_domains *domains,
          const double *start, bool *can)
@@ -330,7 +330,8 @@ can_hold(const level *l, const bool *kept, const qdot_domains *domains,
     return status;
 }
 
-/* No state keeps all constraints: set aside one after another those that do not contradict. */
+/* If no state satisfies all constraints: name a minimal set that contradicts itself, by removing
+ * others one by one. */
 static qdot_status
 blame(const level *l, const qdot_domains *domains, const double *start)
 {
@@ -369,7 +370,7 @@ blame(const level *l, const qdot_domains *domains, const double *start)
 
 /* --- a level ------------------------------------------------------------------------ */
 
-/* M at the start. */
+/* Find the nearest start that satisfies the equations, if the given one does not. */
 static qdot_status
 metric(const level *l, double *W)
 {
@@ -426,7 +427,7 @@ move_all(level *l, const qdot_domains *domains, double *y, double *other,
     return say_moved(l, y, notice);
 }
 
-/* Solve for a start that breaks the equations. */
+/* Fail for a coordinate without a given value that occurs in no constraint and must not be 0. */
 static qdot_status
 level_solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
 {
@@ -459,7 +460,7 @@ worst(const level *l, const double *y)
     return most;
 }
 
-/* Fail for a value that was not named, occurs in no constraint and may not be 0. */
+/* The rows of A at the start, each according to its constraint's kind. */
 static qdot_status
 check_left_alone(const level *l, const qdot_domains *domains, const double *y)
 {
@@ -511,7 +512,7 @@ level_settle(level *l, const qdot_domains *domains, double *y, double *low, qdot
 
 /* --- constraints that say nothing new ----------------------------------------------- */
 
-/* Rows of A by each constraint's kind, at the start. */
+/* The mass matrix M at the start, into W. */
 static qdot_status
 level_slopes(const level *l, double *A)
 {

@@ -1,4 +1,5 @@
-/* exponents.c -- integrates slopes, orthonormalises them, gathers their growth by windows. */
+/* exponents.c -- Lyapunov exponents: integrates tangent vectors, orthonormalises them, averages
+ * their growth by windows. */
 #include "sim/study/exponents.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@
  * so much. */
 static const double most_growth = 1e4;
 
-/* A bound of work that is never reached. */
+/* A limit of work that is never reached. */
 static const uint64_t no_bound = UINT64_MAX / 2;
 
 typedef struct {
@@ -94,7 +95,7 @@ pursuit_gather(pursuit *p)
     return QDOT_OK;
 }
 
-/* Stop where a direction, without its parts along those before it, is far from length 1. */
+/* Stop when a tangent vector, orthogonalised to those before it, has a length far from 1. */
 static qdot_status
 pursuit_look(double t, const double *y, bool *stop, void *user)
 {
@@ -111,7 +112,7 @@ pursuit_look(double t, const double *y, bool *stop, void *user)
 
 /* --- the way --------------------------------------------------------------------------------- */
 
-/* Integrate to `end`, or until a direction has grown too long. */
+/* Integrate to `end`, or until a tangent vector has grown too long. */
 static qdot_status
 pursuit_advance(pursuit *p, double end)
 {
@@ -128,7 +129,7 @@ pursuit_advance(pursuit *p, double end)
     return status;
 }
 
-/* Advance to `end` by a course from the present state, if events, switches or domains may divide it. */
+/* Integrate to `end` as a course of pieces, if events, switches or domains may divide the motion. */
 static qdot_status
 advance_in_pieces(pursuit *p, double end)
 {
@@ -171,7 +172,7 @@ advance_in_pieces(pursuit *p, double end)
     return status;
 }
 
-/* Integrate through one window, to the time `end`. */
+/* Integrate through one window, up to the time `end`. */
 static qdot_status
 pass_window(pursuit *p, double end)
 {
@@ -273,7 +274,7 @@ qdot_exponents_mean(size_t n, const double *x, double *mean, double *error)
     *error = fmax(3 * most, 4 * change_by_an_episode(n, x, *mean)) + fabs(half[1] - half[0]);
 }
 
-/* Put the exponents in descending order. */
+/* Sort the exponents in descending order. */
 static void
 sort(qdot_exponents *x)
 {
@@ -358,7 +359,7 @@ pursue(pursuit *p)
     return conclude(p);
 }
 
-/* How many directions there are on the constraints, and the equations of coordinates without mass. */
+/* The number of independent directions on the constraints and the equations of massless coordinates. */
 static size_t
 count_directions(const qdot_scene *s, size_t determined)
 {

@@ -1,10 +1,11 @@
-/* extremum.c -- halves a range towards its largest or least value, then follows de/dt to 0. */
+/* extremum.c -- narrows a range about its extremum by halving, then solves de/dt = 0. */
 #include "sim/study/extremum.h"
 
 #include <float.h>
 #include <math.h>
 
-/* The range is narrowed to this fraction; values are equal within ROUNDINGS roundings. */
+/* The range is halved down to this fraction of it; ROUNDINGS: values count as equal within this
+ * many rounding errors. */
 static const double narrow = 1e-5;
 enum { HALVINGS = 40, STEPS = 8, ROUNDINGS = 8 };
 
@@ -14,7 +15,7 @@ extremum_value_at(const qdot_extremum *x, qdot_expr e, double t, double *value)
     return qdot_run_values(x->run, 1, &e, 1, &t, value, NULL);
 }
 
-/* Narrow [from, to] about the extremum. */
+/* Halve [from, to] about the extremum until it is narrow. */
 static qdot_status
 extremum_halve(const qdot_extremum *x, double *from, double *to)
 {
@@ -35,7 +36,7 @@ extremum_halve(const qdot_extremum *x, double *from, double *to)
     return QDOT_OK;
 }
 
-/* Whether e at an end of the range is the extremum, and falls off from there. */
+/* Whether the extremum is at an end of the range, with e falling off from there. */
 static qdot_status
 is_end(const qdot_extremum *x, double end, bool *is)
 {
@@ -48,7 +49,7 @@ is_end(const qdot_extremum *x, double end, bool *is)
     return QDOT_OK;
 }
 
-/* t, or the end of the range that it lies beyond. */
+/* t, limited to the range. */
 static double
 clamp(const qdot_extremum *x, double t)
 {

@@ -1,4 +1,4 @@
-/* floquet.c -- slopes around a periodic orbit, the eigenvalues of what they end as, the verdict. */
+/* floquet.c -- the monodromy matrix of a periodic orbit, its eigenvalues, the verdict of stability. */
 #include "sim/study/floquet.h"
 
 #include <math.h>
@@ -21,17 +21,19 @@
  * orbit may be from that of the run, relative to max(1, |z|). */
 static const double followed = 1e-3, near_start = 1e-6;
 
-/* Change by the first rates over the time of a run, beside max(scale, |value|), that is none. */
+/* A state is at rest if its initial rate times the duration of the run is below this, relative to
+ * max(1, |value|). */
 static const double resting = 1e-9;
 
-/* A multiplier is beyond the circle by so many errors at least. */
+/* A multiplier is outside the unit circle if by more than this many errors. */
 static const double surely = 2;
 
-/* How far accelerations may differ after a period, beside their largest value; times where it is asked. */
+/* Accelerations are periodic if they differ by less than this, relative to their largest value;
+ * ASKED: times at which that is tested. */
 static const double same = 1e-7;
 enum { ASKED = 8 };
 
-/* How far from 1, beside its error, a multiplier may be found that is 1. */
+/* A multiplier that is 1 in theory may be computed this far from 1, beyond its error. */
 static const double near_one = 1e-2;
 
 typedef struct {
@@ -64,14 +66,14 @@ state_jet(const qdot_scene *s, size_t i)
     return qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
 }
 
-/* The size relative to which a difference of the i-th of q, q' counts. */
+/* The scale of the i-th of q, q', with which differences are compared. */
 static double
 size_of(const qdot_run_report *report, size_t n, size_t i, double value)
 {
     return qdot_ode_size(report->scales, i < n ? i : report->n + i - n, value);
 }
 
-/* How far q, then q' [2n] go by their rates at the beginning: by [2n]; their sizes. */
+/* The change by [2n] of each of q, q' if its initial rate lasted for the whole run; the scales of q, q'. */
 static qdot_status
 find_ways(qdot_scene *scene, qdot_run *run, double *by, double *size)
 {
@@ -149,7 +151,7 @@ has_time(const orbit *o, qdot_expr e)
     return (qdot_expr_node(o->scene->pool, e)->holds & QDOT_HAS_TIME) != 0;
 }
 
-/* Whether accelerations change with time, or what events do. */
+/* Whether accelerations, or the effects of events, depend explicitly on time. */
 static bool
 holds_time(const orbit *o)
 {
@@ -166,7 +168,7 @@ holds_time(const orbit *o)
     return false;
 }
 
-/* e with all coordinates and velocities moved a little, so that nothing is 0 by the symmetry of an orbit. */
+/* e with all coordinates and velocities shifted a little, so that a symmetric orbit does not hide anything. */
 static qdot_expr
 moved(const orbit *o, qdot_expr e)
 {
@@ -183,7 +185,7 @@ moved(const orbit *o, qdot_expr e)
     return e;
 }
 
-/* e of the same state is the same after a period. */
+/* Check that e at a given state is the same one period later. */
 static qdot_status
 check_same(orbit *o, qdot_expr of)
 {
@@ -210,7 +212,8 @@ check_same(orbit *o, qdot_expr of)
     return QDOT_OK;
 }
 
-/* Accelerations, and what events do, have the period. An event either way is where its square is 0. */
+/* Check that accelerations and events have the period. An event without direction occurs where its
+ * squared function is 0. */
 static qdot_status
 check_period(orbit *o)
 {
@@ -247,7 +250,7 @@ qdot_floquet_is_lagrangian(qdot_scene *s, bool *yes)
 
 /* --- multipliers ----------------------------------------------------------------------------- */
 
-/* One of a pair whose other one was stated as real is real too: within its error with its imaginary part. */
+/* Set a multiplier to real if its conjugate partner was: its imaginary part is within its error. */
 static void
 pair_up(qdot_floquet *x)
 {
@@ -286,7 +289,7 @@ state_trivial(qdot_floquet *x, size_t count)
     }
 }
 
-/* Whether the k-th is farther from all others than they may be off. */
+/* Whether multiplier k differs from all others by more than their errors. */
 static bool
 is_apart(const qdot_floquet *x, size_t k)
 {
@@ -323,7 +326,8 @@ floquet_judge(qdot_floquet *x)
         x->verdict = QDOT_FLOQUET_STABLE;
 }
 
-/* The multipliers, as eigenvalues of the product of B, in units in which its factors are of similar size. */
+/* The multipliers: eigenvalues of the product of the matrices B, scaled so that the factors have
+ * similar sizes. */
 static qdot_status
 find_eigenvalues(size_t K, size_t k, const double *B, const double *E, qdot_floquet *x)
 {
@@ -403,7 +407,7 @@ find_multipliers(orbit *o, qdot_floquet *x)
 
 /* --- the orbit ----------------------------------------------------------------------------------- */
 
-/* Runs go by the sizes of the states where these are far from each other, or from 1. */
+/* Use the sizes of the states as scales of the runs if they differ much from each other or from 1. */
 static qdot_status
 scale_flow(orbit *o)
 {
@@ -417,7 +421,8 @@ scale_flow(orbit *o)
     return qdot_flow_segments_of_orbit(&o->flow, o->states, NULL, o->t0, o->T, o->size, &o->K);
 }
 
-/* The start and the period from the run, the segments that its motions near by need. */
+/* Read the start and the period from the run, and choose the number of segments by how fast
+ * neighbouring motions separate. */
 static qdot_status
 floquet_begin(orbit *o)
 {

@@ -19,7 +19,7 @@
 
 #include "sim/run/run.h"
 
-/* How far a run may be from its start, beside max(scale, |value|), and come back as exactly as an orbit does. */
+/* A run is closed if its end is this close to its start, relative to max(scale, |value|). */
 #define QDOT_FLOQUET_CLOSED 1e-7
 
 typedef enum {
@@ -38,7 +38,7 @@ typedef struct {
     qdot_floquet_verdict verdict;
 } qdot_floquet;
 
-/* How far the run goes by the rates at its beginning over its time, the largest of q and q'. */
+/* *reach: the largest change of q and q' if their initial rates lasted for the whole run. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach);
 /* Whether the run began at rest: no coordinate or velocity changes, relative to max(scale, |value|). */
 QDOT_MUST_CHECK qdot_status qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests);
@@ -56,7 +56,8 @@ QDOT_MUST_CHECK qdot_status qdot_floquet_find(qdot_scene *scene, qdot_run *run,
  * as above. Clear *x in any case. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_of(size_t K, size_t k, const double *B, const double *E,
                                             size_t trivial, bool asymptotic, qdot_floquet *x);
-/* Whether only a Lagrangian and constraints that are holonomic, if in disguise, move the scene. */
+/* Whether the scene is Lagrangian: moved only by a Lagrangian and constraints that are holonomic,
+ * perhaps in integrated form. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_is_lagrangian(qdot_scene *scene, bool *yes);
 void qdot_floquet_clear(qdot_floquet *x);
 

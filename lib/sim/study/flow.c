@@ -1,4 +1,4 @@
-/* flow.c -- a response whose unknowns are a state and parameters; how fast its slopes grow. */
+/* flow.c -- the flow map: states after a time with their derivatives by the initial state and parameters. */
 #include "sim/study/flow.h"
 
 #include <float.h>
@@ -18,10 +18,10 @@ static const double tame = 30, growth_of_guess = 2, growth_of_orbit = 1e3;
 
 const double qdot_flow_tolerance[2] = {1e-13, 1e-11};
 
-/* The rounding that both flows share and their difference does not show, relative to a slope. */
+/* The relative rounding error common to both flows, which their difference does not show. */
 static const double alike = 1e-14;
 
-/* The rounding that sums keep when terms cancel, relative to the largest slope. */
+/* The rounding error that remains in sums with cancellation, relative to the largest derivative. */
 static const double cancelled = 8 * DBL_EPSILON;
 
 static qdot_status
@@ -104,7 +104,8 @@ qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double
     return qdot_response_read(x->response, count > 0 ? count : 2, times, x->value, x->by);
 }
 
-/* Units of the states in which their slopes over the last motion are alike; the largest of the coordinates is 1. */
+/* Units of the states in which the derivatives along the last motion have similar sizes; the
+ * largest coordinate unit is 1. */
 static qdot_status
 find_units(const qdot_flow *x, double *unit)
 {

@@ -10,12 +10,12 @@
 
 #include "sim/study/response.h"
 
-/* Local errors of two flows; how far numbers of one are from those of the other is an error. */
+/* The tolerances of the two flows; the difference of their results is the error. */
 extern const double qdot_flow_tolerance[2];
 
 enum { QDOT_FLOW_LOOKS = 16, QDOT_FLOW_MOST_SEGMENTS = 32 };
 
-/* Not to be copied: the response borrows from it. */
+/* The flow map of a scene. Do not copy it: the response inside borrows from it. */
 typedef struct {
     size_t n, z, p, m; /* coordinates, 2n, parameters; expressions: q, q', q'', then one more where there is one */
     qdot_run_request request;
@@ -39,7 +39,8 @@ void qdot_flow_end(qdot_flow *x);
 QDOT_MUST_CHECK qdot_status qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double from,
                                          double to, size_t count);
 
-/* The largest slope of a state at a look by what it began at, in units size [z] of the states. */
+/* The largest derivative of a state at time number `look` by its initial value, in units size [z]
+ * of the states. */
 double qdot_flow_growth(const qdot_flow *x, size_t look, const double *size);
 /* Segments that are needed over T from a state, 1 where slopes stay tame. Of the guess of an orbit, if all grows on as fast
  * as until it was no longer tame: its run may have left for places where nothing does; *size [z] as far as slopes are. Of an
@@ -72,7 +73,7 @@ QDOT_MUST_CHECK qdot_status qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *
  * the segments, ends + k step [z x (z + p)]. Without constraints c = z, and B are these. */
 QDOT_MUST_CHECK qdot_status qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step,
                                               size_t *c, double *B);
-/* Errors of B [count] by a flow, from the same by the other: coarse becomes these. */
+/* Errors of B [count] of the fine flow, from that of the coarse one; they replace `coarse`. */
 void qdot_flow_errors(size_t count, const double *B, double *coarse);
 /* Add to E [K x c x c] what rounding leaves in these factors where both flows round alike, as in a slope that is 0 by
  * cancellation: some epsilons of the largest slope in units size [z] of the states. */

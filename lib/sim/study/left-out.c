@@ -1,4 +1,4 @@
-/* left-out.c -- methods that a study leaves out. */
+/* left-out.c -- the methods that a study of methods leaves out, with reasons. */
 #include "sim/study/left-out.h"
 
 #include <stdio.h>

@@ -13,17 +13,17 @@
 #include "sim/run/long-run.h"
 #include "sim/study/method-run.h"
 
-/* Work of a run in nanoseconds; how much more than foretold it may take. */
+/* The default work (ns) of a run, and the factor by which it may exceed the prediction. */
 static const double budget_default = 1e10, slack = 4;
 
 static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4};
 
 enum { foretelling_steps = 1000, least_in_window = 8, samples_in_window = 256 };
 
-/* A bound of work that is never reached. */
+/* A limit of work that is never reached. */
 static const uint64_t no_bound = UINT64_MAX / 2;
 
-/* A run that is watched. */
+/* A run whose energy error is sampled. */
 typedef struct {
     qdot_method_run *run;
     qdot_longtime_row *row;
@@ -79,14 +79,14 @@ find_growth(qdot_longtime_row *row)
 
 /* --- a run -------------------------------------------------------------------------- */
 
-/* The end of window k of `windows`, as a part of the run. */
+/* The end of window k, as a fraction of the run's duration; windows grow by a factor sqrt(2). */
 static double
 window_end(size_t k)
 {
     return pow(2, 0.5 * ((double)k - (QDOT_LONGTIME_WINDOWS - 1)));
 }
 
-/* Close the window; one with few steps, at the beginning, is left out. */
+/* End the window and store its rms error; a window with few steps is dropped. */
 static void
 close_window(watched *w, double t)
 {
@@ -111,7 +111,7 @@ watched_look(double t, const double *y, bool *stop, void *user)
         *stop = w->too_much = true;
     if (++w->steps < w->next && t != m->t1)
         return QDOT_OK;
-    /* irregular distances: no period of the motion is met at one phase */
+    /* sample at irregular distances, so that no period of the motion is always met at the same phase */
     w->draw = w->draw * 6364136223846793005u + 1442695040888963407u;
     w->next = w->steps + 1 + (w->draw >> 33) % (1 + w->steps / samples_in_window);
     {
@@ -153,7 +153,7 @@ longtime_integrate(qdot_method_run *m, qdot_ode_options *options, qdot_ode_resul
     return qdot_ode_integrate(&system, m->plan->method, options, m->t0, m->t1, m->y, result);
 }
 
-/* The work of the whole, as its first steps foretell it; INFINITY: they fail. */
+/* Predict the work of the whole run from its first steps; INFINITY if they fail. */
 static qdot_status
 foretell(qdot_method_run *m, double tol, double *work)
 {
@@ -276,7 +276,7 @@ one_method(qdot_scene *scene, const qdot_run_request *request, const char *metho
     return status == QDOT_OK ? push_row(out, &row) : status;
 }
 
-/* Ask which method `auto` would take; the plan and a run decide. */
+/* Find which method `auto` would use; its plan, and if needed a run, decide. */
 static qdot_status
 ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 {

@@ -68,7 +68,8 @@ QDOT_MUST_CHECK qdot_status qdot_longtime_measure(qdot_scene *scene,
                                                   qdot_longtime *out);
 void qdot_longtime_clear(qdot_longtime *l);
 
-/* The slope of log y over log x [n] and its error, as above: NaN for fewer than 4 points or a y that is 0. */
+/* Fit a line to log y over log x [n]: its slope and the error of it; NaN for fewer than 4 points or
+ * if a y is 0. */
 void qdot_longtime_fit(size_t n, const double *x, const double *y, double *slope, double *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* method-run.c -- a plan, its system and its start, for a study of methods. */
+/* method-run.c -- a plan with its system and start, as used by studies of methods. */
 #include "sim/study/method-run.h"
 
 #include <math.h>
@@ -53,7 +53,7 @@ read_start(qdot_method_run *m, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* The projected start may lie on another side of a surface. */
+/* Choose the mode again after the projection, which may have moved the start across a surface. */
 static qdot_status
 settle_side(qdot_method_run *m)
 {

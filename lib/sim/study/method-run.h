@@ -33,15 +33,15 @@ QDOT_MUST_CHECK qdot_status qdot_method_run_init(qdot_method_run *m, qdot_scene 
                                                  const char *method, double tol);
 void qdot_method_run_clear(qdot_method_run *m);
 
-/* Find the energy, of the same scene. */
+/* Derive the energy of the scene if it is conserved. */
 QDOT_MUST_CHECK qdot_status qdot_method_run_find_energy(qdot_method_run *m, qdot_scene *scene);
 
-/* The start as the constraints of the scene leave it, exact constants [2n]. */
+/* The start of the scene projected onto its constraints, as exact constants [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_method_run_settled(qdot_scene *scene,
                                                     const qdot_run_request *request,
                                                     qdot_expr *start);
 
-/* The error of the conserved energy at (t, y), relative to max(1, |its start|). */
+/* The error of the conserved energy at (t, y), relative to max(1, |initial energy|). */
 double qdot_method_run_energy_error(qdot_method_run *m, double t, const double *y);
 
 #endif

@@ -19,7 +19,7 @@ static const double reference_tol = 1e-15;
 static const double ladder[QDOT_RACE_TOLERANCES] = {1e-4,  1e-6,  1e-8,
                                                     1e-10, 1e-12, 1e-14};
 
-/* Times below this are measured again. */
+/* Run times (s) shorter than this are measured again. */
 static const double long_enough = 5e-3;
 enum { MOST_REPEATS = 5, MINIMAL = 3 };
 
@@ -101,7 +101,7 @@ one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
-/* A failure of one formulation does not end the race. */
+/* Whether a failure concerns one formulation only, so that the race continues. */
 static bool
 is_its_own(qdot_status status)
 {

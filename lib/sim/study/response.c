@@ -1,4 +1,4 @@
-/* response.c -- a variational scene made for all u, or for each, and its runs. */
+/* response.c -- derivatives of a run's results by unknowns u: makes the variational scene, and runs it. */
 #include "sim/study/response.h"
 
 #include <math.h>
@@ -53,7 +53,7 @@ struct qdot_response {
 
 /* --- memory ------------------------------------------------------------------------------ */
 
-/* Forget the scene made. */
+/* Free the variational scene with all that belongs to it. */
 static void
 unmake(qdot_response *r)
 {
@@ -137,7 +137,7 @@ lower_start(qdot_response *r)
     return status;
 }
 
-/* Where constraints leave all of the start open: bring it onto them, and slopes along them. */
+/* If the constraints apply to the whole start: project it onto them, and the derivatives along them. */
 static qdot_status
 response_settle(qdot_response *r, const double *u, double t)
 {
@@ -155,7 +155,8 @@ response_settle(qdot_response *r, const double *u, double t)
     return QDOT_OK;
 }
 
-/* Fill the start y of the variational scene: q, slopes, parameters, then the velocities of all these. */
+/* Fill the start y of the variational scene: q, its derivatives, parameters; then the velocities of
+ * all these. */
 static void
 response_put_start(qdot_response *r, const double *u)
 {
@@ -174,7 +175,7 @@ response_put_start(qdot_response *r, const double *u)
 
 /* --- the scene for all u ---------------------------------------------------------------------- */
 
-/* The scale of unknown k, where it is a coordinate or a velocity of which the request says one; else 0. */
+/* The requested scale of unknown k if it is a coordinate or velocity with a scale; else 0. */
 static double
 scale_of(const qdot_response *r, size_t k)
 {
@@ -206,7 +207,8 @@ free_all(qdot_response *r)
         r->slopes[i] = QDOT_ZERO; /* the start of each run is put in as numbers */
 }
 
-/* The request of its runs: parameters among the unknowns are coordinates; its start is that of the first u. */
+/* Make the request of the runs: parameters among the unknowns become coordinates; the start is that
+ * of the first u. */
 static qdot_status
 open_parameters(qdot_response *r, const double *u)
 {
@@ -227,7 +229,7 @@ open_parameters(qdot_response *r, const double *u)
 
 /* --- the scene for one u ---------------------------------------------------------------------- */
 
-/* The values with numbers in place of all unknowns but `free`. */
+/* The values of the request, with numbers for all unknowns except `free`. */
 static void
 put_values(qdot_response *r, size_t free, qdot_expr *values)
 {
@@ -321,7 +323,7 @@ response_make(qdot_response *r, const double *u)
 
 /* --- its runs --------------------------------------------------------------------------------- */
 
-/* Forget the last run, but not the systems of its modes. */
+/* Discard the last run but keep the systems of its modes. */
 static void
 rewind_course(qdot_course *c)
 {
@@ -387,7 +389,7 @@ qdot_response_read(qdot_response *r, size_t n_times, const double *times, double
     return status;
 }
 
-/* Make what is not made, and the start at u and t. */
+/* Make what does not exist yet, and the start for u and t. */
 static qdot_status
 response_prepare(qdot_response *r, const double *u, double t)
 {

@@ -48,9 +48,10 @@ QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u,
                                               double t1);
 QDOT_MUST_CHECK qdot_status qdot_response_read(qdot_response *r, size_t n_times, const double *times,
                                                double *values, double *slopes);
-/* The variational scene, valid from the first run on, if it is made only once. */
+/* The variational scene, if there is only one for all u; valid after the first run. */
 const qdot_variation *qdot_response_variation(const qdot_response *r);
-/* Of a whole state: orthonormal tangents [count x 2n] of the constraints where a run at u, t would begin. */
+/* For unknowns that are a whole state: orthonormal tangents [count x 2n] of the constraints at the
+ * start for u, t. */
 QDOT_MUST_CHECK qdot_status qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count,
                                                    double *basis);
 

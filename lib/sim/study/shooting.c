@@ -1,4 +1,4 @@
-/* shooting.c -- segments of an orbit, the states between them, their gaps. */
+/* shooting.c -- multiple shooting: segments of an orbit, the states between them, and the gaps. */
 #include "sim/study/shooting.h"
 
 #include <math.h>
@@ -11,19 +11,21 @@
 #include "num/zero.h"
 #include "tape/derivative.h"
 
-/* The growth up to which a run gives the first guess of the states between segments. */
+/* The largest growth of disturbances with which a single run supplies the first guess of the states
+ * between segments. */
 static const double trusted[] = {30, 5, 1};
 
-/* Units of the states between, beside how far the motion goes: their changes count little. */
+/* The scale of the states between segments, relative to the extent of the motion: large, so that
+ * they change freely. */
 static const double free_states = 30;
 
-/* An orbit whose unknowns are farther from their guesses, relative to these, is another one. */
+/* The solution is another orbit if its unknowns differ from the guesses by more than this, relatively. */
 static const double near = 0.5;
 
-/* Below this part of the states' sizes accelerations and velocities are 0: a rest. */
+/* An orbit is an equilibrium if velocities and accelerations are below this part of the states' sizes. */
 static const double at_rest = 1e-6;
 
-/* Local error of segments. */
+/* The tolerance with which segments are integrated. */
 static const double tolerance = 1e-12;
 
 typedef struct {
@@ -53,7 +55,7 @@ embed(shooting *x, const double *u)
     qdot_derivative_eval(x->tape, u, 0, x->k, x->first, x->slope, x->tape_work);
 }
 
-/* The motion from a state at the parameters among u, as qdot_flow_go has it. */
+/* The motion from a state, with the parameters contained in u, as by qdot_flow_go. */
 static qdot_status
 shooting_go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
 {
@@ -62,7 +64,8 @@ shooting_go(shooting *x, const double *u, const double *state, double from, doub
     return qdot_flow_go(&x->flow, state, x->p, from, to, count);
 }
 
-/* States [K + 1] along the run from one end, at[] of them known, as long as nothing has grown more than `trust`. */
+/* States [K + 1] along the run, forwards or back from one end, up to a growth of `trust`; known[]
+ * marks those found. */
 static qdot_status
 take_states(shooting *x, const double *u, bool back, double trust, double *states, bool *known)
 {
@@ -85,7 +88,7 @@ take_states(shooting *x, const double *u, bool back, double trust, double *state
     return QDOT_OK;
 }
 
-/* The states between at first. */
+/* The first guess of the states between segments. */
 static qdot_status
 guess_states(shooting *x, const double *u, double trust, double *states, bool *known)
 {
@@ -112,7 +115,8 @@ guess_states(shooting *x, const double *u, double trust, double *states, bool *k
 
 /* --- the gaps ---------------------------------------------------------------------------------- */
 
-/* J += sign dz_at/d(all) M of rows [z x (z + p)], or of one: the state at the beginning of segment `at`. */
+/* Add sign * M times the derivatives of the state at the start of segment `at` to J; rows of M [z x
+ * (z + p)], or the unit matrix if NULL. */
 static void
 add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
 {
@@ -129,7 +133,7 @@ add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
         }
 }
 
-/* The gap behind segment s, and its slopes; of the flow the beginning and the end of the segment are known. */
+/* The gap after segment s and its derivatives, from the flow over that segment. */
 static void
 segment_fill(const shooting *x, const double *next, size_t s, double *f, double *J)
 {
@@ -183,7 +187,8 @@ shooting_evaluate(const double *u, double *f, double *error, double *slope, void
 
 /* --- the search ---------------------------------------------------------------------------------- */
 
-/* How far u is from the guess, of any unknown relative to it, or to how far a state goes. */
+/* The largest distance of an unknown in u from its guess, relative to the guess or to the extent of
+ * the motion. */
 static double
 shooting_distance(const shooting *x, const double *u, const double *guess)
 {
@@ -274,7 +279,7 @@ shooting_allocate(shooting *x)
     return QDOT_OK;
 }
 
-/* Start and period of u. */
+/* Lower the start and the period as functions of u. */
 static qdot_status
 shooting_lower(shooting *x)
 {

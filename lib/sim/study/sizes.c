@@ -5,10 +5,10 @@
 
 #include "base/memory.h"
 
-/* Beside the largest, or 1. */
+/* Sizes are far apart if one is below this part of the largest, or of 1. */
 static const double apart = 1e-2;
 
-/* A value that is so many times its error is known. */
+/* A value is known if it exceeds this many times its error. */
 static const double known = 10;
 
 enum { TIMES = 17 };

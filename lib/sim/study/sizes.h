@@ -7,10 +7,11 @@
 
 #include "sim/run/run.h"
 
-/* The largest |e_i| [n] at some times of the run, of values that are more than their errors. Errors: those of qdot_run_values. */
+/* The largest |e_i| [n] at several times of the run, ignoring values smaller than their errors.
+ * Errors: those of qdot_run_values. */
 QDOT_MUST_CHECK qdot_status qdot_sizes_along(qdot_run *run, size_t n, const qdot_expr *e, double *size);
 
-/* Whether sizes [n] are so far from each other, or so small, that 1 is no scale for all of them. */
+/* Whether sizes [n] differ so much from each other, or from 1, that the scale 1 does not fit all of them. */
 bool qdot_sizes_are_apart(size_t n, const double *size);
 
 #endif

@@ -16,7 +16,8 @@
 
 /* Singular values below so much of the largest count as 0. */
 static const double least_singular = 1e-9;
-/* Of a state: a change that is rounding. Of what F is made of: what is left of it. */
+/* `rounding`: a relative change of a state that counts as none. `left`: a residual of F that counts
+ * as 0, relative to its terms. */
 static const double rounding = 4e-15, left = 1e-9;
 enum { STEPS = 30 };
 
@@ -83,7 +84,8 @@ write_leaves(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_ex
     return qdot_pool_check(s->pool);
 }
 
-/* F and its slopes, then those of the leaves, from z, p, t. Room: F [most], slopes [most x all]. */
+/* Lower F and its gradients, then those of the integrals that label leaves, as functions of z, p,
+ * t. Room: F [most], gradients [most x all]. */
 static qdot_status
 tangents_lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_massless *massless,
                const qdot_expr *parameters)
@@ -152,7 +154,7 @@ qdot_tangents_end(qdot_tangents *x)
     *x = (qdot_tangents){0};
 }
 
-/* F and F_z = U S V^T at x->in, with the slopes of leaves or without. False: they are not finite. */
+/* Evaluate F, and factor F_z = U S V^T at x->in, with or without the rows of `leaves`. False: not finite. */
 static bool
 decompose(qdot_tangents *x, bool leaves)
 {
@@ -178,7 +180,7 @@ decompose(qdot_tangents *x, bool leaves)
     return true;
 }
 
-/* to -= F_z^+ b [rows]; returns how far relative to max(1, |to|) it moved. */
+/* to -= F_z^+ b [rows]; returns the size of the change relative to max(1, |to|). */
 static double
 subtract(const qdot_tangents *x, const double *b, double *to)
 {
@@ -200,7 +202,7 @@ subtract(const qdot_tangents *x, const double *b, double *to)
     return most;
 }
 
-/* Whether F is 0 as far as its slopes know it: where they vanish, no change says so. */
+/* Whether F is 0 within the rounding of its terms, estimated from its gradients. */
 static bool
 tangents_are_met(const qdot_tangents *x)
 {

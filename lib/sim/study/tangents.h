@@ -34,11 +34,12 @@ QDOT_MUST_CHECK qdot_status qdot_tangents_begin(qdot_tangents *x, qdot_scene *sc
                                                 size_t p, const qdot_expr *parameters);
 void qdot_tangents_end(qdot_tangents *x);
 
-/* Bring state [2n] onto the constraints at t. QDOT_EFAILED: it cannot be brought there. */
+/* Project state [2n] onto the constraints at t. QDOT_EFAILED: that is not possible. */
 QDOT_MUST_CHECK qdot_status qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, double *state);
-/* At the state settled last: make slope [2n] one along the constraints; by the parameter of that number, SIZE_MAX: by none. */
+/* At the last projected state: project the derivative slope [2n] onto the constraints; it is taken
+ * by parameter `by`, or SIZE_MAX: by none. */
 void qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope);
-/* At the state settled last: orthonormal tangents [count x 2n], which lead to no other leaf; returns count. */
+/* At the last projected state: orthonormal tangents [count x 2n] that stay on its leaf; returns count. */
 size_t qdot_tangents_basis(qdot_tangents *x, double *basis);
 
 #endif

@@ -1,4 +1,4 @@
-/* variation-parts.c -- symbols of a scene with slopes; derivatives in its directions. */
+/* variation-parts.c -- symbols of the variational scene; derivatives in its directions. */
 #include "sim/study/variation-parts.h"
 
 #include "expr/build.h"
@@ -51,7 +51,8 @@ qdot_variation_with_motion(const qdot_variation *v, qdot_expr e)
     return e;
 }
 
-/* sum over q and q' (and q'', to order 2) of de/dz times the same of y, of an e with numbers. */
+/* The sum over q and q' (and q'', if order 2) of de/dz dz/ds along direction k, for an e with
+ * parameter values. */
 static qdot_expr
 by_state(const qdot_variation *v, qdot_expr e, size_t k, uint32_t order)
 {

@@ -1,10 +1,10 @@
-/* variation-parts.h -- a scene with its slopes as data, and derivatives along it (variation.h). */
+/* variation-parts.h -- a scene with derivatives of its motion as further coordinates (variation.h). */
 #ifndef QDOT_SIM_VARIATION_PARTS_H
 #define QDOT_SIM_VARIATION_PARTS_H
 
 #include "sim/run/run.h"
 
-/* The s by which slopes are taken. */
+/* A direction: the variable s by which derivatives are taken. */
 typedef struct {
     const char *name;
     qdot_expr parameter; /* nil: s moves the start alone */
@@ -32,20 +32,21 @@ typedef struct {
     double *scales;                  /* [2 (k + 1) n] of these, as in a request; NULL: none is known */
 } qdot_variation;
 
-/* q, q', q'' of coordinate i of the scene given, and of its slope in direction k: order 0, 1, 2. */
+/* q, q', q'' (order 0, 1, 2) of coordinate i of the given scene, and of its derivative in direction k. */
 qdot_expr qdot_variation_jet(const qdot_variation *v, size_t i, uint32_t order);
 qdot_expr qdot_variation_slope_jet(const qdot_variation *v, size_t k, size_t i,
                                    uint32_t order);
-/* e with the numbers of the request; with q'' as it is along the motion. Nil: the pool failed. */
+/* e with the parameter values of the request; e with q'' replaced by the accelerations. Nil: the
+ * pool failed. */
 qdot_expr qdot_variation_with_numbers(const qdot_variation *v, qdot_expr e);
 qdot_expr qdot_variation_with_motion(const qdot_variation *v, qdot_expr e);
-/* de/ds by the parameter of direction k, with numbers put in; 0 if s moves the start alone. */
+/* de/ds by the parameter of direction k, with parameter values; 0 if s changes the start only. */
 qdot_expr qdot_variation_by_parameter(const qdot_variation *v, qdot_expr e, size_t k);
 
 /* De/Ds in direction k of an expression in q, q', q'', t and parameters, with numbers put in: an
  * expression of the new scene. Nil: the pool keeps the failure. */
 qdot_expr qdot_variation_of(const qdot_variation *v, qdot_expr e, size_t k);
-/* de/dt along the motion, likewise. */
+/* de/dt along the motion, with parameter values. */
 qdot_expr qdot_variation_rate(const qdot_variation *v, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* variation-scene.c -- the scene with its slopes: coordinates, constraints, events, the start. */
+/* variation-scene.c -- writes the variational scene: coordinates, constraints, events, start. */
 #include "sim/study/variation-scene.h"
 
 #include <math.h>
@@ -15,13 +15,13 @@
 #include "mech/dynamics/integrated.h"
 #include "sim/model/massless-jump.h"
 
-/* A value of a start that is off by more has been moved. */
+/* A start value has been moved by the projection if it changed by more than this. */
 static const double moved = 1e-9;
 
-/* Scales above are 1. */
+/* Only sizes below this become scales; larger ones use the scale 1. */
 static const double well_below = 1e-2;
 
-/* A coordinate that moves with q'' = acceleration; *T: 1/2 q'^2 is added. */
+/* Add a coordinate; *T gains 1/2 q'^2, so that its equation is q'' = acceleration. */
 static qdot_status
 add_coordinate(qdot_scene *to, qdot_expr q, qdot_expr *T)
 {
@@ -102,7 +102,7 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z, qd
     return qdot_pool_check(pool);
 }
 
-/* Add the events that change the state, with the saltation of slopes. */
+/* Add the events that change the state, with the jump (saltation) of the derivatives. */
 static qdot_status
 add_events(const qdot_variation *v)
 {
@@ -129,7 +129,7 @@ add_events(const qdot_variation *v)
 
 /* --- the start ---------------------------------------------------------------------------- */
 
-/* Whether the equation of a coordinate without mass determines coordinate i (its velocity). */
+/* Whether the equation of a massless coordinate determines coordinate i, or its velocity. */
 static bool
 is_determined(const qdot_variation *v, bool velocity, size_t i)
 {
@@ -194,7 +194,7 @@ say_bound(const qdot_variation *v, size_t k)
     return qdot_hint("leave a value unnamed in `start`, so that it follows");
 }
 
-/* Whether a condition on slopes, which is 0, is broken at the start whatever the open ones are. */
+/* Check a linear condition on the derivatives: fail if no choice of the open ones satisfies it at the start. */
 static qdot_status
 check_condition(const qdot_variation *v, qdot_expr e, size_t k)
 {
@@ -218,7 +218,7 @@ check_condition(const qdot_variation *v, qdot_expr e, size_t k)
     return fabs(value) <= moved ? QDOT_OK : say_bound(v, k);
 }
 
-/* Df = 0 and, of holonomic constraints, its rate. */
+/* Check Df = 0 and, for holonomic constraints, its time derivative. */
 static qdot_status
 check_conditions(const qdot_variation *v)
 {
@@ -237,7 +237,8 @@ check_conditions(const qdot_variation *v)
     return QDOT_OK;
 }
 
-/* A number of the size 1e-6: directions that are drawn. Constraints move the start by its square only. */
+/* A pseudo-random number of size 1e-6 for initial directions: so small that constraints move the
+ * start by its square only. */
 static qdot_expr
 drawn(qdot_pool *pool, size_t k, size_t i)
 {
@@ -255,7 +256,8 @@ start_of(const qdot_variation *v, size_t k, size_t i)
     return v->by[k].start ? v->by[k].start[i] : drawn(v->of->pool, k, i);
 }
 
-/* q, y, q', y'; what a start solves for is solved for in all directions. */
+/* Write the start of q, y, q', y'; values that the original start solves for are solved for in all
+ * directions. */
 static void
 variation_put_start(const qdot_variation *v)
 {
@@ -278,7 +280,7 @@ variation_put_start(const qdot_variation *v)
     }
 }
 
-/* Those of the request, and of slopes dz_i/ds that of z_i over that of s, where it is well below 1. */
+/* Scales of the request; dz_i/ds gets the scale of z_i divided by that of s, if it is well below 1. */
 static qdot_status
 put_scales(qdot_variation *v)
 {

@@ -1,13 +1,13 @@
-/* variation-scene.h -- the scene with slopes, written from their equations, and its start (variation.h). */
+/* variation-scene.h -- writes the variational scene and its start (variation.h). */
 #ifndef QDOT_SIM_VARIATION_SCENE_H
 #define QDOT_SIM_VARIATION_SCENE_H
 
 #include "sim/study/variation-parts.h"
 
-/* Write the scene and its start, y'' = b [k x n]. */
+/* Write the scene and its start, with y'' = b [k x n]. */
 QDOT_MUST_CHECK qdot_status qdot_variation_write(qdot_variation *v, const qdot_expr *b);
 
-/* The request of its run: that given, with its start. Borrows from both. */
+/* The request of the variational run: the given one with the start of v. Borrows from both. */
 qdot_run_request qdot_variation_request(const qdot_variation *v);
 
 /* QDOT_EINVAL if y [2 (k + 1) n], its start brought onto the constraints, has moved slopes of values that the start

@@ -31,7 +31,8 @@ qdot_variation_clear(qdot_variation *v)
 
 /* --- what is not carried --------------------------------------------------------------- */
 
-/* Whether what decides a jump of this function holds the motion, or the parameter (may be nil). */
+/* Whether the condition that decides a jump of this function depends on the motion or on the
+ * parameter (may be nil). */
 static bool
 function_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 {
@@ -55,7 +56,7 @@ function_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
     return false;
 }
 
-/* Refuse equations that jump where the motion or a parameter decides. */
+/* Refuse equations that jump where the motion or a parameter decides it. */
 static qdot_status
 refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 {
@@ -187,7 +188,7 @@ is_massless(const elimination *e, size_t i)
     return false;
 }
 
-/* The massless ones of x [n] from the others and z [m + w]. */
+/* Solve for the massless components of x [n] from the others and z [m + w]. */
 static void
 solve_massless(const elimination *e, qdot_expr *x, qdot_expr *z)
 {
@@ -213,7 +214,7 @@ solve_massless(const elimination *e, qdot_expr *x, qdot_expr *z)
         x[e->v->massless[c]] = z[m + c];
 }
 
-/* M x - A^T z = r, A x = g: x [n] from r, z [m] from g, in their places. */
+/* Solve M x - A^T z = r, A x = g in place: x [n] holds r, z [m] holds g. */
 static void
 solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
 {
@@ -255,7 +256,7 @@ coordinate_is_held(const elimination *e, size_t i)
     return false;
 }
 
-/* Whether g holds such a jet of a massless coordinate. */
+/* Whether g contains the time derivative of that order of a massless coordinate. */
 static bool
 holds_jet(const elimination *e, qdot_expr g, uint32_t order)
 {
@@ -322,7 +323,7 @@ factor_massless(elimination *e, size_t *pivot)
     return qdot_pool_check(pool);
 }
 
-/* Find the massless coordinates and give them the mass 1 in L. */
+/* Find the massless coordinates and give them mass 1 in L. */
 static void
 find_massless(elimination *e)
 {
@@ -363,7 +364,7 @@ prepare_massless(elimination *e, size_t *pivot)
     return factor_massless(e, pivot);
 }
 
-/* F of constraint c: differentiated until it holds q''. */
+/* Constraint c, differentiated by t until it contains q''. */
 static qdot_expr
 second_rate(const elimination *e, size_t c)
 {
@@ -400,7 +401,7 @@ say_undetermined(const elimination *e, size_t pivot)
                      name);
 }
 
-/* Derive M, f, the constraints, and factor them. */
+/* Derive M, f and the constraints, and factor them. */
 static qdot_status
 elimination_prepare(elimination *e)
 {
@@ -478,7 +479,7 @@ solve_motion(const elimination *e)
 
 /* --- slopes ------------------------------------------------------------------------------ */
 
-/* By z (coordinate or velocity): the right sides of the slopes, into e->x, e->z. */
+/* The right-hand sides of the derivatives by z, a coordinate or velocity, into e->x, e->z. */
 static void
 slope_by(const elimination *e, qdot_expr z)
 {

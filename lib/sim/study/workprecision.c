@@ -28,7 +28,7 @@ static const double reference_tol = 1e-15;
 /* A smaller error counts as rounding, even for a motion of small variation. */
 static const double rounding = 1e-14;
 
-/* A method at work. */
+/* A method that is measured, with its run and limits. */
 typedef struct {
     qdot_method_run run;
     qdot_course course; /* of a run that may be divided into pieces */
@@ -40,7 +40,7 @@ typedef struct {
     double residual;        /* the largest met */
 } worker;
 
-/* The end of the reference, in twice the precision of a double. */
+/* The end state of the reference run, as sums of two doubles. */
 typedef struct {
     size_t n;
     double *high, *low;
@@ -66,7 +66,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
     if (status == QDOT_ENOTBUILT || (scene->constraints.n > 0 && status == QDOT_ESINGULAR) ||
-        /* digits do not follow it: abs(x)^1.5, a coordinate without mass */
+        /* `digits` cannot be used: abs(x)^1.5, or a coordinate without mass */
         (run == NULL && status == QDOT_EFAILED)) {
         precise.digits = 0;
         status = qdot_run_new(scene, &precise, &run);
@@ -111,7 +111,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     return status;
 }
 
-/* The time counts where an event ends the run. */
+/* The scaled error of an end state; if an event ends the run also that of its time. */
 static double
 error_against(const reference *r, const double *scales, const double *y, double t)
 {
@@ -185,7 +185,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
-/* Whether the energy is that of the start all along. */
+/* Whether the energy is conserved: events do not change it. */
 static bool
 keeps_energy(const worker *w)
 {
@@ -215,7 +215,7 @@ follow_course(worker *w)
     }
 }
 
-/* Integrate a course that events, domains or switches divide into pieces. */
+/* Integrate a run that events, domains or switches divide into pieces. */
 static qdot_status
 go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
@@ -245,7 +245,7 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
     return status;
 }
 
-/* Integrate from the start to the end, `watched` for drifts or timed. */
+/* Integrate from start to end; `watched` to measure drifts, otherwise for timing. */
 static qdot_status
 worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
@@ -270,7 +270,7 @@ worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
                               w->run.t0, w->run.t1, w->run.y, result);
 }
 
-/* Three runs at least, more of short ones. */
+/* Measure the run time: at least three runs, more if they are short. */
 static qdot_status
 take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
 {
@@ -358,7 +358,7 @@ is_planned_anew(const worker *w)
     return w->run.plan->constraints && w->run.plan->method->series;
 }
 
-/* A method over the ladder. */
+/* Measure a method at all tolerances. */
 static qdot_status
 climb(qdot_scene *scene, const qdot_run_request *request, const char *method,
       const reference *r, qdot_workprecision *out)

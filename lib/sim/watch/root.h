@@ -19,11 +19,11 @@ typedef struct {
     double late, blur;
     double rounding; /* of a function of t alone: so far rounding of its operations may move the root */
     double moved;    /* so far t was put later, to that of another root of the same instant */
-    /* Of a touch: the tolerance under which |g| counts as 0, 0 if rounding makes it so; and g''. */
+    /* For a touch: the tolerance below which |g| counts as 0 (0 if rounding decides), and g''. */
     double within, bend;
 } qdot_root;
 
-/* `way` of the function that is asked for. */
+/* The direction of the function that the user asked for; `way` is that of the watched one. */
 static inline int
 qdot_root_way(const qdot_root *root)
 {
@@ -32,7 +32,7 @@ qdot_root_way(const qdot_root *root)
 
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
-    /* The same state in sums of two doubles, for steps with a series; NULL: there is none. */
+    /* The state at t as sums of two doubles, for steps with a series; NULL if not available. */
     qdot_status (*read_two)(double t, qdot_two *y, void *user);
     void *user;
     const qdot_ode_system *system; /* for accelerations and multipliers */

@@ -1,10 +1,11 @@
-/* watch-ends.c -- zeros where a run ends, and where it starts. */
+/* watch-ends.c -- zeros exactly at the end of a run, and at its start. */
 #include <float.h>
 #include <math.h>
 
 #include "sim/watch/watch-parts.h"
 
-/* Whether function i crosses 0 within the next double after t, where the run ends: the end is on it. */
+/* Whether function i crosses 0 within one double after t, where the run ends: it then counts as a
+ * zero at the end. */
 static qdot_status
 is_about_to_cross(qdot_watch *w, size_t i, double t, bool *is)
 {
@@ -43,7 +44,7 @@ qdot_watch_end_on_zero(qdot_watch *w, double t)
     return QDOT_OK;
 }
 
-/* Whether the state in z at a time is that of the start but for rounding. */
+/* Whether the state in z at time t equals the start within rounding. */
 static bool
 is_start(const qdot_watch *w, double t, const double *z)
 {

@@ -1,4 +1,4 @@
-/* watch-exclusion.c -- proves by bounds over discs that parts of a step hold no root. */
+/* watch-exclusion.c -- proves, by bounds over complex discs, that intervals of a step contain no root. */
 #include <float.h>
 #include <math.h>
 

@@ -1,4 +1,4 @@
-/* watch-fade.c -- functions that have decayed below the rounding of the run. */
+/* watch-fade.c -- detects functions that have decayed below the rounding error of the run. */
 #include <float.h>
 #include <math.h>
 
@@ -6,7 +6,7 @@
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
-/* A function has decayed where it is below this part of the largest that it has been. */
+/* A function has decayed if it is below this part of its largest value so far. */
 static const double decayed = 0x1p-20;
 
 /* It has faded when it was within its rounding all through so many steps in a row: one that only crosses 0 is larger at
@@ -23,7 +23,7 @@ qdot_watch_may_fade(qdot_watch *w, size_t i, bool may)
     w->may_fade[i] = may;
 }
 
-/* What rounding of a state y [2n], relative to the sizes that errors count relative to, makes of g_i. */
+/* The rounding error of g_i if each component of y [2n] is rounded relative to its scale. */
 static qdot_status
 find_floor(qdot_watch *w, double t, const double *y, size_t i, double *floor)
 {
@@ -36,7 +36,7 @@ find_floor(qdot_watch *w, double t, const double *y, size_t i, double *floor)
     return QDOT_OK;
 }
 
-/* Whether g_i is within its rounding all through the step to (t, y), but not 0. */
+/* Whether g_i is within its rounding error, but not 0, throughout the step to (t, y). */
 static qdot_status
 is_within(qdot_watch *w, double t, const double *y, size_t i, bool *within)
 {

@@ -50,7 +50,7 @@ how_much_later(const qdot_watch *w, const qdot_root *a, const qdot_root *b)
  * has hardly any slope rounding moves its root by far more: that tells nothing of where it is. */
 static const double most_doubles = 16;
 
-/* Whether a root is a crossing of a function of t alone, known to a few doubles of t. */
+/* Whether a root is a crossing of a function of t only, known to a few doubles of t. */
 static bool
 is_known_crossing_of_clock(const qdot_watch *w, const qdot_root *root)
 {
@@ -60,7 +60,7 @@ is_known_crossing_of_clock(const qdot_watch *w, const qdot_root *root)
            && root->rounding <= most_doubles * step;
 }
 
-/* Put the earlier of two roots at the time of the other, where both functions have changed their signs. */
+/* Move the earlier of two roots to the time of the later, where both functions have changed sign. */
 static void
 set_same_time(qdot_root *a, qdot_root *b, double direction)
 {

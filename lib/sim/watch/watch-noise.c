@@ -1,4 +1,4 @@
-/* watch-noise.c -- what rounding makes of the watched functions. */
+/* watch-noise.c -- rounding errors of the watched functions. */
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
@@ -10,7 +10,7 @@
 
 /* --- at a state ----------------------------------------------------------------------- */
 
-/* |g_i - g| at time t and the state y with its component k (2n: none) at `to`; 0 where g_i is undefined there. */
+/* The change |g_i - g| if component k of the state y (2n: none) is replaced by `to`; 0 where undefined. */
 static qdot_status
 moved_by(qdot_watch *w, double t, const double *y, size_t k, double to, size_t i, double g, double *change)
 {
@@ -150,7 +150,7 @@ qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i, double 
 
 /* --- on a part ------------------------------------------------------------------------ */
 
-/* The largest |g_i| at the nodes that were sampled first. */
+/* The largest |g_i| at the nodes of the first sample. */
 static double
 seen_size(const qdot_watch *w, size_t i)
 {

@@ -24,16 +24,16 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
  * by the distance of nodes. */
 #define QDOT_WATCH_MOST 0x1p900
 
-/* Of |g| beside a root that was located: what is less is 0, for the place of the root is rounded. */
+/* Near a located root |g| below this part of its size counts as 0, as the time of the root is rounded. */
 #define QDOT_WATCH_NEGLIGIBLE 0x1p-10
 
-/* A function of not more than so many times its noise is 0 but for rounding. */
+/* A function of at most this many times its noise counts as 0. */
 #define QDOT_WATCH_ROUNDINGS 16
 
-/* Extrema that were not sought yet. */
+/* Value of n_extrema while the extrema have not been computed. */
 #define QDOT_WATCH_UNKNOWN (-2)
 
-/* The signs of the functions at the time up to which a step has been searched. */
+/* The signs of the functions at the time up to which the step has been searched. */
 struct qdot_watch_state {
     int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on
                    g stays 0 */
@@ -61,7 +61,7 @@ struct qdot_watch {
     bool expanded;        /* the step has a series */
     bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
     bool fine;            /* values of those within the step are in two doubles at present */
-    /* what switches in the functions has the same sides on the part at hand, as far as is seen */
+    /* all switches in the functions have constant sides in the present interval, as far as was tested */
     bool steady;
     bool coarse;          /* and are not to be: beside a jump or kink */
     size_t m, n;             /* functions; coordinates */
@@ -103,7 +103,7 @@ struct qdot_watch {
     bool *fresh;     /* [m] `first` is not known yet */
     bool *grazed;    /* [m] g touches 0 at the end of the step */
     bool *live;      /* [m] g may have a root in this step */
-    /* Functions that have decayed so far that rounding hides their signs (watch-fade.c). */
+    /* Functions that have decayed until rounding hides their signs (watch-fade.c). */
     bool *may_fade;  /* [m] they may be left unsearched there */
     bool *fading;    /* [m] |g| is within its rounding all through the step at hand */
     int *faded;      /* [m] the number of steps just before it, in a row, in which it was */
@@ -120,7 +120,7 @@ struct qdot_watch {
     qdot_vec(qdot_root) roots;
 };
 
-/* A part of a step, and a function on it. */
+/* An interval of a step, and the polynomial of one function on it. */
 typedef struct {
     double a, b; /* times */
     int n;
@@ -130,7 +130,7 @@ typedef struct {
     bool sharp;     /* it is in two doubles, though values within the part are not */
 } qdot_watch_part;
 
-/* How a part is treated further, the most expensive last. */
+/* What to do with an interval; the most expensive last. */
 typedef enum {
     QDOT_PART_GOOD,
     QDOT_PART_MORE_NODES,
@@ -155,7 +155,8 @@ qdot_watch_is_fine(const qdot_watch *w, size_t i)
     return w->fine && w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i];
 }
 
-/* Of a function that is 0 where the part at hand starts: its value there, as its values are given. */
+/* The value of a function that is 0 at the start of the interval: exactly 0, or rounded as its
+ * other values are. */
 static inline double
 qdot_watch_zero(const qdot_watch *w, size_t i)
 {
@@ -170,7 +171,7 @@ qdot_watch_sign(double x)
 
 /* --- roots (watch-turns.c) ----------------------------------------------------------- */
 
-/* Add a root of the step, with the way of the function that is asked for. */
+/* Add a root of the step, with the direction of the function that was asked for. */
 QDOT_MUST_CHECK qdot_status qdot_watch_push(qdot_watch *w, qdot_root root);
 void qdot_watch_clear_turns(qdot_watch *w);
 
@@ -227,7 +228,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
                                              double by, double least, size_t i,
                                              double *noise);
 
-/* What rounding of its operations, in two doubles if `exact`, makes of g_i at the state in w->in. */
+/* The change of g_i by rounding of its operations, in two doubles if `exact`, at the state in w->in. */
 QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise);
 
 /* The same within the part: at two places beside its middle, the larger. (Some functions have none at a single place, and
@@ -235,11 +236,11 @@ QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool 
 QDOT_MUST_CHECK qdot_status qdot_watch_operations_within(qdot_watch *w, const qdot_watch_part *p, bool exact, size_t i,
                                                          double *noise);
 
-/* What rounding of the state y [2n], of t, of the terms and of the operations of g_i may make of it. */
+/* The change of g_i by rounding of the state y [2n], of t, of its terms and of its operations. */
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);
 
-/* What the rounding of the change of the state y [2n] since the start of the step makes of g_i. */
+/* The change of g_i by rounding of the change of the state y [2n] since the start of the step. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i,
                                                  double *noise);
 
@@ -249,7 +250,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_find_noise(qdot_watch *w, const qdot_watc
 
 /* --- no roots between the nodes (watch-exclusion.c) ---------------------------------- */
 
-/* For polynomials that fit all values at `nodes`: whether they miss no root between these. */
+/* Whether polynomials that fit all values at `nodes` nodes cannot miss a root between them. */
 qdot_watch_verdict qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes);
 
 /* Bound the functions on the step by its series (NULL: none); g_i keeps its sign on the step if
@@ -270,25 +271,25 @@ int qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const 
 
 /* --- roots (watch-roots.c) ----------------------------------------------------------- */
 
-/* The time at x in -1 ... 1 of a part. */
+/* The time that corresponds to x in -1 ... 1 on an interval. */
 double qdot_watch_time(const qdot_watch_part *p, double x);
 
-/* Function i on the part as a polynomial p->c, from w->samples at `nodes` nodes. */
+/* Fit function i on the interval by a polynomial p->c, from w->samples at `nodes` nodes. */
 qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes);
 
-/* After a fit: whether function i is only rounding on the part. */
+/* After a fit: whether function i is only rounding noise on the interval. */
 bool qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
-/* After a fit: the size below which function i cannot be told from rounding. */
+/* After a fit: the size below which function i cannot be told from rounding noise. */
 double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
-/* Whether a fit is good enough only because all it misses is rounding: a kink may be hidden there. */
+/* Whether a fit is accurate only within rounding noise, which may hide a kink. */
 bool qdot_watch_is_noisy(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
-/* Append the roots of function i on the part to w->roots; w->now advances to the part's end. */
+/* Append the roots of function i on the interval to w->roots; w->now advances to the interval's end. */
 QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i);
 
-/* g at t, before a root or from it on. */
+/* The value g at a time t just before a root, or at or after it. */
 typedef struct {
     double t, g;
 } qdot_watch_end;
@@ -307,13 +308,13 @@ QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from
 
 /* --- roots of one instant (watch-instants.c) ------------------------------------------ */
 
-/* Set root->rounding, if its function is of t alone and has that slope at the root. */
+/* Set root->rounding, if its function depends on t only and has that slope at the root. */
 QDOT_MUST_CHECK qdot_status qdot_watch_clock_rounding(qdot_watch *w, qdot_root *root, double slope);
 
 /* That rounding, if it is negligible beside `step` between doubles of t; else 0. */
 double qdot_watch_negligible_rounding(const qdot_root *root, double step);
 
-/* If rounding does not tell such a root from the double before root->t, it is there. */
+/* Move the root to the double before root->t if rounding cannot tell the two apart. */
 void qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdot_root *root);
 
 /* Among the roots in order of time, those of functions of t alone that rounding moves by a few doubles of
@@ -326,16 +327,17 @@ bool qdot_watch_join_instants(qdot_watch *w);
 QDOT_MUST_CHECK qdot_status qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
                                                 double v, bool *touch, double *within);
 
-/* The root there. Its time is as uncertain as two crossings may be apart that rounding makes a touch of. */
+/* Make a root for a touch; its time is uncertain by the distance of the two crossings that rounding
+ * could have merged. */
 QDOT_MUST_CHECK qdot_status qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v,
                                              double within, qdot_root *root);
 
 /* --- where a run ends and starts (watch-ends.c) -------------------------------------- */
 
-/* The run ends at t: append the zeros on which it does. */
+/* At the end t of a run: append zeros of functions that are 0 there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_end_on_zero(qdot_watch *w, double t);
 
-/* Where a start was moved by a rounding, a function that then becomes 0 was 0 at the start: remove it. */
+/* Remove a zero found because the start was shifted by one rounding: the function was 0 at the start. */
 QDOT_MUST_CHECK qdot_status qdot_watch_forget_start(qdot_watch *w);
 
 /* --- jumps, kinks (watch-rough.c) ---------------------------------------------------- */

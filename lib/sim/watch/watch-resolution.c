@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The error of a polynomial, as a fraction of its largest coefficient. */
+/* The error of a fitted polynomial, relative to its largest coefficient. */
 static const double error_of_size = 0x1p-46;
 
 int
@@ -30,14 +30,14 @@ qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const doub
     return w->n_extrema[i] > 0 ? w->n_extrema[i] : 0;
 }
 
-/* The size below which the polynomial says nothing. */
+/* The size below which the polynomial's sign is not reliable. */
 static double
 least_told(const qdot_watch_part *p)
 {
     return fmax(error_of_size * qdot_chebyshev_size(p->n, p->c), qdot_chebyshev_tail(p->n, p->c));
 }
 
-/* Whether g_i, which is said to be so large at t, in two doubles if `sharp`, is more than rounding. */
+/* Whether g_i, of the given size at t (evaluated in two doubles if `sharp`), exceeds its rounding error. */
 static qdot_status
 is_more_than_rounding(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size, bool sharp, bool *is)
 {
@@ -53,7 +53,7 @@ is_more_than_rounding(qdot_watch *w, const qdot_watch_part *p, size_t i, double 
     return QDOT_OK;
 }
 
-/* The doubles of t that the shortest part has. */
+/* The length of the shortest interval, relative to t. */
 static const double shortest = 0x1p20 * DBL_EPSILON;
 
 /* The fraction to be cut off at the start of the part, where the function is such a fraction of its size. The

@@ -1,4 +1,4 @@
-/* watch-roots.c -- one function on one part of a step: its polynomial and its roots. */
+/* watch-roots.c -- fits one function on one interval of a step by a polynomial, and finds its roots. */
 #include "sim/watch/watch-parts.h"
 
 #include <float.h>
@@ -9,18 +9,18 @@
  * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
-/* A value of at least this fraction of the size of the function is not small. */
+/* A value is not small if it is at least this fraction of the function's largest value. */
 static const double least_of_size = 1e-3;
 
-/* Beside a root a function is less than this part of its size; beside a jump and a pole it is not. */
+/* Beside a root a function is below this part of its size; beside a jump or pole it is not. */
 static const double rest_of_size = 1e-6;
 
-/* What the rounding of a function makes of its slope at a zero, by nodes that crowd there. */
+/* The factor from the rounding of a function to that of its slope at a zero: nodes lie densely near an end. */
 static const double noise_of_slope = 1e4;
 
 /* --- its polynomial ------------------------------------------------------------------ */
 
-/* Rounding of the nodes, as a fraction of the length of the part. */
+/* The rounding error of the nodes, relative to the length of the interval. */
 static double
 blur(const qdot_watch_part *p)
 {
@@ -41,7 +41,7 @@ qdot_watch_time(const qdot_watch_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* The most by which the values of function i on the part differ from the zero at its start. */
+/* The largest difference between values of function i on the interval and its zero at the start. */
 static double
 most_off_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -57,7 +57,7 @@ qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const double size = qdot_chebyshev_size(p->n, p->c);
 
-    /* the quotient with the time since it was 0 has the rounding of nodes beside the start many times */
+    /* dividing by the time since the zero amplifies rounding at nodes near the start */
     return size == 0 || (p->from_zero ? most_off_zero(w, p, i) : size) <= QDOT_WATCH_ROUNDINGS * w->noise[i];
 }
 
@@ -91,7 +91,7 @@ note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
     w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
 }
 
-/* c [p->n] of function i, or of its quotient with the time since it was 0. */
+/* Coefficients c [p->n] of function i, or of its quotient by the time since it was 0. */
 static void
 fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
 {
@@ -103,7 +103,7 @@ fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
         if (p->from_zero) {
             double t = qdot_watch_time(p, qdot_chebyshev_node(p->n, j));
 
-            /* a node that rounds to the start is as the one before */
+            /* use the value of the node before if a node rounds to the start */
             values[j] = t != p->a
                             ? (g[j] - qdot_watch_zero(w, i)) * ((p->b - p->a) / (t - p->a))
                         : j > 0 ? values[j - 1]
@@ -150,7 +150,7 @@ narrow(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *o
     return QDOT_OK;
 }
 
-/* The doubles beside the root between ends [2], as qdot_watch_cross. */
+/* Narrow the root between ends [2] to neighbouring doubles, as qdot_watch_cross. */
 static qdot_status
 locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, bool *found)
 {
@@ -185,7 +185,7 @@ locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, boo
     return QDOT_OK;
 }
 
-/* The slope of function i at t, by the part's polynomial. */
+/* The slope of function i at t, from its polynomial on the interval. */
 static double
 slope_at(const qdot_watch_part *p, double t)
 {
@@ -266,7 +266,7 @@ is_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, con
     return QDOT_OK;
 }
 
-/* The root between neighbouring doubles. */
+/* Make the root between two neighbouring doubles. */
 static qdot_status
 found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_watch_end *ends,
               qdot_root *root)
@@ -283,7 +283,7 @@ found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_w
     return root->exact ? QDOT_OK : is_pole(w, p, ends, root, &root->pole);
 }
 
-/* As qdot_watch_cross, by values as they are evaluated at present. */
+/* As qdot_watch_cross, with functions evaluated in the present precision. */
 static qdot_status
 cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
       qdot_root *root, bool *found)
@@ -419,7 +419,7 @@ qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
 
 /* --- its roots ----------------------------------------------------------------------- */
 
-/* The root of the polynomial between x0 and x1, where it is monotone. */
+/* The root of the polynomial between x0 and x1, where it is monotonic. */
 static double
 between(const qdot_watch_part *p, double x0, double x1, int way)
 {
@@ -430,7 +430,7 @@ between(const qdot_watch_part *p, double x0, double x1, int way)
                : x1;
 }
 
-/* Whether the slope at the zero at the start of the part is nothing beside the function there. */
+/* Whether the slope at the zero at the start of the interval is negligible compared to the function. */
 static bool
 is_flat(const qdot_watch_part *p)
 {
@@ -438,7 +438,7 @@ is_flat(const qdot_watch_part *p)
            <= least_slope(p) * qdot_chebyshev_size(p->n, p->c);
 }
 
-/* Whether the slope of g at the root is 0 within its rounding. */
+/* Whether the slope of g at the zero at the start is 0 within its rounding. */
 static bool
 is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -446,7 +446,7 @@ is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
            || fabs(qdot_chebyshev_at(p->n, p->c, -1)) <= noise_of_slope * w->noise[i];
 }
 
-/* The sign of a function just after its zero at the start of the part. */
+/* The sign of a function just after its zero at the start of the interval. */
 static int
 leaves_to(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -467,7 +467,7 @@ off_extremum(const qdot_watch_part *p)
     return slope < bend * fabs(p->b - p->a) ? slope / bend : 0;
 }
 
-/* How long it takes from the start of the part until the function has changed by g. */
+/* The time from the start of the interval until the function has changed by g. */
 static double
 time_of_change(const qdot_watch_part *p, double g)
 {
@@ -479,7 +479,7 @@ time_of_change(const qdot_watch_part *p, double g)
     return part * length;
 }
 
-/* The function changes its sign near the start of the part, where it is 0 but for rounding. */
+/* Handle a change of sign near the start of the interval, where the function is 0 within rounding. */
 static qdot_status
 cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 {
@@ -519,7 +519,7 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     return QDOT_OK;
 }
 
-/* A second root that rounding finds beside the zero at the start is that zero. */
+/* Whether a root at t is the zero at the start, found again because of rounding. */
 static bool
 is_start_again(const qdot_watch_part *p, double t)
 {
@@ -539,7 +539,7 @@ grazes_at_end(const qdot_watch_part *p)
     return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
 }
 
-/* Whether the function jumps to 0 at the end of the part. */
+/* Whether the function jumps to 0 at the end of the interval. */
 static bool
 falls_at_end(const qdot_watch_part *p)
 {
@@ -549,7 +549,7 @@ falls_at_end(const qdot_watch_part *p)
            && fabs(qdot_chebyshev_at(p->n, p->c, 1) - p->at_end) > least_of_size * size;
 }
 
-/* The root found last, if it is a touch of function i; else NULL. */
+/* The root found last if it is a touch of function i; else NULL. */
 static const qdot_root *
 last_touch(const qdot_watch *w, size_t i)
 {
@@ -558,7 +558,7 @@ last_touch(const qdot_watch *w, size_t i)
     return last && last->function == i && last->way == 0 ? last : NULL;
 }
 
-/* A touch within the part, so near to its end, is the same as the one at the end. */
+/* Remove touches so near to the end of the interval that they are the zero at the end. */
 static void
 forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -580,7 +580,7 @@ forget_roundings(qdot_watch *w, size_t i, double from)
         w->roots.n--;
 }
 
-/* The function vanishes on the part, at the end of which it may jump. */
+/* Treat a function that vanishes on the whole interval, and may jump at its end. */
 static qdot_status
 be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {

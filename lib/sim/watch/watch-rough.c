@@ -9,10 +9,10 @@
 #include <float.h>
 #include <math.h>
 
-/* As a fraction of t; what rounding of the states moves a kink by. */
+/* The shift of a kink by rounding of the states, relative to t. */
 static const double few_doubles = 32 * DBL_EPSILON;
 
-/* One function on the part, as far as the point `at`. */
+/* The state of a scan of one function on the interval, up to the time `at`. */
 typedef struct {
     qdot_watch *w;
     const qdot_watch_part *p;
@@ -24,7 +24,7 @@ typedef struct {
     int *sign;   /* the last sign of g that was not 0 */
 } walk;
 
-/* The root between two points, at the second of which g has the sign `way`. */
+/* Locate the root between two times; g has the sign `way` at the second one. */
 static qdot_status
 cross(walk *x, double from, double to, int way)
 {
@@ -38,7 +38,7 @@ cross(walk *x, double from, double to, int way)
     return found ? qdot_watch_push(x->w, root) : QDOT_OK;
 }
 
-/* g has become 0 between x->from and x->zero; `touches`: it has its former sign again. */
+/* Record that g has become 0 between x->from and x->zero; `touches`: it then has its former sign again. */
 static qdot_status
 stay(walk *x, bool touches)
 {
@@ -53,7 +53,7 @@ stay(walk *x, bool touches)
     return QDOT_OK;
 }
 
-/* Go on to a point. */
+/* Continue the scan to the time t, where the function has the value g. */
 static qdot_status
 go(walk *x, double t, double g)
 {
@@ -78,7 +78,7 @@ go(walk *x, double t, double g)
     return QDOT_OK;
 }
 
-/* g at t, times its sign before: positive as long as g has not crossed 0. */
+/* g at t times its sign before: positive as long as g has not crossed 0. */
 static qdot_status
 height(const walk *x, double t, double *g)
 {
@@ -108,7 +108,7 @@ is_at_zero(const walk *x, double t, double g, bool *is)
     return QDOT_OK;
 }
 
-/* The least g about the point t[1], where it is g, between t[0] and t[2]. */
+/* Find the minimum of |g| near t[1], where it is g, between t[0] and t[2]. */
 static qdot_status
 seek_least(walk *x, double *t, double g)
 {
@@ -152,7 +152,7 @@ seek_least(walk *x, double *t, double g)
                                              .blur = DBL_EPSILON * fabs(t[1])});
 }
 
-/* What so many roundings of the state in w->z, to either side, change g_i by. */
+/* The change of g_i if the state in w->z changes by that many rounding errors in either direction. */
 static qdot_status
 change(qdot_watch *w, double t, size_t i, double roundings, double *by)
 {
@@ -178,7 +178,8 @@ rough_walk_begin(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes, w
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
     QDOT_TRY(change(w, t, i, 1, &noise));
     QDOT_TRY(change(w, t, i, 1024, &more));
-    /* a function that stays 0 has no noise there; one that jumps changes as much by one rounding as by more */
+    /* a function that stays 0 has no noise; one that jumps changes as much by one rounding error as
+     * by several */
     if (fabs(g[k]) <= QDOT_WATCH_ROUNDINGS * noise && more > 256 * noise)
         x->least = fmax(x->least, fabs(g[k]));
     return QDOT_OK;

@@ -1,10 +1,10 @@
-/* watch-touches.c -- extrema at which a function touches 0. */
+/* watch-touches.c -- extrema at which a watched function touches 0. */
 #include "sim/watch/watch-parts.h"
 
 #include <float.h>
 #include <math.h>
 
-/* The fraction of its size up to which a function may be 0 at an extremum. */
+/* At an extremum a function may be 0 if it is below this fraction of its size. */
 static const double small_of_size = 1e-3;
 
 qdot_status
@@ -40,7 +40,7 @@ qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
     return QDOT_OK;
 }
 
-/* g'' at x; d: the derivative of the part's polynomial in x. */
+/* g'' at x, where d is the derivative of the interval's polynomial. */
 static double
 bend_at(const qdot_watch_part *p, const double *d, double x)
 {
@@ -64,7 +64,7 @@ most_apart(qdot_watch *w, size_t i, double t, double v, double bend, double *apa
     return QDOT_OK;
 }
 
-/* Whether the derivative d [n - 1] at x exceeds its rounding, or x lies outside the part. */
+/* Whether the derivative d [n - 1] at x exceeds its rounding error, or x lies outside the interval. */
 static bool
 is_steep(const qdot_watch_part *p, const double *d, double x)
 {

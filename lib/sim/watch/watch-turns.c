@@ -1,4 +1,5 @@
-/* watch-turns.c -- which way the function f goes in whose place g_i is watched (qdot_watch_turns). */
+/* watch-turns.c -- the direction of a function f if another function g_i with the same zeros is
+ * watched (qdot_watch_turns). */
 #include "sim/watch/watch-parts.h"
 
 #include <string.h>
@@ -39,7 +40,7 @@ qdot_watch_turns(qdot_watch *w, size_t i, qdot_expr turn, bool half)
     return own->in ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The sign of `turn` at the state in own->in. */
+/* The sign of the expression `turn` at the state in own->in. */
 static int
 sign_of(const qdot_watch *w, double t, size_t i)
 {

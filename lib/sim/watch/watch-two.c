@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A function this small beside its terms is evaluated in two doubles. */
+/* A function smaller than this, relative to its terms, is evaluated in two doubles. */
 static const double small = 0x1p-20;
 
 bool
@@ -15,7 +15,8 @@ qdot_watch_can_two(const qdot_watch *w, size_t i)
     return qdot_watch_has_two(w, i) && !w->accelerations && (w->clock[i] || (w->reader.read_two && w->expanded));
 }
 
-/* Whether any function can: the state is read in two doubles, or one is of t alone. */
+/* Whether any function can be evaluated in two doubles: the state is available so, or a function
+ * depends on t only. */
 static bool
 can_any(const qdot_watch *w)
 {
@@ -49,7 +50,7 @@ sampled_size(const qdot_watch *w, size_t i, int nodes)
     return size;
 }
 
-/* Make the tape of g in two doubles, if it is not there yet. */
+/* Make the tape of g in two doubles unless it exists. */
 static qdot_status
 make_two(qdot_watch *w)
 {
@@ -61,7 +62,7 @@ make_two(qdot_watch *w)
     return qdot_tape_two_new(w->plain ? w->plain : w->tape, 0, 2 * w->n + 1, &w->two);
 }
 
-/* The sizes of values that two doubles hold: beyond, one of them overflows or underflows. */
+/* The range of values for sums of two doubles: outside one of them overflows or underflows. */
 static const double least_of_two = 1 / QDOT_WATCH_MOST, most_of_two = QDOT_WATCH_MOST;
 
 static bool
@@ -72,7 +73,7 @@ is_of_two(const qdot_watch *w, size_t i)
     return w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
 }
 
-/* Whether a function is 0 in two doubles: as a double it may be rounding, or too small a number. */
+/* Whether a function is exactly 0 in two doubles, while its double may be rounding or underflow. */
 static bool
 is_nothing(const qdot_watch *w, size_t i)
 {
@@ -163,7 +164,7 @@ qdot_watch_value_at_begin(qdot_watch *w, const double *low)
     return QDOT_OK;
 }
 
-/* Whether what switches has the same sides at the ends of the part and between: w->steady. */
+/* Test whether all switches have constant sides on the interval: w->steady. */
 static qdot_status
 find_sides(qdot_watch *w, const qdot_watch_part *p)
 {
@@ -189,7 +190,7 @@ find_sides(qdot_watch *w, const qdot_watch_part *p)
  * size. */
 static const double shown = 0x1p-44;
 
-/* Far from t = 0 rounding of the operations of a function of t alone is more than its polynomial bears. */
+/* Find functions of t whose rounding far from t = 0 exceeds the error allowed for their polynomial. */
 static qdot_status
 find_far_clocks(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
 {

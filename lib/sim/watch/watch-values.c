@@ -15,12 +15,12 @@
 
 /* --- their tapes --------------------------------------------------------------------- */
 
-/* What a function of t alone does not contain. */
+/* What a function of t only does not contain. */
 enum {
     OF_STATE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER
 };
 
-/* Find which functions contain nothing that switches, and which are of t alone. */
+/* Find which functions contain no switches, and which depend on t only. */
 static qdot_status
 find_kinds(qdot_watch *w, const qdot_expr *e)
 {
@@ -79,7 +79,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
 
 /* --- values -------------------------------------------------------------------------- */
 
-/* Below this an interval about 0 is one that underflows. */
+/* An interval about 0 narrower than this underflows. */
 static const double nothing = 0x1p-900;
 
 /* Whether g_i, which is 0 at the state in w->in, is a number too small for a double: an operation underflows, and

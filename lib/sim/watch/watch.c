@@ -1,4 +1,4 @@
-/* watch.c -- a step looked at part by part, and what is kept from step to step. */
+/* watch.c -- searches a step for roots interval by interval, and keeps state between steps. */
 #include "sim/watch/watch.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@
 
 enum { DEEPEST = 100, MOST_PARTS = 4000 };
 
-/* A step of a series is left where so many have been looked at: it can end there. */
+/* A step with a series is ended after this many intervals; the rest becomes the next step. */
 enum { ENOUGH_PARTS = 500 };
 
 /* --- parts of a step ----------------------------------------------------------------- */
@@ -28,7 +28,7 @@ sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
     return QDOT_OK;
 }
 
-/* The worst verdict of all watched functions on a part. */
+/* The worst verdict about any watched function on an interval. */
 static qdot_watch_verdict
 judge(qdot_watch *w, qdot_watch_part *p, int nodes)
 {
@@ -45,10 +45,10 @@ judge(qdot_watch *w, qdot_watch_part *p, int nodes)
     return worst;
 }
 
-/* A part shorter than this fraction of its step, or of the part at the start of the step, is not halved further. */
+/* An interval shorter than this fraction of its step, or of the first interval, is not halved further. */
 static const double least_of_length = 0x1p-44;
 
-/* A part this short is taken as it is. */
+/* Whether an interval is too short to be examined further. */
 static bool
 is_short(const qdot_watch *w, const qdot_watch_part *p)
 {
@@ -69,7 +69,7 @@ is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int node
     return !w->smooth[i] && (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
 }
 
-/* The roots of function i on a part that is divided no further, `good` or too short for that. */
+/* The roots of function i on an interval that is not halved further: it is `good`, or too short. */
 static qdot_status
 roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
 {
@@ -99,7 +99,7 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
     return qdot_watch_seek_least(w, p, i, nodes);
 }
 
-/* Whether the polynomials of the part represent all functions accurately; *v: the worst verdict. */
+/* Whether the polynomials represent all functions accurately on the interval; *v: the worst verdict. */
 static qdot_status
 resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot_watch_verdict *v)
 {
@@ -201,7 +201,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     return QDOT_OK;
 }
 
-/* Roots nearer than this fraction of their time may be of one instant. */
+/* Roots closer than this, relative to their time, may be simultaneous. */
 static const double one_instant = 64 * DBL_EPSILON;
 
 /* Whether a root from w->roots.at[since] on ends the step, clearly before b; *after: how long after the start of
@@ -221,7 +221,7 @@ ends_before(const qdot_watch *w, double b, size_t since, double *after)
     return false;
 }
 
-/* Put a part's end onto the stack. */
+/* Push the end of an interval onto the stack, with the values there. */
 static qdot_status
 wait_until(qdot_watch *w, double t, double *ends, int *depth)
 {
@@ -589,7 +589,7 @@ qdot_watch_free(qdot_watch *w)
     qdot_free(w);
 }
 
-/* Room for everything: numbers in one block, signs in another, flags in a third. */
+/* Allocate all arrays: numbers in one block, signs in another, flags in a third. */
 static qdot_status
 watch_make_room(qdot_watch *w)
 {

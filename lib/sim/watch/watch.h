@@ -47,14 +47,14 @@ QDOT_MUST_CHECK qdot_status qdot_watch_new(const qdot_plan *plan, size_t m,
                                            qdot_watch **watch);
 void qdot_watch_free(qdot_watch *w);
 
-/* Declare that g_i is coordinate - bound: a step far from the bound is not searched. */
+/* Declare that g_i is coordinate - bound: a step that stays far from the bound is not searched. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 
 /* Declare that g_i stands for another function f, which at a zero of g_i changes its sign as g_i * turn does
  * (sim/model/repeated-zeros.h). `half`: f is not 0 where turn < 0; such a root of g_i is given as a pole. Errors: as
  * qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_watch_turns(qdot_watch *w, size_t i, qdot_expr turn, bool half);
-/* Whether turn < 0 at a state, so that f goes the other way than g_i; never with `half`. */
+/* Whether turn < 0 at a state: f then has the opposite direction of g_i. Never true with `half`. */
 bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 
 /* Let g_i fade: where it has decayed and stays within the rounding of the state its zeros are not sought. That is for
@@ -63,7 +63,7 @@ bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
 double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 
-/* What is known of the functions g at the start of a piece. */
+/* What is known about the functions g at the start of a piece. */
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
                                the start was moved by a rounding of 1 */
@@ -101,7 +101,7 @@ void qdot_watch_take(qdot_watch *w);
  * roots. Such a step is to be tried shorter. */
 double qdot_watch_reached(const qdot_watch *w);
 
-/* The number of parts of steps that were inspected so far. */
+/* The number of intervals of steps that were inspected so far. */
 size_t qdot_watch_looked_at(const qdot_watch *w);
 
 /* Whether only bounds are watched and the step, by its series, stays far from all of them: then
@@ -120,11 +120,11 @@ QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const doubl
                                             const double *rates, const double *fast, size_t i,
                                             double *rate, double *noise);
 
-/* What changes of the components of the state y [2n] by 4 roundings of by [2n] make of g_i. */
+/* The change of g_i if each component of the state y [2n] changes by 4 rounding errors of by [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
                                                 const double *by, size_t i, double *noise);
 
-/* The change of g_i by 4 roundings of the time, if g_i depends on it. */
+/* The change of g_i by 4 rounding errors of t, if it depends on t. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i,
                                                      double *noise);
 
