@@ -49,7 +49,7 @@ holds_relations(const qdot_pool *pool, qdot_expr e)
             qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, 0)));
 }
 
-/* As typed it may stand with other spaces: A[1, 2] and A[1,2]. */
+/* Whether two texts differ only in spaces, as A[1, 2] and A[1,2]. */
 static bool
 same_but_spaces(const char *a, const char *b)
 {
@@ -61,7 +61,8 @@ same_but_spaces(const char *a, const char *b)
     }
 }
 
-/* Whether a value is printed as its name is. One of more operations than the name has characters is not. */
+/* Whether a value prints exactly as its name, so that `name = value` says nothing. A value with
+ * more operations than the name has characters does not. */
 static qdot_status
 says_the_same(qdot_session *session, const char *name, qdot_expr value, bool *same)
 {
@@ -172,7 +173,7 @@ add_part(qdot_sheet *s, qdot_formula_role role, qdot_text *text)
     qdot_text_clear(text);
 }
 
-/* 1.25 ± 3e-13 */
+/* Append a number with its error: 1.25 ± 3e-13. */
 static void
 measured(qdot_sheet *s, double value, double error)
 {
@@ -190,7 +191,7 @@ measured(qdot_sheet *s, double value, double error)
     }
 }
 
-/* A formula that begins with `name = `. */
+/* Begin a formula with `name = `. */
 static qdot_status
 open_named(qdot_sheet *s, const char *name)
 {
@@ -290,7 +291,7 @@ static const char *const verdicts[] = {
 static const char *const verdict_colours[] = {
     [QDOT_PROVED] = QDOT_GREEN, [QDOT_REFUTED] = QDOT_RED, [QDOT_UNDECIDED] = QDOT_YELLOW};
 
-/* ` at x = 1, y = 2: left = 3, right = 4`, where the sides differ. */
+/* Append ` at x = 1, y = 2: left = 3, right = 4`, a point at which the two sides differ. */
 static qdot_status
 check_add_place(qdot_sheet *s, const qdot_decision *decision)
 {
@@ -363,7 +364,7 @@ point_json(qdot_session *session, qdot_expr at, qdot_text *line)
     return QDOT_OK;
 }
 
-/* A side of a check; numbers of runs as they are; how large it is where it is too large. */
+/* Print one side of a check: results of runs as numbers; of a very large expression only its size. */
 static qdot_status
 print_side(qdot_session *session, qdot_expr side, qdot_text *out)
 {

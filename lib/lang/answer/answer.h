@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_answer_solved(qdot_session *session, const char
 /* {"kind":"number"}: error 0: exact to the last digit; NaN: unknown. */
 QDOT_MUST_CHECK qdot_status qdot_answer_number(qdot_session *session, const char *name,
                                                double value, double error);
-/* {"kind":"numbers"}: values [n], errors [n]. */
+/* Answer {"kind":"numbers"}: values [n], errors [n]. */
 QDOT_MUST_CHECK qdot_status qdot_answer_numbers(qdot_session *session, const char *name,
                                                 size_t n, const double *values,
                                                 const double *errors);
@@ -38,12 +38,12 @@ QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const ch
                                                  bool several, const qdot_text *values,
                                                  const qdot_text *errors);
 
-/* {"kind":"check"}: left, right as they were compared. */
+/* Answer {"kind":"check"}: the verdict, with left and right as they were compared. */
 QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr left,
                                               qdot_expr right,
                                               const qdot_decision *decision);
 
-/* {"kind":"file"}: `wrote PATH`. */
+/* Answer {"kind":"file"}: `wrote PATH`. */
 QDOT_MUST_CHECK qdot_status qdot_answer_file(qdot_session *session, const char *path);
 
 /* The text becomes that file, then as qdot_answer_file. Errors: those of the text and of
@@ -51,10 +51,10 @@ QDOT_MUST_CHECK qdot_status qdot_answer_file(qdot_session *session, const char *
 QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const char *path,
                                                 const qdot_text *text);
 
-/* {"kind":"notice"}: `notice: MESSAGE` (printf). */
+/* Answer {"kind":"notice"}: `notice: MESSAGE` (printf). */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
                                                ...) QDOT_PRINTF(2, 3);
-/* The same with %s for e, printed plain. */
+/* A notice in whose format %s stands for e, printed as plain text. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e);
 /* Give the text as a notice if `status` is QDOT_OK, and clear it. Returns `status`, or the first failure after it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text);

@@ -1,4 +1,4 @@
-/* digits.c -- many digits told, and no more than are known. */
+/* digits.c -- prints results of runs with `digits`: as many digits as are known. */
 #include "lang/answer/digits.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ meaningful(mpfr_srcptr x, int digits, double error)
     return known < 1 ? 1 : known < digits ? (int)known : digits;
 }
 
-/* x from its digits 0.d1 d2 ... 10^exponent. */
+/* Write x, given by its digits as 0.d1 d2 ... 10^exponent. */
 static void
 write_number(const char *d, long exponent, qdot_text *out)
 {
@@ -81,7 +81,7 @@ write_number(const char *d, long exponent, qdot_text *out)
     }
 }
 
-/* An exact number's digits end where 0s alone follow behind the point. */
+/* Drop trailing zeros after the decimal point of an exact number. */
 static void
 drop_zeros(char *d, long exponent)
 {
@@ -114,7 +114,7 @@ write_real(mpfr_srcptr x, int digits, double error, bool shortly, qdot_text *out
     return QDOT_OK;
 }
 
-/* Whether the numbers in e, one at least, are of `numeric` without digits said. */
+/* Whether e contains results of runs, and all of them were made without a given number of digits. */
 static bool
 is_plain(qdot_session *session, qdot_expr e)
 {
@@ -132,7 +132,7 @@ is_plain(qdot_session *session, qdot_expr e)
     return any;
 }
 
-/* e as it is, its numbers of runs as the rationals that they are. */
+/* The value of e with many digits; results of runs enter as the exact rationals that they are. */
 static qdot_status
 digits_value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
 {

@@ -16,7 +16,7 @@ int qdot_digits_of(qdot_session *session, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_digits_text(qdot_session *session, qdot_expr e,
                                              int digits, double error, qdot_text *out);
 
-/* The same; *error becomes that of what is printed, where the digits leave out more than it. */
+/* As qdot_digits_text, for an expression; *error is raised to the error of the printed digits. */
 QDOT_MUST_CHECK qdot_status qdot_digits_number(qdot_session *session, qdot_expr e, int digits, double *error,
                                                qdot_text *out);
 

@@ -7,7 +7,7 @@
 #include "expr/print-formula.h"
 #include "expr/walk.h"
 
-/* Whether e is the latest series, or one of a list of them. */
+/* Whether e is the latest series, or one member of a list of series. */
 static bool
 is_series(const qdot_session *session, qdot_expr e)
 {

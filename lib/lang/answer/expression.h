@@ -1,4 +1,5 @@
-/* expression.h -- values of a session as formulas and as text: a series by its degree, none that is too large. */
+/* expression.h -- prints values as formulas and as text: series by increasing degree; of too large
+ * ones only the size. */
 #ifndef QDOT_LANG_EXPRESSION_H
 #define QDOT_LANG_EXPRESSION_H
 
@@ -11,7 +12,7 @@
 QDOT_MUST_CHECK qdot_status qdot_expression_add(qdot_session *session, qdot_expr e, qdot_notation_kind notation,
                                                 qdot_formula *f, qdot_formula_id parent);
 
-/* Append e as text. The same errors. */
+/* Append e as text in that style. Errors: as above. */
 QDOT_MUST_CHECK qdot_status qdot_expression_print(qdot_session *session, qdot_expr e, qdot_style style,
                                                   qdot_text *out);
 

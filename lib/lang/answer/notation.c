@@ -72,7 +72,7 @@ notation_add_half(const writer *w, qdot_formula_id parent)
     notation_add_number(w, parent, "2");
 }
 
-/* A letter with dots above. */
+/* Append a letter with `dots` dots above it (a time derivative). */
 static void
 add_letter(const writer *w, qdot_formula_id parent, char letter, size_t dots)
 {
@@ -88,7 +88,7 @@ add_letter(const writer *w, qdot_formula_id parent, char letter, size_t dots)
     add_name(w, parent, name);
 }
 
-/* A letter or a word; returns what follows. */
+/* Append one letter or word of the notation; returns the text after it. */
 static const char *
 add_base(const writer *w, qdot_formula_id parent, const char *at)
 {
@@ -118,7 +118,7 @@ add_base(const writer *w, qdot_formula_id parent, const char *at)
     return at + 1 + primes;
 }
 
-/* A base and its square. */
+/* Append a letter or word, with `^2` as a superscript if it follows. */
 static const char *
 add_atom(const writer *w, qdot_formula_id parent, const char *at)
 {
@@ -166,7 +166,7 @@ add_slope(const writer *w, qdot_formula_id parent, const char *at)
     return add_base(w, add_side(w, fraction, whole), at + (whole ? 3 : 4));
 }
 
-/* Whether `dX/dY` or `d/dt` stands there. */
+/* Whether a derivative `dX/dY` or `d/dt` begins at this place of the text. */
 static bool
 is_slope(const char *at)
 {

@@ -11,10 +11,10 @@
 
 #include "formula/formula.h"
 
-/* Append the formula; in a script as it stands. */
+/* Append a formula given in this notation to the tree; for a script it is copied as text. */
 void qdot_notation_add(qdot_formula *f, qdot_formula_id parent, const char *formula, qdot_notation_kind notation);
 
-/* Append the formula in a line, for a script (as it stands) or for the eye. */
+/* Print a formula given in this notation as one line, for a script (unchanged) or for the eye. */
 void qdot_notation_print(const char *formula, qdot_notation_kind notation, qdot_text *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* report.c -- a run told: what a person needs to know, and the same as JSON. */
+/* report.c -- prints the report of a run for people, and as JSON. */
 #include "lang/answer/report.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ status_word(qdot_run_status status)
     return words[status];
 }
 
-/* Number i of the end state in digits, for JSON in quotes; its error is absolute. */
+/* Number i of the end state with `digits`, in quotes for JSON; its error is absolute. */
 static qdot_status
 exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double error,
              qdot_text *number)
@@ -46,7 +46,7 @@ double_number(qdot_session *session, double value, double error, double size,
                          isfinite(error) ? fmax(error, 2e-16) * size : NAN);
 }
 
-/* What is at the end: jets, parameters that events set, multipliers. */
+/* A number of the end state: coordinate, velocity, parameter that events set, or multiplier. */
 typedef struct {
     qdot_expr symbol;
     double value, error; /* relative to size */
@@ -148,7 +148,7 @@ drifts_json(qdot_text *line, const qdot_run_report *r)
     qdot_text_char(line, '}');
 }
 
-/* The parts that were integrated apart. */
+/* Write the groups of coordinates that were integrated separately. */
 static void
 parts_json(qdot_text *line, const qdot_run_report *r)
 {
@@ -162,7 +162,7 @@ parts_json(qdot_text *line, const qdot_run_report *r)
     qdot_text_char(line, ']');
 }
 
-/* How the constraints were kept, and how sure the multipliers of "state" are. */
+/* Write how the constraints were kept, and whether the multipliers in "state" are unique. */
 static qdot_status
 constraints_json(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
@@ -234,7 +234,7 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     return QDOT_OK;
 }
 
-/* A count with its noun: 1 step, 12 steps. */
+/* Write a count with its noun: 1 step, 12 steps. */
 static void
 counted(qdot_text *line, size_t n, const char *noun)
 {
@@ -248,7 +248,7 @@ seconds(qdot_text *line, double s)
     qdot_text_add(line, s < 1 ? " ms" : " s");
 }
 
-/* How far the constraints were left, and what was done about it. */
+/* Write how far the state left the constraints, and what was done against it. */
 static void
 constraints_text(qdot_text *line, const qdot_run_report *r)
 {
@@ -282,13 +282,13 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
                          r->independent, r->m);
 }
 
-/* A quantity that drifts by less holds. */
+/* A quantity counts as conserved if its drift is below this. */
 static const double drifts_little = 1e-3;
 
-/* Tolerances above this are worth a hint that a smaller one reaches further. */
+/* For tolerances above this a smaller one would give correct digits for longer: worth a hint. */
 static const double of_method = 1e-11;
 
-/* What holds beyond the horizon. */
+/* Write which quantities are still known after the horizon, where the state is not. */
 static void
 beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
@@ -319,7 +319,7 @@ beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
     }
 }
 
-/* The end state, or since when it is nothing but error. */
+/* Write the end state, or the time since which it is dominated by error. */
 static qdot_status
 end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {

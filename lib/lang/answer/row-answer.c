@@ -1,4 +1,4 @@
-/* row-answer.c -- rows of many runs as answers. */
+/* row-answer.c -- prints the rows of many runs: sweeps, ensembles. */
 #include "lang/answer/row-answer.h"
 
 #include <math.h>
@@ -8,10 +8,10 @@
 #include "lang/answer/write.h"
 #include "lang/session/row-columns.h"
 
-/* Failed rows that are told one by one. */
+/* The most failed rows that are listed individually. */
 enum { FEW = 5 };
 
-/* Which row it is: "omega = 0.5, theta = 1". */
+/* Append the parameter values of row k: "omega = 0.5, theta = 1". */
 static void
 name_row(const qdot_row_table *table, size_t k, qdot_text *text)
 {

@@ -7,13 +7,13 @@
 
 #include "lang/session/row-tables.h"
 
-/* A table of so many rows is printed as an answer; of more, how many there are. */
+/* A table with at most this many rows is printed; for longer ones only the number of rows. */
 enum { QDOT_ROWS_PRINTED = 24 };
 
-/* Rows from .. to - 1; JSON only. */
+/* Write rows from .. to - 1, as JSON only. */
 QDOT_MUST_CHECK qdot_status qdot_row_answer_part(qdot_session *session, const qdot_row_table *table, size_t from,
                                                  size_t to);
-/* All rows: as JSON, or as a table with why rows failed, the first few, below. */
+/* Write all rows: as JSON, or as a table with the reasons of the first failures below. */
 QDOT_MUST_CHECK qdot_status qdot_row_answer(qdot_session *session, const qdot_row_table *table);
 
 #endif

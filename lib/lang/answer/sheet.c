@@ -1,4 +1,4 @@
-/* sheet.c -- answers in which formulas stand, for a terminal, a text, a page. */
+/* sheet.c -- answers that contain formulas, for a terminal, as plain text, for a page. */
 #include "lang/answer/sheet.h"
 
 #include <inttypes.h>
@@ -84,7 +84,7 @@ qdot_sheet_clear(qdot_sheet *s)
 
 /* --- what stands in it -------------------------------------------------------------------- */
 
-/* Text within a line; a drawn one may end behind each word. */
+/* Append text to the line; on a terminal a line may break after each word. */
 static void
 sheet_add_words(qdot_sheet *s, const char *text, size_t n)
 {
@@ -137,7 +137,7 @@ qdot_sheet_format(qdot_sheet *s, const char *format, ...)
     qdot_free(many);
 }
 
-/* Append the text, which is cleared. */
+/* Append the text and clear it. */
 static void
 sheet_add_text(qdot_sheet *s, qdot_text *text)
 {
@@ -188,7 +188,7 @@ qdot_sheet_expr(qdot_sheet *s, qdot_expr e)
     return qdot_expression_add(s->session, e, s->notation, &s->formula, s->at);
 }
 
-/* A line may end behind each word of the name. */
+/* Append a name such that a line may break after each of its words. */
 static qdot_status
 add_name_by_words(qdot_sheet *s, const char *name, unsigned flags)
 {
@@ -236,7 +236,7 @@ qdot_sheet_is_empty(const qdot_sheet *s)
 
 /* --- lines of text ------------------------------------------------------------------------- */
 
-/* A formula within a text; its name in colour. */
+/* Append a formula to a text, with its name in colour. */
 static qdot_status
 write_formula(const qdot_sheet *s, qdot_formula_id formula, bool colours, qdot_text *out)
 {
@@ -285,7 +285,7 @@ write_lines(const qdot_sheet *s, bool colours, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* Whether a line is only the end of the one before it. */
+/* Whether `line` is the empty line after the last line break. */
 static bool
 is_last_end(const qdot_sheet *s, qdot_formula_id line)
 {
@@ -336,7 +336,8 @@ lay_out(const qdot_sheet *s, qdot_text *out, qdot_layout_size *size)
     return qdot_text_status(out);
 }
 
-/* What is higher than the terminal: its first half, how much it is, and how all of it is seen. */
+/* If the text is higher than the terminal: keep its first half, with a note how long it is and how
+ * to see all. */
 static void
 sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 {
@@ -373,7 +374,7 @@ sheet_draw(const qdot_sheet *s, const char *name)
     return qdot_answer_drawn(s->session, name, status, &drawn);
 }
 
-/* The equations of the present statement, begun if there are none. */
+/* The page block for equations of the present statement; it is made if missing. */
 static qdot_formula_page *
 find_block(qdot_session *session)
 {

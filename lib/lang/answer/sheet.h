@@ -40,22 +40,22 @@ typedef struct {
 
 /* An answer. */
 qdot_sheet qdot_sheet_begin(qdot_session *session);
-/* The same, never drawn, and no equation but on a page that is a file: a line with formulas in it. */
+/* As qdot_sheet_begin, but formulas stand within lines of text, never drawn over several rows. */
 qdot_sheet qdot_sheet_begin_words(qdot_session *session);
-/* What becomes a text of this style (qdot_sheet_text), formulas without marks. */
+/* Begin a sheet that becomes a text of this style (qdot_sheet_text), without marks around formulas. */
 qdot_sheet qdot_sheet_begin_text(qdot_session *session, qdot_style style);
 
-/* Append text, in which lines end with \n. */
+/* Append text; \n ends a line. */
 void qdot_sheet_words(qdot_sheet *sheet, const char *text);
 void qdot_sheet_format(qdot_sheet *sheet, const char *format, ...) QDOT_PRINTF(2, 3);
 
 /* Append a number to `digits` digits. */
 void qdot_sheet_double(qdot_sheet *sheet, double x, int digits);
 
-/* Append a number with an error: the digits that this leaves. */
+/* Append a number with the digits that its error leaves. */
 void qdot_sheet_known(qdot_sheet *sheet, double x, double error);
 
-/* A formula begins, ends. */
+/* Begin and end a formula. */
 void qdot_sheet_open(qdot_sheet *sheet);
 void qdot_sheet_close(qdot_sheet *sheet);
 
@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_sheet_name(qdot_sheet *sheet, const char *name,
 /* Append e as a formula. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_formula(qdot_sheet *sheet, qdot_expr e);
 
-/* Whether nothing stands in the present line, in any line. */
+/* Whether the present line is empty; whether the whole sheet is. */
 bool qdot_sheet_at_begin(const qdot_sheet *sheet);
 bool qdot_sheet_is_empty(const qdot_sheet *sheet);
 
@@ -81,7 +81,7 @@ QDOT_MUST_CHECK qdot_status qdot_sheet_text(qdot_sheet *sheet, qdot_status statu
 /* The sheet is cleared, and nothing is answered. */
 void qdot_sheet_clear(qdot_sheet *sheet);
 
-/* Equations of the present statement that are collected for one block are written, or forgotten. */
+/* Write, or discard, the equations of the present statement that were collected for one block. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_flush(qdot_session *session);
 void qdot_sheet_forget(qdot_session *session);
 

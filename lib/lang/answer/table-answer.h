@@ -13,10 +13,10 @@ QDOT_MUST_CHECK qdot_status qdot_answer_columns(qdot_session *session, const cha
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row);
 QDOT_MUST_CHECK qdot_status qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t);
 
-/* Append the table as people read it, to be folded on a terminal (base/wrap.h). */
+/* Append a table as people read it, with marks at which a terminal may break it (base/wrap.h). */
 QDOT_MUST_CHECK qdot_status qdot_answer_add_table(const qdot_table *t, qdot_text *out);
 
-/* {"kind":"row"} for each row; as text, the table as an answer of that name. */
+/* Answer {"kind":"row"} for each row in JSON; as text, the table under that name. */
 QDOT_MUST_CHECK qdot_status qdot_answer_table(qdot_session *session, const char *name, const qdot_table *t);
 
 #endif

@@ -93,7 +93,7 @@ plain_word(writer *w, const char *word, bool called)
     add_upright(w->out, word, called);
 }
 
-/* The length of `[1,2]` at `at`, an index that may be a member's; 0: it is none. */
+/* The length of an index `[1,2]` at this place of the text; 0 if there is none. */
 static size_t
 index_length(const char *at)
 {
@@ -102,7 +102,7 @@ index_length(const char *at)
     return n > 1 && at[n] == ']' ? n + 1 : 0;
 }
 
-/* The declared name that begins with `word` at w->at, its index with it. */
+/* The declared name that begins with `word` at w->at, including an index such as x[1]. */
 static const qdot_name *
 declared_name(const writer *w, const char *word, size_t *index)
 {
@@ -169,7 +169,7 @@ word(writer *w)
     return status;
 }
 
-/* `[` behind a word or a bracket begins an index: below the line in LaTeX. */
+/* Write `[`; after a word or a bracket it begins an index, which LaTeX sets as a subscript. */
 static void
 bracket(writer *w)
 {
@@ -200,7 +200,7 @@ end_bracket(writer *w)
     w->at++;
 }
 
-/* ^2 as ², ^{2}; another exponent after its sign. */
+/* Write ^2 as ² or ^{2}; other exponents keep the sign ^. */
 static void
 formula_power(writer *w)
 {

@@ -13,7 +13,8 @@
 QDOT_MUST_CHECK qdot_status qdot_typed_name_add(qdot_session *session, const char *name, qdot_style style,
                                                 qdot_formula *f, qdot_formula_id parent, unsigned flags);
 
-/* Append the name as text: LaTeX, the letters of formulas (unicode, MathML), as it was typed (plain). QDOT_ENOMEM. */
+/* Append a name as text: as LaTeX, with the letters of formulas (unicode, MathML), or as typed
+ * (plain). QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_typed_name_print(qdot_session *session, const char *name, qdot_style style,
                                                   qdot_text *out);
 

@@ -1,4 +1,4 @@
-/* write.c -- answers written: texts, as they stand or as JSON. */
+/* write.c -- writes answers to their stream or page, as text or JSON. */
 #include "lang/answer/write.h"
 
 #include <inttypes.h>
@@ -8,7 +8,7 @@
 #include "base/wrap.h"
 #include "show/formula-page.h"
 
-/* Write a finished text as it is, or add it to the page that answers go to, and clear it. */
+/* Write a finished text to the stream, or add it to the page that collects answers; then clear it. */
 static qdot_status
 write_out(const qdot_session *session, FILE *file, qdot_text *text)
 {
@@ -119,7 +119,7 @@ qdot_answer_text(qdot_session *session, const char *name, const char *text)
     return write_answer(session, name, text, false);
 }
 
-/* Of a text written with that status. */
+/* Write a text if `status` is QDOT_OK; clear it in any case. Returns the first failure. */
 static qdot_status
 write_end(qdot_session *session, const char *name, qdot_status status, qdot_text *text, bool drawn)
 {

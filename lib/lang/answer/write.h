@@ -18,24 +18,24 @@ QDOT_MUST_CHECK qdot_status qdot_write_object(const qdot_session *session, FILE 
 /* Columns of the terminal that one of these files is; 0: it goes elsewhere, or holds JSON. */
 size_t qdot_write_width(const qdot_session *session, const FILE *file);
 
-/* The stream that answers are for: the terminal, while they are collected for pages. */
+/* The stream for which answers are meant: the terminal, even while they are collected for pages. */
 FILE *qdot_write_stream(const qdot_session *session);
 
-/* Whether answers show colours where they go now. */
+/* Whether answers are coloured at their present destination. */
 bool qdot_write_colours(const qdot_session *session);
 #define QDOT_NAME_COLOUR QDOT_CYAN /* of names and labels */
 
 /* Append `before`, then the text as a JSON string. */
 void qdot_write_field(qdot_text *line, const char *before, const char *text);
 
-/* {"kind":"text"}: text as it stands, a newline added where there is none. */
+/* Answer {"kind":"text"}: the text unchanged, with a newline added if it has none at its end. */
 QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
                                              const char *text);
 /* The same of a text that was written with that status, which is returned if it is none; the text
  * is cleared. */
 QDOT_MUST_CHECK qdot_status qdot_answer_written(qdot_session *session, const char *name,
                                                 qdot_status status, qdot_text *text);
-/* The same of lines that are never broken: drawings, formulas in one line. */
+/* As qdot_answer_text, for lines that must not be broken: drawings, formulas of one line. */
 QDOT_MUST_CHECK qdot_status qdot_answer_drawn(qdot_session *session, const char *name,
                                               qdot_status status, qdot_text *text);
 

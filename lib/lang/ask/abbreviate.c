@@ -1,4 +1,4 @@
-/* abbreviate.c -- a value with names for the parts that it repeats. */
+/* abbreviate.c -- prints a value with names for its repeated parts. */
 #include "expr/abbreviate.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -44,7 +44,7 @@ is_taken(const char *name, void *user)
     return qdot_cursor_knows(n->session, name);
 }
 
-/* The parts, then the value in terms of them. */
+/* Print the abbreviated parts, then the value in terms of them. */
 static qdot_status
 abbreviate_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {

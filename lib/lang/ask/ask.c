@@ -1,4 +1,4 @@
-/* ask.c -- values asked for: expressions. */
+/* ask.c -- answers an expression that was entered as a statement. */
 #include "lang/ask/ask.h"
 
 #include <string.h>
@@ -26,7 +26,7 @@
 
 /* --- expressions -------------------------------------------------------------------- */
 
-/* A value in which numbers of a run stand: a number, or a list of them. */
+/* Answer a value that contains results of runs: a number, or a list of numbers. */
 static qdot_status
 answer_measured(qdot_session *session, const char *name, qdot_expr value)
 {
@@ -56,7 +56,7 @@ answer_measured(qdot_session *session, const char *name, qdot_expr value)
     return status;
 }
 
-/* "eom[theta1]" for the member that goes with a coordinate, else (nil) "solve(...)[1]". */
+/* The name of list member i: "eom[theta1]" if it belongs to a coordinate, otherwise (nil) "solve(...)[1]". */
 static void
 member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i,
             qdot_text *out)
@@ -80,7 +80,7 @@ coordinate_of(const qdot_session *session, bool quantity, qdot_expr over, uint32
     return qdot_expr_arg(session->pool, over, i);
 }
 
-/* `equilibria[1]`, whose equations belong together. */
+/* Whether the name is `equilibria[k]`, a list of equations that belong to one equilibrium. */
 static bool
 is_one_equilibrium(const char *name)
 {
@@ -135,7 +135,7 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
     return QDOT_OK;
 }
 
-/* Whether a list holds numbers of runs and beside them members that are no numbers: without a value, or sqrt(2). */
+/* Whether a list contains results of runs and also members that are no such numbers, as sqrt(2). */
 static bool
 is_mixed(qdot_session *session, qdot_expr value)
 {
@@ -154,7 +154,7 @@ is_mixed(qdot_session *session, qdot_expr value)
     return mixed;
 }
 
-/* Each member by itself: a number with its error, or an expression. */
+/* Answer each member of such a list separately: a number with its error, or an expression. */
 static qdot_status
 answer_mixed(qdot_session *session, const char *name, qdot_expr list)
 {
@@ -200,7 +200,7 @@ qdot_ask_print_point(qdot_sheet *sheet, qdot_expr equations)
     return QDOT_OK;
 }
 
-/* Whether e is a LIST of points, each a LIST of equations, as qdot_solve_system has them. */
+/* Whether e is a LIST of points, each a LIST of equations, as qdot_solve_system returns them. */
 static bool
 is_points(const qdot_pool *pool, qdot_expr e)
 {
@@ -226,7 +226,7 @@ answer_point(qdot_session *session, const char *name, qdot_expr equations)
     return status;
 }
 
-/* Each of several points by its number. */
+/* Answer each of several points under its number. */
 static qdot_status
 answer_points(qdot_session *session, const char *name, qdot_expr list)
 {

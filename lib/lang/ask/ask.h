@@ -1,4 +1,4 @@
-/* ask.h -- a value that was asked for, as the statement of an expression answers it. */
+/* ask.h -- answers an expression that was entered as a statement. */
 #ifndef QDOT_LANG_ASK_H
 #define QDOT_LANG_ASK_H
 
@@ -13,11 +13,11 @@ QDOT_MUST_CHECK qdot_status qdot_ask_answer(qdot_session *session, const char *n
 /* Append [x = 1.25 ± 3e-17, y = 2], numbers of runs with their errors. */
 QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_sheet *sheet, qdot_expr equations);
 
-/* Each member of a LIST, as above. */
+/* Answer each member of a LIST, under its name. */
 QDOT_MUST_CHECK qdot_status qdot_ask_list(qdot_session *session, const char *name, qdot_expr list,
                                           qdot_expr over);
 
-/* A claim without the word `check`, at the cursor up to its end. */
+/* Answer a claim such as a == b without the word `check`, from the cursor to its end. */
 QDOT_MUST_CHECK qdot_status qdot_check(qdot_cursor *c);
 
 #endif

@@ -1,4 +1,4 @@
-/* check.c -- `check`: is it so? Proved, refuted or undecided, component by component. */
+/* check.c -- the statement `check`: proves, refutes or leaves undecided a claim, component by component. */
 #include <math.h>
 #include <string.h>
 
@@ -56,21 +56,21 @@ decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, compariso
     QDOT_TRY(qdot_decide_equal(pool, left, right, known, decision));
     if (decision->verdict != QDOT_UNDECIDED)
         return QDOT_OK;
-    /* again, with |u|, sign u and if replaced where the assumptions decide them */
+    /* try again with |u|, sign(u) and if(...) replaced where the assumptions decide them */
     a = qdot_known_signs(pool, left, known);
     b = qdot_known_signs(pool, right, known);
     QDOT_TRY(qdot_pool_check(pool));
     return a == left && b == right ? QDOT_OK : qdot_decide_equal(pool, a, b, known, decision);
 }
 
-/* A text, or a verdict of stability(...): equal to itself alone. */
+/* Whether e is a quoted text, or a verdict of stability(...): it is equal only to itself. */
 static bool
 is_word(qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_is_class(pool, e, QDOT_WORDS) || qdot_equilibria_is_word(pool, e);
 }
 
-/* Two equations: one residual the other times a factor that has no zero. */
+/* Two equations are equal if one residual is the other times a factor without zeros. */
 static qdot_status
 decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
                  const qdot_facts *known, qdot_decision *decision)
@@ -194,7 +194,7 @@ compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparis
     return qdot_answer_notice(session, "refuted by numbers whose error is unknown");
 }
 
-/* The same for every component; the first that is refuted decides. */
+/* Compare component by component within a tolerance; the first refuted one decides. */
 static qdot_status
 decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
               double tol, qdot_decision *decision)
@@ -224,7 +224,7 @@ typedef struct {
     qdot_passed passed; /* on the way to the sides */
 } question;
 
-/* A bare relation, `check (a = b)`, `check E1`: its two sides. */
+/* Split a relation such as `check (a = b)`, or a name that stands for one, into its two sides. */
 static qdot_status
 take_apart(qdot_record *r, const qdot_filled *part, question *q)
 {
@@ -284,7 +284,7 @@ read_question(qdot_record *r, question *q, qdot_assumed *f)
     return q->within ? qdot_record_number(r, within, &q->tol) : QDOT_OK;
 }
 
-/* `check eom == (x'' = -x)`: the only member of a list, beside what is no list. */
+/* In `check eom == (x'' = -x)`: replace a list of one member by that member if the other side is no list. */
 static void
 unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
 {
@@ -297,7 +297,7 @@ unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
             *sides[i] = qdot_expr_arg(pool, *sides[i], 0);
 }
 
-/* The values of the sides, the other way round. */
+/* Exchange the values of the two sides. */
 static void
 turn(qdot_decision *decision)
 {
@@ -307,7 +307,7 @@ turn(qdot_decision *decision)
     decision->right = left;
 }
 
-/* The LIST of values that must exist, with the replacements of `when`; nil on failure. */
+/* The LIST of subexpressions that must be defined, with the replacements of `when` applied; nil on failure. */
 static qdot_expr
 passed_list(qdot_session *session, const qdot_assumed *f, const question *q)
 {
@@ -317,7 +317,7 @@ passed_list(qdot_session *session, const qdot_assumed *f, const question *q)
     return list == QDOT_NIL ? list : qdot_assumed_replace(session, f, list);
 }
 
-/* Where nothing was refuted: a notice if the conditions contradict each other. */
+/* If nothing was refuted: give a notice if the conditions contradict each other. */
 static qdot_status
 look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
 {
@@ -353,18 +353,18 @@ look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_
     return status;
 }
 
-/* The facts in the form that qdot_decide_... takes. */
+/* All known facts, in the form that qdot_decide_... takes. */
 static qdot_facts
 all_known(qdot_session *session, const qdot_assumed *f, const question *q)
 {
-    /* accelerations follow a function of time whatever its second derivative is */
+    /* a given function of time leaves its second derivative free, so accelerations count as known */
     return (qdot_facts){f->relations.n, f->relations.at,
                         f->conditions.n, f->conditions.at,
                         f->motion && !f->stated ? 2 : 0,
                         q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q), false};
 }
 
-/* Momenta on one side and velocities on the other, or in what is assumed: all in velocities. */
+/* If momenta meet velocities, on either side or in the assumptions, write all in velocities. */
 static qdot_status
 meet_velocities(qdot_session *session, question *q, qdot_assumed *f)
 {
@@ -394,7 +394,8 @@ meet_velocities(qdot_session *session, question *q, qdot_assumed *f)
     return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
 }
 
-/* Whether both sides hold multipliers and are one whatever these are: a reaction and its parts. */
+/* Whether both sides contain multipliers and are equal for all values of them, as a reaction and
+ * its components. */
 static qdot_status
 is_formal(qdot_session *session, const question *q, const qdot_assumed *f, bool *is)
 {

@@ -11,7 +11,7 @@
 
 enum { MOST_RANK = 4 };
 
-/* What a function's tensor is called in books. */
+/* The letter and the index positions that books use for a tensor function. */
 typedef struct {
     const char *call, *letter;
     uint32_t upper; /* indices above, 0 or 1 */
@@ -74,7 +74,7 @@ qdot_components_are(const qdot_session *session, const char *name, qdot_expr val
                     : rank == 2 && l != NULL && l->upper == 0;
 }
 
-/* The component at these indices, counted from 0. */
+/* The component of the tensor at these indices, counted from 0. */
 static qdot_expr
 component(const tensor *t, const uint32_t *at)
 {
@@ -126,7 +126,7 @@ print_index(const tensor *t, const place *p, qdot_style style, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Γ[r; θ, θ] */
+/* Append the name in one line: Γ[r; θ, θ]. */
 static qdot_status
 add_linear(tensor *t, const place *indices)
 {
@@ -146,7 +146,7 @@ add_linear(tensor *t, const place *indices)
     return status;
 }
 
-/* Indices [from, to) in a row of the parent. */
+/* Append indices number from ... to - 1 as a row of `parent`. */
 static qdot_status
 add_indices(tensor *t, qdot_formula_id parent, const place *indices, uint32_t from, uint32_t to)
 {
@@ -165,7 +165,7 @@ add_indices(tensor *t, qdot_formula_id parent, const place *indices, uint32_t fr
     return QDOT_OK;
 }
 
-/* The letter with its indices above and below. */
+/* Append the tensor's letter with its upper and lower indices. */
 static qdot_status
 add_raised(tensor *t, const place *indices)
 {
@@ -179,7 +179,7 @@ add_raised(tensor *t, const place *indices)
     return add_indices(t, node, indices, upper, t->rank);
 }
 
-/* The name that was typed, with the indices: christoffel(R)[r, theta, theta]. */
+/* Append the name as typed, with the indices: christoffel(R)[r, theta, theta]. */
 static qdot_status
 add_typed(tensor *t, const place *indices)
 {
@@ -245,7 +245,7 @@ add_mirror(tensor *t)
     return QDOT_OK;
 }
 
-/* What the lines above leave out. */
+/* Add a line about the components that are not listed: zeros, and equal ones by symmetry. */
 static qdot_status
 add_rest(tensor *t, bool none)
 {

@@ -1,4 +1,4 @@
-/* cyclic.c -- `cyclic`: the coordinates absent from L, each with its momentum. */
+/* cyclic.c -- the statement `cyclic`: lists the coordinates absent from L, each with its momentum. */
 #include "expr/build.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
@@ -17,7 +17,7 @@ QDOT_STATEMENT(cyclic) = {
     .handler = cyclic_list,
 };
 
-/* `theta: p[theta] = ... is conserved`, or with its rate. */
+/* Print `theta: p[theta] = ... is conserved`, or the momentum with its rate. */
 static qdot_status
 print_cyclic(qdot_sheet *sheet, const qdot_cyclic *one)
 {

@@ -1,4 +1,4 @@
-/* declared.c -- declared names as the statements that declare them. */
+/* declared.c -- prints a declared name as the statement that declares it. */
 #include "lang/ask/declared.h"
 
 #include <inttypes.h>
@@ -7,7 +7,7 @@
 #include "lang/answer/expression.h"
 #include "lang/language/function.h"
 
-/* The value that `set` or `param` gave a symbol; nil: none. */
+/* The value that `set` or `param` gave a symbol; nil if it has none. */
 static qdot_expr
 set_value(const qdot_session *session, qdot_expr symbol)
 {
@@ -17,7 +17,7 @@ set_value(const qdot_session *session, qdot_expr symbol)
     return QDOT_NIL;
 }
 
-/* A value; how large it is where it is too large to print. */
+/* Print a value, or only its size if it is too large. */
 static qdot_status
 print_value(qdot_session *session, qdot_expr value, qdot_text *out)
 {

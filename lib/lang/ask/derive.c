@@ -1,4 +1,4 @@
-/* derive.c -- the whole derivation, from r(q) to the equations, as a textbook would. */
+/* derive.c -- the statement `derive`: the whole derivation from r(q) to the equations, as in a textbook. */
 #include <string.h>
 
 #include "expr/build.h"
@@ -32,21 +32,21 @@ typedef struct {
     int step;
 } derivation;
 
-/* Whether formulas of words stand in their line. */
+/* Whether formulas with words are written in one line rather than with raised and lowered parts. */
 static bool
 derivation_is_linear(const derivation *d)
 {
     return d->sheet.form == QDOT_SHEET_DRAWN || d->sheet.notation != QDOT_NOTATION_DRAWN;
 }
 
-/* How they are written there. */
+/* The notation in which formulas of a line are written. */
 static qdot_notation_kind
 line_notation(const derivation *d)
 {
     return d->sheet.notation == QDOT_NOTATION_SCRIPT ? QDOT_NOTATION_SCRIPT : QDOT_NOTATION_LINE;
 }
 
-/* `3. Title: formula`, the formula as qdot_notation_add reads it; NULL: none. */
+/* Begin a step: `3. Title: formula`; the formula is read by qdot_notation_add, NULL if there is none. */
 static void
 heading(derivation *d, const char *title, const char *formula)
 {
@@ -77,7 +77,7 @@ derivation_label(derivation *d, const char *what, const char *of, const char *jo
                       name != NULL ? joined : "", name != NULL ? name : "");
 }
 
-/* ` = value`, the end of a formula and of its line. */
+/* Append ` = value`, and end the formula and its line. */
 static qdot_status
 equals(derivation *d, qdot_expr value)
 {
@@ -88,7 +88,7 @@ equals(derivation *d, qdot_expr value)
     return QDOT_OK;
 }
 
-/* A symbol of books with what it is of: r[bob], drawn r with a subscript. */
+/* A textbook symbol with the thing it belongs to: r[bob], drawn as r with a subscript. */
 typedef struct {
     const char *letter;   /* as qdot_notation_add reads it */
     const char *of;       /* a label or the name of a coordinate; NULL */
@@ -149,7 +149,7 @@ add_drawn(derivation *d, const symbol *x)
     return status;
 }
 
-/* What is not behind a label stands behind four blanks. */
+/* Indent a line that has no label in front. */
 static void
 indent(derivation *d)
 {
@@ -157,7 +157,7 @@ indent(derivation *d)
         qdot_sheet_words(&d->sheet, "    ");
 }
 
-/* `symbol = value`. */
+/* Append a line `symbol = value`. */
 static qdot_status
 is(derivation *d, symbol x, qdot_expr value)
 {
@@ -174,7 +174,7 @@ bare(const char *letter)
     return (symbol){.letter = letter};
 }
 
-/* d/dt dF/dq' (total), dF/dq' or, not `fast`, dF/dq, as a fraction where that is drawn. */
+/* Append d/dt dF/dq' (total), dF/dq', or (not `fast`) dF/dq, = value; drawn as a fraction where possible. */
 static qdot_status
 slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
 {
@@ -206,7 +206,7 @@ slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value
     return equals(d, value);
 }
 
-/* The relation as it stands. */
+/* Append a relation on a line of its own. */
 static qdot_status
 relation(derivation *d, qdot_expr e)
 {
@@ -217,7 +217,7 @@ relation(derivation *d, qdot_expr e)
     return QDOT_OK;
 }
 
-/* In the form for people, unless it is larger than a page. */
+/* Simplify e for printing, unless it is larger than a page. */
 static qdot_expr
 tidy(derivation *d, qdot_expr e)
 {
@@ -229,7 +229,7 @@ tidy(derivation *d, qdot_expr e)
     return qdot_common_out(d->session->pool, qdot_simplify(d->session->pool, e, &facts));
 }
 
-/* omega, in space also along the body's own axes, in which its inertia is given. */
+/* Append the angular velocity omega of a body, in space also in its own axes, in which the inertia is given. */
 static qdot_status
 spin(derivation *d, const qdot_body *b)
 {
@@ -257,7 +257,7 @@ derivation_turning(derivation *d, const qdot_body *b)
     return QDOT_OK;
 }
 
-/* What the steps below may use beside the laws of algebra. */
+/* List what the steps below may assume. */
 static qdot_status
 assumptions(derivation *d)
 {
@@ -270,7 +270,7 @@ assumptions(derivation *d)
     return QDOT_OK;
 }
 
-/* r, v = sum dr/dq q' + dr/dt and v^2 of everything that has a mass. */
+/* Write r, v = sum dr/dq q' + dr/dt and v^2 of everything that has mass. */
 static qdot_status
 kinematics(derivation *d)
 {
@@ -302,7 +302,7 @@ kinematics(derivation *d)
     return QDOT_OK;
 }
 
-/* What each thing has of T, then T. */
+/* Write the contribution of each particle and body to T, then T. */
 static qdot_status
 kinetic(derivation *d)
 {
@@ -333,7 +333,7 @@ kinetic(derivation *d)
     return is(d, bare("M"), qdot_mech_mass_matrix(s));
 }
 
-/* What each field, potential and spring has of V, then V. */
+/* Write the contribution of each field, potential and spring to V, then V. */
 static qdot_status
 potential(derivation *d)
 {
@@ -383,7 +383,7 @@ of_coordinate(const derivation *d, const char *letter, qdot_expr q)
                     .coordinate = q};
 }
 
-/* p = dL/dq', then what stands on the left: F = T, or L where it is stated. */
+/* Write p = dL/dq', then the left side of the equations, with F = T, or F = L if a Lagrangian is stated. */
 static qdot_status
 left_sides(derivation *d)
 {
@@ -413,7 +413,7 @@ left_sides(derivation *d)
     return QDOT_OK;
 }
 
-/* "sum lambda df/dq" by the kinds of constraints there are. */
+/* The reaction term "sum lambda df/dq", for the kinds of constraints in the scene. */
 static const char *
 reaction(const qdot_scene *s)
 {
@@ -434,7 +434,7 @@ holds_velocity(const qdot_scene *s, qdot_expr e)
     return (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY) != 0;
 }
 
-/* Whether a force acts on material at a place that may move within its body. */
+/* Whether a force acts on a material point that may move within its body. */
 static bool
 on_material(const qdot_scene *s)
 {
@@ -453,7 +453,7 @@ no_forces(qdot_scene *s)
     return true;
 }
 
-/* f' = 0 and f'' = 0, as far as the constraint has them to give. */
+/* Write f' = 0 and f'' = 0, as far as they follow from this kind of constraint. */
 static qdot_status
 rates(derivation *d, const qdot_constraint *c)
 {
@@ -473,7 +473,8 @@ rates(derivation *d, const qdot_constraint *c)
     return qdot_pool_check(pool);
 }
 
-/* What is applied beside V where L is stated, all of it otherwise. */
+/* Whether a force is written as a generalized force: all of them, or if L is stated only those not
+ * contained in L. */
 static bool
 acts(const derivation *d, const qdot_force_source *source)
 {
@@ -514,7 +515,7 @@ virtual_work(derivation *d)
     return QDOT_OK;
 }
 
-/* "sum F.dr/dq - dV/dq - dD/dq'": of what stands in it. */
+/* Begin the step of generalized forces: "sum F.dr/dq - dV/dq - dD/dq'", with the terms that occur. */
 static qdot_status
 forces_heading(derivation *d)
 {
@@ -546,7 +547,7 @@ forces_heading(derivation *d)
     return status;
 }
 
-/* Whether Q stands on the right: a stated L has it only beside itself. */
+/* Whether the equations have a right side Q; with a stated L only if there are forces besides it. */
 static bool
 has_forces(const qdot_scene *s)
 {
@@ -614,7 +615,7 @@ equations(derivation *d)
     return QDOT_OK;
 }
 
-/* What is constant along the motion because L does not hold the coordinate. */
+/* Write the momenta that are constant because L does not contain their coordinates. */
 static qdot_status
 conserved_momenta(derivation *d)
 {

@@ -27,7 +27,7 @@ QDOT_STATEMENT(equilibria) = {
     .handler = equilibria_list,
 };
 
-/* a > |b| for a > b and a + b > 0, a positive (>= for both >=); else nil. */
+/* Combine a > b and a + b > 0 to a > |b| for positive a (>= if both have it); else nil. */
 static qdot_expr
 as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
 {
@@ -50,7 +50,7 @@ as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
     return qdot_rel(pool, op, qdot_fun1(pool, QDOT_ABS, b), sum);
 }
 
-/* The sign of a bound, < or <=, the other way where it is turned. */
+/* The sign of a bound, < or <=; reversed if `turned`. */
 static qdot_formula_sign
 bound_sign(const qdot_pool *pool, qdot_expr relation, bool turned)
 {
@@ -71,7 +71,8 @@ is_coordinate(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_is_class(pool, e, QDOT_COORD);
 }
 
-/* lo < u < hi of lo < u and u < hi (other: nil where there is one end alone), u a coordinate; false: it is none. */
+/* Print lo < u < hi for lo < u and u < hi (other nil: only one of them), u a coordinate; false if
+ * it is no such range. */
 static bool
 print_interval(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qdot_status *status)
 {
@@ -105,7 +106,7 @@ print_interval(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qd
     return true;
 }
 
-/* `a > b and c > d`; a relation reads with > as people say it, `g < 0`, and a range of a coordinate as one. */
+/* Print conditions as `a > b and c > d`; relations in the usual direction, a range of a coordinate as one. */
 static qdot_status
 print_conditions(qdot_sheet *sheet, qdot_expr list)
 {
@@ -169,7 +170,7 @@ print_stability(qdot_sheet *sheet, const qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* `theta = 0`; a number that was found as a decimal one. */
+/* Print `theta = 0`; a value found numerically as a decimal. */
 static qdot_status
 print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
 {
@@ -221,7 +222,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
     return qdot_sheet_end(&sheet, name, status);
 }
 
-/* Tell at which values of parameters the list is none: `where a = 0 the places are others`. */
+/* Give a notice of special parameter values: `where a = 0 the places are others`. */
 static qdot_status
 answer_special(qdot_session *session, qdot_expr special, const char *words)
 {
@@ -237,7 +238,7 @@ answer_special(qdot_session *session, qdot_expr special, const char *words)
     return qdot_answer_notice_text(session, status, &text);
 }
 
-/* Tell that there is no equilibrium, or that the list may be incomplete. */
+/* Give a notice that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
 answer_rest(qdot_session *session, const qdot_equilibria *all)
 {

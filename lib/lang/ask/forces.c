@@ -1,4 +1,4 @@
-/* forces.c -- `forces`: the generalized forces, part by part. */
+/* forces.c -- the statement `forces`: lists the generalized forces by their sources. */
 #include "expr/build.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
@@ -16,7 +16,7 @@ QDOT_STATEMENT(forces) = {
     .handler = forces_print,
 };
 
-/* `theta, spring s1: part`, one line a coordinate and source. */
+/* Print a line `theta, spring s1: part` for each coordinate and source. */
 static qdot_status
 forces_print_sources(qdot_sheet *sheet)
 {

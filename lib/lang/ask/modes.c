@@ -1,4 +1,4 @@
-/* modes.c -- `modes`: frequencies and amplitudes about an equilibrium. */
+/* modes.c -- the statement `modes`: frequencies and amplitudes of small oscillations about an equilibrium. */
 #include <math.h>
 #include <stdio.h>
 
@@ -23,7 +23,7 @@ QDOT_STATEMENT(modes) = {
     .handler = modes_print,
 };
 
-/* Exact, or a number: as JSON without a statement of its error. */
+/* Print an exact value, or a number; in JSON without an error. */
 static qdot_status
 modes_answer_part(qdot_session *session, bool numeric, const char *name, qdot_expr value)
 {
@@ -61,7 +61,7 @@ answer_modes(qdot_session *session, const qdot_modes *modes)
     return QDOT_OK;
 }
 
-/* The equations `at` which modes are asked, as a LIST. */
+/* Read the equations after `at` that give the equilibrium, as a LIST. */
 static qdot_status
 modes_read_place(qdot_record *r, const qdot_filled *place, qdot_expr *at)
 {

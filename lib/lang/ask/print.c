@@ -1,4 +1,4 @@
-/* print.c -- `print`: expressions and texts in one line. */
+/* print.c -- the statement `print`: writes expressions and texts in one line. */
 #include "base/number-text.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -22,7 +22,7 @@ QDOT_STATEMENT(print) = {
     .handler = print_line,
 };
 
-/* A list of texts, each in a line of its own. */
+/* Whether e is a list of texts, which are printed on separate lines. */
 static bool
 is_texts(const qdot_pool *pool, qdot_expr e)
 {
@@ -60,7 +60,7 @@ add_digits(qdot_sheet *sheet, qdot_expr member, int digits, double error)
     return status;
 }
 
-/* One argument as text: a quoted one as it is, numbers of runs as numbers. */
+/* Print one argument: a quoted text unchanged, results of runs as numbers. */
 static qdot_status
 print_one(qdot_record *r, const qdot_filled *one, qdot_sheet *sheet)
 {

@@ -1,4 +1,4 @@
-/* scene.c -- `scene`: what is declared. */
+/* scene.c -- the statement `scene`: lists the declarations. */
 #include "lang/answer/answer.h"
 #include "lang/declare/scene-file.h"
 #include "lang/syntax/record.h"

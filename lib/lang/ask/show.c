@@ -1,4 +1,4 @@
-/* show.c -- `show`: what a name means and where it was declared. */
+/* show.c -- the statement `show`: what a name means and where it was declared. */
 #include <string.h>
 
 #include "lang/answer/answer.h"
@@ -19,7 +19,7 @@ QDOT_STATEMENT(show) = {
     .handler = show_name,
 };
 
-/* The line of the scene that declares a label. */
+/* Print the line of the scene that declares a label. */
 static qdot_status
 show_label(qdot_session *session, const char *label, qdot_text *out)
 {
@@ -41,7 +41,7 @@ show_label(qdot_session *session, const char *label, qdot_text *out)
     return status;
 }
 
-/* The statement of the run of that name; whether there is one. */
+/* Print the statement of the run of that name; whether there is one. */
 static bool
 show_run(const qdot_session *session, const char *name, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* definition-check.c -- what an equation sign may not be written to, with the line that was meant. */
+/* definition-check.c -- refuses names that `=` cannot define, and suggests the line that was meant. */
 #include "lang/commands/definition-check.h"
 
 #include <string.h>
@@ -134,7 +134,7 @@ is_differential(const qdot_session *s, const char *name)
     return false;
 }
 
-/* "force1": the name with the first number that makes it free. */
+/* Append an unused name made of `name` and a number, as "force1". */
 static void
 add_free_name(const qdot_session *s, const char *name, qdot_text *out)
 {
@@ -157,7 +157,7 @@ add_free_name(const qdot_session *s, const char *name, qdot_text *out)
 
 /* --- lines ------------------------------------------------------------------------------ */
 
-/* NAME1 = RIGHT, with indices and arguments as they were. */
+/* Suggest NAME1 = RIGHT, with the same indices and arguments. */
 static void
 write_renamed(assignment *a)
 {
@@ -166,7 +166,7 @@ write_renamed(assignment *a)
     qdot_text_format(&a->line, " = %s", qdot_text_str(&a->right));
 }
 
-/* LEFT in one line with RIGHT */
+/* Suggest WORD LEFT = RIGHT as one line. */
 static void
 write_equation(assignment *a, const char *word)
 {
@@ -190,7 +190,8 @@ write_check(assignment *a)
                      qdot_text_str(&a->right));
 }
 
-/* The error, at the name; in the message %s is what it is called, then the coordinate in dNAME, deltaNAME. */
+/* Fail at the name; %s in the message stands for the name, a second %s for the coordinate in dNAME
+ * or deltaNAME. */
 static qdot_status
 tell(assignment *a, const char *message, const char *name)
 {
@@ -208,7 +209,8 @@ is_furnished(const qdot_scene *s)
     return s->particles.n + s->bodies.n > 0 || s->lagrangian != QDOT_NIL;
 }
 
-/* q'' = E: compared with the equation of motion; where nothing moves yet, the scene that has it. */
+/* q'' = E: suggest to compare it with the equation of motion, or if there are no masses a scene
+ * with that equation. */
 static qdot_status
 tell_acceleration(assignment *a)
 {
@@ -265,7 +267,8 @@ tell_coordinate(assignment *a, size_t primes)
     return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
 }
 
-/* NAME' =, NAME[...]'' =: the number of primes and the equation sign behind; NULL: it is none. */
+/* For NAME' = or NAME[...]'' =: the number of primes, and the equation sign after them; NULL if it
+ * is no such line. */
 static const qdot_token *
 find_primed(const qdot_token *name, size_t *primes)
 {
@@ -321,7 +324,7 @@ tell_word(assignment *a, const qdot_statement *row)
 
 /* --- reserved words, labels ------------------------------------------------------------- */
 
-/* lambda = 3 is a parameter of that name, which hides nothing; dtheta = 3 was meant as a velocity. */
+/* lambda = 3: suggest a parameter of that name; dtheta = 3: suggest a velocity. */
 static qdot_status
 tell_reserved(assignment *a, const char *why)
 {
@@ -360,7 +363,7 @@ write_placed(assignment *a, qdot_expr at, bool velocity)
     return true;
 }
 
-/* Where the particle or body of that name is; nil: there is none. */
+/* The position of the particle or body of that name; nil if there is none. */
 static qdot_expr
 position_of(const qdot_scene *s, const char *label)
 {
@@ -388,7 +391,7 @@ tell_label(assignment *a, const char *label)
                 label);
 }
 
-/* bob' = (1, 2) of a particle that coordinates place: their start. */
+/* bob' = (1, 2) for a particle whose position depends on coordinates: suggest start values of these. */
 static qdot_status
 tell_velocity(assignment *a)
 {
@@ -400,7 +403,7 @@ tell_velocity(assignment *a)
                : QDOT_OK;
 }
 
-/* The label that a member of a family, or the whole, spells; NULL: there is none. */
+/* The label of a scene's thing that the left side names, or a family of labels; NULL if there is none. */
 static const char *
 label_of(const assignment *a)
 {
@@ -425,7 +428,7 @@ label_of(const assignment *a)
 
 /* --- values of the language with an index ------------------------------------------------- */
 
-/* eom[theta] = ..., p[x] = 3, conserved[1] = ...: members of a value of the language. */
+/* Whether the left side is a member of a built-in quantity: eom[theta] = ..., p[x] = 3, conserved[1] = ... */
 static bool
 is_member_of_value(const assignment *a)
 {
@@ -457,7 +460,7 @@ tell_member(assignment *a)
 
 /* --- the statement ------------------------------------------------------------------------ */
 
-/* Why a word that is a name in no place cannot be defined; NULL: it can. */
+/* The reason why a reserved word cannot be defined; NULL if it can. */
 static const char *
 why_reserved(const qdot_session *s, const char *name)
 {
@@ -483,7 +486,7 @@ why_reserved(const qdot_session *s, const char *name)
                : "`%s` is reserved: it is the differential of the coordinate `%s`";
 }
 
-/* x = symbols('x'): a form of another system, for which there are hints of its own. */
+/* Whether the line is in the syntax of another system, as x = symbols('x'), for which there are other hints. */
 static bool
 is_foreign(const assignment *a)
 {
@@ -496,7 +499,7 @@ is_foreign(const assignment *a)
            (qdot_token_is(right + 1, "(") || qdot_token_is(right + 1, "."));
 }
 
-/* m = 3 of a parameter is its value; m = x, m(t) = t are no values. */
+/* m = 3 for a parameter is a value: suggest `set`; m = x or m(t) = t is not: suggest another name. */
 static qdot_status
 tell_parameter(assignment *a, const qdot_name *known)
 {

@@ -7,7 +7,7 @@
 
 #include "lang/commands/statement.h"
 
-/* The statement as it stands: LEFT = RIGHT [for ...]. */
+/* The statement as it was typed: LEFT = RIGHT [for ...]. */
 typedef struct {
     qdot_cursor *c;
     qdot_session *session;
@@ -20,11 +20,11 @@ typedef struct {
     bool primed;  /* it holds velocities */
 } qdot_assignment;
 
-/* Whether the right side is written as a vector (a, b): how many components; 1: it is not. */
+/* The number of components if the right side is a vector (a, b); 1 if it is none. */
 size_t qdot_definition_components(const qdot_assignment *a);
-/* Append the i-th of them as it is written; of a number all of it. */
+/* Append component i of the right side as typed; of a number all of it. */
 void qdot_definition_component(const qdot_assignment *a, size_t i, qdot_text *out);
-/* The first coordinate that is declared, or NULL. */
+/* The coordinate declared first, or NULL. */
 const qdot_name *qdot_definition_coordinate(const qdot_session *s);
 
 /* The statement of the word with the right side as its operand into a->line: `potential -k/x` of

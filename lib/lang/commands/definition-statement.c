@@ -1,4 +1,4 @@
-/* definition-statement.c -- the statement that was meant where its word stands before an equation sign. */
+/* definition-statement.c -- suggests the statement that was meant by WORD = ..., such as gravity = 9.81. */
 #include <string.h>
 
 #include "expr/node.h"
@@ -8,7 +8,7 @@
 
 typedef qdot_assignment assignment;
 
-/* The first coordinate that is declared, or NULL. */
+/* The coordinate declared first, or NULL. */
 const qdot_name *
 qdot_definition_coordinate(const qdot_session *s)
 {
@@ -20,7 +20,7 @@ qdot_definition_coordinate(const qdot_session *s)
     return NULL;
 }
 
-/* Whether the right side is written as a vector (a, b); how many components. */
+/* The number of components if the right side is a vector (a, b); 1 if it is none. */
 size_t
 qdot_definition_components(const assignment *a)
 {
@@ -68,7 +68,7 @@ is_sum(const assignment *a)
     return false;
 }
 
-/* WORD RIGHT BEHIND */
+/* Suggest WORD RIGHT BEHIND. */
 static void
 write_statement(assignment *a, const char *word, const char *behind)
 {
@@ -89,7 +89,8 @@ count_dimensions(const qdot_session *s)
                                                   : qdot_expr_count(s->pool, at);
 }
 
-/* gravity (0, -g) of the last n components of the right side, with 0 before them where there are fewer. */
+/* Suggest gravity (0, -g) with the last n components of the right side, preceded by zeros if there
+ * are fewer. */
 static void
 write_components(assignment *a, uint32_t n)
 {
@@ -125,7 +126,7 @@ write_gravity(assignment *a)
     return true;
 }
 
-/* Whether the right side says `on` what it acts. */
+/* Whether the right side contains `on` and a target. */
 static bool
 says_on(const assignment *a)
 {
@@ -190,7 +191,7 @@ write_force(assignment *a, const char *word)
     return true;
 }
 
-/* spring = k: between the first particle and the origin. False: nothing is there. */
+/* spring = k: suggest a spring between the first particle and the origin. False: there is no particle. */
 static bool
 write_link(assignment *a, const char *word)
 {
@@ -206,7 +207,7 @@ write_link(assignment *a, const char *word)
     return true;
 }
 
-/* constraint = A = B is read as one; constraint = E holds E at 0. */
+/* constraint = A = B: suggest that equation; constraint = E: suggest E = 0. */
 static void
 write_constraint(assignment *a)
 {

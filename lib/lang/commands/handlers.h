@@ -1,4 +1,4 @@
-/* handlers.h -- the handlers of statements that read their tokens themselves (statement.def). */
+/* handlers.h -- the handlers of statements that parse their own tokens (statement.def). */
 #ifndef QDOT_LANG_HANDLERS_H
 #define QDOT_LANG_HANDLERS_H
 

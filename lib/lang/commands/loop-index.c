@@ -1,4 +1,4 @@
-/* loop-index.c -- where the index of a `for` occurs in what is repeated. */
+/* loop-index.c -- finds where the index of a `for` loop occurs in the repeated statement. */
 #include "lang/commands/loop-index.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ is_in_any(const qdot_session *s, size_t n, const qdot_expr *list, qdot_expr symb
     return false;
 }
 
-/* Whether what is declared, or a value of a parameter, or the start, holds the symbol. */
+/* Whether a declaration, a parameter value or a start value contains the symbol. */
 static bool
 is_in_scene(const qdot_session *s, qdot_expr symbol)
 {
@@ -120,7 +120,7 @@ is_declaration(const qdot_token *first)
 
 /* --- the clause --------------------------------------------------------------------------- */
 
-/* The parameter or coordinate that the name is declared as; NULL: it is none. */
+/* The declared parameter or coordinate of that name; NULL if there is none. */
 static const qdot_name *
 declared(const qdot_session *s, const char *name)
 {
@@ -155,7 +155,7 @@ is_used(const qdot_session *s, const char *name, const qdot_token *from, const q
     return false;
 }
 
-/* The token behind NAME = VALUE of `with`, at its comma, the next option or the end. */
+/* The token after NAME = VALUE in `with`: a comma, the next option or the end. */
 static const qdot_token *
 behind_pair(const qdot_token *k)
 {
@@ -262,7 +262,7 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
         return status;
     }
     qdot_text_add(&text, "{ run");
-    /* what its run had of it */
+    /* then what the run of this iteration contained */
     add_run_without(s, run->tokens.at, k->text, later_time(latest, from, to), &text);
     qdot_source_free(run);
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {

@@ -1,4 +1,4 @@
-/* loop-index.h -- where the index of a `for` occurs in what is repeated. */
+/* loop-index.h -- finds where the index of a `for` loop occurs in the repeated statement. */
 #ifndef QDOT_LANG_LOOP_INDEX_H
 #define QDOT_LANG_LOOP_INDEX_H
 

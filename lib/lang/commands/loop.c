@@ -9,12 +9,12 @@
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
 
-/* What a value of an index may not hold to be that of a parameter or coordinate. */
+/* What a loop value must not contain to be assigned to a parameter or coordinate. */
 static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
                                QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER |
                                QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
-/* Bind what index i stands at. */
+/* Bind the loop index to its present value. */
 static qdot_status
 loop_bind(qdot_loop *loop, qdot_loop_index *index)
 {
@@ -53,7 +53,7 @@ drop_index(qdot_loop_index *index)
     qdot_free(index->values.at);
 }
 
-/* Read `NAME = a..b` or `NAME = [...]` at the cursor; *empty: it has no value. */
+/* Read `NAME = a..b` or `NAME = [...]` at the cursor; *empty: the range has no values. */
 static qdot_status
 read_index(qdot_loop *loop, qdot_cursor *c, qdot_loop_index *index, bool *empty)
 {
@@ -104,7 +104,7 @@ read_index(qdot_loop *loop, qdot_cursor *c, qdot_loop_index *index, bool *empty)
     return QDOT_OK;
 }
 
-/* Advance the innermost bound index that has a value left. */
+/* Advance the innermost loop index that has a value left. */
 static qdot_status
 advance(qdot_loop *loop, bool *more)
 {

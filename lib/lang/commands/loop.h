@@ -32,7 +32,7 @@ enum { QDOT_LOOP_PASSES = 10000000 }; /* the most passes of one index */
 QDOT_MUST_CHECK qdot_status qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c,
                                             bool *more);
 QDOT_MUST_CHECK qdot_status qdot_loop_next(qdot_loop *loop, bool *more);
-/* Unbind what is bound and free. */
+/* Unbind all loop indices and free the loop. */
 void qdot_loop_end(qdot_loop *loop);
 
 #endif

@@ -22,7 +22,7 @@ qdot_operands_free(qdot_operands *list)
     qdot_free(list->at);
 }
 
-/* Of runs named inside: the one, or the first of several. */
+/* Find the run to which an operand refers: the only one named in it, or the first of several. */
 static qdot_status
 resolve_members(qdot_operand *o, const char **run, qdot_expr *e)
 {

@@ -20,7 +20,7 @@ void qdot_operand_clear(qdot_operand *o);
 void qdot_operands_free(qdot_operands *list);
 /* [RUN .] EXPR; after an error the operand is still to be cleared. */
 QDOT_MUST_CHECK qdot_status qdot_operand_read(qdot_cursor *c, qdot_operand *o);
-/* `E1, a.E2, ...` */
+/* Read a list of operands `E1, a.E2, ...`. */
 QDOT_MUST_CHECK qdot_status qdot_operands_read(qdot_cursor *c, qdot_operands *list);
 /* Use the latest run for operands that name none; QDOT_EINVAL if there is no run. */
 QDOT_MUST_CHECK qdot_status qdot_operands_find_runs(qdot_session *session,

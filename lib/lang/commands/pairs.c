@@ -1,4 +1,4 @@
-/* pairs.c -- symbols with the values that a statement gives them. */
+/* pairs.c -- a list of symbols with values, as a statement gives them. */
 #include "lang/commands/pairs.h"
 
 void

@@ -1,4 +1,4 @@
-/* pairs.h -- symbols with the values that a statement gives them. */
+/* pairs.h -- a list of symbols with values, as a statement gives them. */
 #ifndef QDOT_LANG_PAIRS_H
 #define QDOT_LANG_PAIRS_H
 

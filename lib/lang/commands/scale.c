@@ -1,4 +1,4 @@
-/* scale.c -- `scale`: the sizes that tolerances and errors of coordinates are relative to. */
+/* scale.c -- the statement `scale`: the sizes of coordinates to which tolerances and errors are relative. */
 #include "expr/symbol.h"
 #include "lang/commands/pairs.h"
 #include "lang/commands/set.h"
@@ -16,7 +16,7 @@ QDOT_STATEMENT(scale) = {
     .handler = scale_set,
 };
 
-/* q, q' or t, which begins at `part`, and its value. */
+/* Read q, q' or t at `part`, and its value. */
 static qdot_status
 scale_read_one(qdot_record *r, const qdot_filled *part, qdot_pairs *list)
 {

@@ -1,4 +1,4 @@
-/* set.c -- `set`: values of parameters and functions; readers of values for other statements. */
+/* set.c -- the statement `set`: values of parameters and functions; readers of values for other statements. */
 #include "lang/commands/set.h"
 
 #include <string.h>
@@ -57,7 +57,7 @@ qdot_set_is_momentum(const qdot_session *session, const qdot_token *p)
            !qdot_names_is_family(session->names, "p");
 }
 
-/* The parameter of that name, which stands at `start`. */
+/* The parameter of that name; `start` is where an error is shown. */
 static qdot_status
 parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_expr *symbol)
 {
@@ -76,7 +76,7 @@ parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_exp
                                            : qdot_hint("%s = ... names it anew", name);
 }
 
-/* The left side of `NAME = VALUE`: a parameter or a momentum. */
+/* Read the left side of `NAME = VALUE`: a parameter or a momentum. */
 qdot_status
 qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
 {
@@ -143,7 +143,8 @@ check_body(qdot_pool *pool, qdot_expr formals, qdot_expr body)
     return qdot_hint("declare it with what it depends on, as in function f(x, t)");
 }
 
-/* x(s, t) as the symbol; the body with s, t in place of the names it was given with. */
+/* Express a function's body in the declared arguments: x(s, t) as the symbol, s, t in place of the
+ * names used. */
 static qdot_status
 in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr *symbol,
                       qdot_expr *body)
@@ -190,7 +191,7 @@ set_read_function(qdot_record *r, const qdot_filled *part, qdot_expr *symbol, qd
     QDOT_TRY(status);
     qdot_record_blame(r, part);
     QDOT_TRY(check_body(session->pool, f.list, *body));
-    /* said in the arguments of its declaration */
+    /* the value was given in the arguments of the declaration */
     return in_declared_arguments(session->pool, known->ufun, f.list, symbol, body);
 }
 
@@ -210,7 +211,7 @@ qdot_set_keep_measured(qdot_session *session, qdot_expr *value)
     return qdot_pool_check(session->pool);
 }
 
-/* What was read at `start` as a value: an expression of parameters. */
+/* Check that the value read at `start` depends on parameters only. */
 static qdot_status
 check_constant(qdot_cursor *c, const qdot_token *start, qdot_expr *value)
 {

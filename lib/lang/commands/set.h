@@ -9,7 +9,7 @@
 QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
-/* The same of what a statement was read to: a name as a parameter or p[NAME]; as q or q'; a value. */
+/* The same for operands of a statement: a parameter or p[NAME]; q or q'; a value. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_filled *name,
                                                     qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_set_need_read(qdot_record *r, const qdot_filled
 /* Numbers of runs in a value become rationals; what they make it is off by is kept, for who writes it
  * down (lang/declare/session-file). */
 QDOT_MUST_CHECK qdot_status qdot_set_keep_measured(qdot_session *session, qdot_expr *value);
-/* QDOT_ENAME: there is no `what` of this name; a hint at the one that may have been meant. */
+/* Fail with QDOT_ENAME: there is no `what` of this name; with a hint at the one that was probably meant. */
 QDOT_MUST_CHECK qdot_status qdot_set_unknown(const qdot_session *session,
                                              const char *what, const char *name);
 

@@ -22,7 +22,7 @@ QDOT_STATEMENT(start) = {
     .handler = start_set,
 };
 
-/* A notice where a run is continued in which events set parameters: the next has the old values. */
+/* Give a notice if a run in which events set parameters is continued: the next run has the old values. */
 static qdot_status
 tell_parameters(qdot_session *session, const char *name, const qdot_run_report *report)
 {
@@ -46,7 +46,7 @@ tell_parameters(qdot_session *session, const char *name, const qdot_run_report *
     return QDOT_OK;
 }
 
-/* Note how far the run's companions ended from it: runs that start there begin with that error. */
+/* Store the difference between the run's end and its companions', as the error of runs that start there. */
 static qdot_status
 keep_errors(qdot_session *session, const qdot_named_run *named)
 {
@@ -121,7 +121,7 @@ start_read(qdot_record *r, qdot_pairs *list)
     return QDOT_OK;
 }
 
-/* `start NAME`, which may be no run: q', q[1]. */
+/* `start NAME`; the name need not be a run but may be q' or q[1]. */
 static qdot_status
 start_from(qdot_record *r, const qdot_filled *part)
 {

@@ -1,4 +1,4 @@
-/* statement-form.c -- what a statement is, by its first tokens. */
+/* statement-form.c -- tells the kind of a statement from its first tokens. */
 #include "lang/commands/statement-form.h"
 
 #include <string.h>
@@ -43,7 +43,7 @@ qdot_statement_is_free_argument(const qdot_session *session, const char *name)
     return q == NULL || q->kind != QDOT_NAME_COORD;
 }
 
-/* Whether `name` is what the function was defined with at place i. */
+/* Whether `name` is argument number i in the definition of the function. */
 static bool
 is_formal_at(const qdot_session *session, const qdot_name *function, uint32_t i, const char *name)
 {
@@ -55,7 +55,7 @@ is_formal_at(const qdot_session *session, const qdot_name *function, uint32_t i,
     return formal != NULL && strcmp(formal->name, name) == 0;
 }
 
-/* Whether `name` means something at this moment that an argument could be. */
+/* Whether `name` is declared now, so that it could be an argument's value. */
 static bool
 is_declared(const qdot_session *session, const char *name)
 {
@@ -63,7 +63,7 @@ is_declared(const qdot_session *session, const char *name)
            qdot_scene_has_label(session->scene, name);
 }
 
-/* Whether one of the names behind `name` in its bracket stands in the text behind the equation sign. */
+/* Whether an argument in the bracket after `name` occurs on the right side of the equation sign. */
 static bool
 is_of_arguments(const qdot_token *name, const qdot_token *equals)
 {
@@ -130,7 +130,7 @@ is_definition(const qdot_session *session, const qdot_token *name, bool word)
 
 /* --- statements of a word --------------------------------------------------------------- */
 
-/* Whether a minus is the sign of what follows, `potential -k/x`: a blank before it, none behind it. */
+/* Whether a minus is a sign, as in `potential -k/x`: a blank before it, none after it. */
 static bool
 is_sign(const qdot_token *token)
 {
@@ -161,7 +161,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
     bool declared = qdot_names_find(session->names, name->text) != NULL ||
                     qdot_names_is_family(session->names, name->text);
 
-    /* `hamiltonian` is a value; with an operand behind it, a statement */
+    /* `hamiltonian` by itself is a value; followed by an operand it is a statement */
     if (!row->alone && qdot_quantity_find(row->word) != NULL)
         return declared || !begins_operand(next);
     if (row->alone)
@@ -179,7 +179,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
 
 /* --- comparisons ------------------------------------------------------------------------ */
 
-/* A == B outside of brackets, with no `and`, `or`, `not` about it. */
+/* Whether the tokens are a comparison A == B outside of brackets, without `and`, `or`, `not`. */
 static bool
 is_comparison(const qdot_token *first)
 {

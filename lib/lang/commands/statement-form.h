@@ -25,14 +25,14 @@ typedef enum {
  * arguments are declared and the right side holds none of them (f(x) = x^2, then f(x) = 0). */
 qdot_form qdot_statement_form(const qdot_session *session, const qdot_token *first);
 
-/* Whether the statement's word at `name` is used as a name there: `run*2`, a user's own `scene`. */
+/* Whether the word of a statement at `name` is used as a name here: `run*2`, a user's own `scene`. */
 bool qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
                             const qdot_statement *row);
 
-/* Whether a name may stand for the argument of a function: pi, sin, dtheta may not. */
+/* Whether a name may be an argument in a function definition; pi, sin and dtheta may not. */
 bool qdot_statement_is_free_argument(const qdot_session *session, const char *name);
 
-/* The token behind the bracket that opens at `open`; `open` itself if none closes it. */
+/* The token after the bracket that opens at `open`; `open` itself if it is never closed. */
 const qdot_token *qdot_statement_behind_bracket(const qdot_token *open);
 
 #endif

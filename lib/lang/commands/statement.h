@@ -17,12 +17,12 @@
  * together. */
 const qdot_statement *qdot_statement_find(const char *word);
 const qdot_statement *qdot_statement_at(size_t i);
-/* Whether it declares a scene. */
+/* Whether the statement declares something of a scene. */
 bool qdot_statement_declares(const qdot_statement *row);
-/* Whether it asks of the scene or of an expression, not of a run. */
+/* Whether the statement asks about the scene or an expression, not about a run. */
 bool qdot_statement_asks(const qdot_statement *row);
 
-/* What begins with no word of a statement, at its first token: NAME = EXPR, and an expression. */
+/* Handlers of statements without a word of their own: NAME = EXPR, and an expression. */
 qdot_status qdot_declare_definition(qdot_cursor *c);
 qdot_status qdot_ask_expression(qdot_cursor *c);
 

@@ -1,4 +1,4 @@
-/* value-check.c -- values that no spring and no assumption allows: told where they are given. */
+/* value-check.c -- refuses values that contradict a spring or an assumption, where they are given. */
 #include "lang/commands/value-check.h"
 
 #include <string.h>
@@ -104,7 +104,7 @@ qdot_value_check_assumed(qdot_session *session)
 
 /* --- all of the scene ----------------------------------------------------------------- */
 
-/* The last of the values that e holds, else the first of all. */
+/* The place of the last given value whose symbol occurs in e; if none does, of the first value. */
 static const qdot_token *
 blame(qdot_session *session, const qdot_pairs *values, qdot_expr e)
 {
@@ -114,7 +114,7 @@ blame(qdot_session *session, const qdot_pairs *values, qdot_expr e)
     return values->places.at[0];
 }
 
-/* Whether several parameters are in it. */
+/* Whether e contains several parameters. */
 static bool
 is_shared(qdot_session *session, qdot_expr e)
 {

@@ -1,4 +1,4 @@
-/* warnings.c -- notices for what is allowed and often not what was meant. */
+/* warnings.c -- notices for statements that are allowed but often mistaken. */
 #include "lang/commands/warnings.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACC
 
 /* --- definitions ---------------------------------------------------------------------- */
 
-/* Values of the language that a definition is given in place of a statement. */
+/* Names of built-in values that users define by mistake, with the statement they probably meant. */
 static const struct {
     const char *name;
     const char *statement; /* its word; NULL: none takes this value, which follows from masses */
@@ -32,14 +32,14 @@ static const struct {
     {"energy", NULL},
 };
 
-/* Whether the scene has masses or a Lagrangian: its equations follow from what is declared. */
+/* Whether the scene has masses or a Lagrangian, so that it has equations of motion. */
 static bool
 is_furnished(const qdot_scene *s)
 {
     return s->particles.n > 0 || s->bodies.n > 0 || s->lagrangian != QDOT_NIL;
 }
 
-/* "; `potential k*x^2` does" */
+/* Append the suggested statement: "; `potential k*x^2` does" */
 static void
 add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
               qdot_text *text)
@@ -86,7 +86,7 @@ warning_tell(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, si
     return status;
 }
 
-/* Whether the name, none of the function's own, stands for something that holds the symbol. */
+/* Whether a name, not an argument of the function, stands for something that contains the symbol. */
 static bool
 stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
 {
@@ -111,7 +111,7 @@ takes_apart(const qdot_name *f)
     return false;
 }
 
-/* f(x) = V, where V holds a declared x: f(3) has that x in it still. */
+/* Notice for f(x) = V where V contains a declared x by another name: f(3) still depends on that x. */
 static qdot_status
 tell_arguments(qdot_session *session, const qdot_name *f)
 {
@@ -148,7 +148,7 @@ qdot_warnings_anew(qdot_session *session, const qdot_name *entry)
                               function ? "function" : "value", function ? "value" : "function", old->file, old->line);
 }
 
-/* Whether the name stands anywhere else in the text. */
+/* Whether the name occurs anywhere else in the text. */
 static bool
 name_is_used(const qdot_cursor *c, const qdot_token *start)
 {
@@ -160,7 +160,7 @@ name_is_used(const qdot_cursor *c, const qdot_token *start)
     return false;
 }
 
-/* x[1], the first that is declared of a family x. */
+/* The first declared member x[k] of a family x. */
 static const char *
 first_member(const qdot_session *s, const char *family)
 {
@@ -173,7 +173,7 @@ first_member(const qdot_session *s, const char *family)
     return family;
 }
 
-/* thetadot = 2, where theta is a coordinate and nothing reads thetadot: tell the `start` that was meant. */
+/* thetadot = 2 where theta is a coordinate and thetadot is not used: suggest `start theta' = 2`. */
 static qdot_status
 tell_velocity(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
 {

@@ -10,9 +10,9 @@
 QDOT_MUST_CHECK qdot_status qdot_warnings_definition(qdot_cursor *c,
                                                      const qdot_token *start,
                                                      const qdot_name *entry);
-/* A value in place of a function, or a function in place of a value, before it is declared. */
+/* Notice before a value is redefined as a function, or a function as a value. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_anew(qdot_session *session, const qdot_name *entry);
-/* A potential, spring, force ... that was declared before in the same words, after it was added. */
+/* Notice after a potential, spring, force ... was added that is identical to an earlier one. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_twice(qdot_session *session,
                                                 qdot_scene_kind kind);
 /* A force at a place that moves within a body. body: it was written point(body, ...); NULL. The
@@ -21,10 +21,10 @@ QDOT_MUST_CHECK qdot_status qdot_warnings_place(qdot_cursor *c, qdot_expr place,
                                                 const char *body,
                                                 const qdot_token *action,
                                                 const qdot_token *at);
-/* A run without any `start`. */
+/* Notice for a run without any `start`. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_start(qdot_session *session);
 
-/* A particle or body of that name whose mass holds the time: what its equations assume, as a notice. */
+/* Notice for a particle or body whose mass depends on time: what its equations assume. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_mass(qdot_session *session, const char *name, qdot_expr mass);
 
 #endif

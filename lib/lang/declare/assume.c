@@ -23,7 +23,7 @@ QDOT_STATEMENT(assume) = {
 typedef qdot_vec(qdot_assumption) assumptions;
 typedef qdot_vec(qdot_expr) exprs;
 
-/* Whether the relation is said with > or >=. */
+/* Whether the relation was typed with > or >=. */
 static bool
 says_greater(const qdot_token *from, const qdot_token *to)
 {
@@ -35,7 +35,7 @@ says_greater(const qdot_token *from, const qdot_token *to)
     return false;
 }
 
-/* One of the relations; `0 < a < c` is two. */
+/* Read one assumption; `0 < a < c` counts as two. */
 static qdot_status
 read_assumption(qdot_record *r, const qdot_filled *part, assumptions *said)
 {
@@ -57,7 +57,7 @@ read_assumption(qdot_record *r, const qdot_filled *part, assumptions *said)
     return QDOT_OK;
 }
 
-/* The facts of the scene and what is said now, in arrays of their own. */
+/* Copy the facts of the scene and the new assumptions into arrays. */
 static qdot_status
 gather_facts(qdot_session *session, const assumptions *said, exprs *relations, exprs *conditions)
 {

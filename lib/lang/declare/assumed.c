@@ -1,4 +1,4 @@
-/* assumed.c -- what a check may use: the facts of the scene and what stands behind `when`. */
+/* assumed.c -- the facts that a check may use: those of the scene, and the conditions after `when`. */
 #include "lang/declare/assumed.h"
 
 #include <string.h>
@@ -40,7 +40,7 @@ qdot_assumed_replace(qdot_session *session, const qdot_assumed *f, qdot_expr e)
                           : qdot_subs(session->pool, e, f->from.n, f->from.at, f->to.at);
 }
 
-/* symbol = expression: put in at once, here and in what was there before. */
+/* Add a replacement symbol = expression, applied at once to the replacements before it. */
 static qdot_status
 add_replacement(qdot_session *session, qdot_assumed *f, qdot_expr symbol, qdot_expr value)
 {
@@ -76,7 +76,7 @@ add_equation(qdot_session *session, qdot_assumed *f, qdot_expr left, qdot_expr r
     return qdot_vec_push(&f->relations, left);
 }
 
-/* A condition: an equation, an inequality, several of them. */
+/* Add a condition: an equation, an inequality, or several of them. */
 static qdot_status
 add_condition(qdot_session *session, qdot_assumed *f, qdot_expr e)
 {

@@ -11,7 +11,7 @@ typedef struct {
     bool motion, stated; /* `eom` was given; an equation was given that is not a constraint */
 } qdot_assumed;
 
-/* Add the facts of the scene to an empty one. QDOT_ENOMEM. */
+/* Add the facts of the scene to an empty set of facts. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_begin(qdot_session *session, qdot_assumed *f);
 void qdot_assumed_free(qdot_assumed *f);
 /* Add a condition after `when`: `eom`, the label of a constraint, or a relation. */
@@ -19,14 +19,14 @@ QDOT_MUST_CHECK qdot_status qdot_assumed_add(qdot_record *r, const qdot_filled *
 /* `eom`: replace accelerations and multipliers by their solution, and add the constraints on q
  * and q'. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assumed *f);
-/* Constraint i and its time derivatives, with or without the one that holds accelerations. */
+/* Add constraint i and its time derivatives, with or without the one that contains accelerations. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_constraint(qdot_session *session, qdot_assumed *f,
                                                     size_t i, bool accelerations);
-/* Every momentum in them as dL/dq'; one that was replaced becomes a relation. */
+/* Write every momentum in the facts as dL/dq'; a momentum that was replaced becomes a relation. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f);
-/* Put in what loops hold at a value. */
+/* Insert the present values of loop indices. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_hold(qdot_session *session, qdot_assumed *f);
-/* e with the replacements made. */
+/* The expression e with all replacements applied. */
 qdot_expr qdot_assumed_replace(qdot_session *session, const qdot_assumed *f, qdot_expr e);
 
 #endif

@@ -17,7 +17,7 @@ QDOT_STATEMENT(constraint) = {
     .handler = constraint_declare,
 };
 
-/* A component that says 0 = 0 is no constraint: `kept` is what there is of the others. */
+/* Notice: a component that reads 0 = 0 is no constraint; `kept` is the number of the others. */
 static qdot_status
 constraint_tell_dropped(qdot_session *session, const char *label, qdot_expr left, size_t kept)
 {
@@ -37,7 +37,7 @@ constraint_tell_dropped(qdot_session *session, const char *label, qdot_expr left
                               label != NULL ? label : "");
 }
 
-/* A notice where all constraints from `before` on are there already; whether it is so. */
+/* Notice if all constraints from index `before` on were declared earlier; returns whether that is so. */
 static bool
 constraint_tell_same(qdot_session *session, size_t before, qdot_status *status)
 {

@@ -1,4 +1,4 @@
-/* constraints.c -- what is asked of constraints: whether one is holonomic in disguise, redundant. */
+/* constraints.c -- finds constraints that are integrable to holonomic ones, or redundant. */
 #include "lang/declare/constraints.h"
 
 #include <math.h>
@@ -61,7 +61,7 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
 
 /* --- integrable --------------------------------------------------------------------- */
 
-/* `x - R*theta = const` */
+/* Print `x - R*theta = const`. */
 static qdot_status
 print_integral(qdot_sheet *sheet, qdot_expr integral)
 {

@@ -11,11 +11,11 @@
 QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name,
                                                               bool not);
 
-/* Append a line that names the redundant constraints, and one where nothing can move. */
+/* Append a line naming the redundant constraints, and one if nothing can move. */
 void qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
                                       qdot_text *out);
 
-/* A notice for each velocity constraint from `before` on that is integrable by itself. */
+/* Notice for each velocity constraint from index `before` on that is integrable by itself. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_tell_disguise(qdot_session *session,
                                                            size_t before);
 

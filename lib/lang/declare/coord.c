@@ -1,4 +1,4 @@
-/* coord.c -- `coord`: generalized coordinates, each with its domain. */
+/* coord.c -- the statement `coord`: declares generalized coordinates with their domains. */
 #include <string.h>
 
 #include "base/interrupt.h"

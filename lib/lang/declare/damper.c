@@ -1,4 +1,4 @@
-/* damper.c -- `damper`: pulls with -C d' between two places. */
+/* damper.c -- the statement `damper`: a force -C d' between two points at the distance d. */
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
 

@@ -37,7 +37,7 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 
 /* --- NAME = EXPR -------------------------------------------------------------------- */
 
-/* An unknown name on the right that is the one being defined: say so. */
+/* If the unknown name in a definition is the one being defined, say so in the error. */
 static qdot_status
 tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
 {

@@ -14,7 +14,7 @@ QDOT_STATEMENT(event) = {
     .handler = event_declare,
 };
 
-/* What `then` may set: a coordinate, a velocity, a parameter. */
+/* Find what `then` sets: a coordinate, a velocity or a parameter. */
 static qdot_status
 event_find_target(qdot_record *r, const qdot_filled *part, qdot_expr *target)
 {
@@ -37,7 +37,7 @@ event_find_target(qdot_record *r, const qdot_filled *part, qdot_expr *target)
     return qdot_hint("`then` sets coordinates, velocities and parameters");
 }
 
-/* `Q = VALUE, Q' = VALUE, PARAMETER = VALUE` behind `then`. */
+/* Read `Q = VALUE, Q' = VALUE, PARAMETER = VALUE` after `then`. */
 static qdot_status
 event_add_changes(qdot_record *r, qdot_event *event)
 {

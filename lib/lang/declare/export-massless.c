@@ -1,4 +1,5 @@
-/* export-massless.c -- rows of M and f, those without mass by their rates. */
+/* export-massless.c -- rows of M and f for export; for massless coordinates their equations are
+ * differentiated. */
 #include "lang/declare/export-massless.h"
 
 #include "base/memory.h"
@@ -68,7 +69,7 @@ check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
     return qdot_hint("a small mass, or `save` of a run");
 }
 
-/* The rate of f_i that holds accelerations. */
+/* The time derivative of f_i that contains accelerations. */
 static qdot_expr
 rate_of(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
@@ -77,7 +78,7 @@ rate_of(const qdot_scene *s, const bool *massless, qdot_expr f)
     return is_of_positions(s, massless, f) ? qdot_ddt(s->pool, rate) : rate;
 }
 
-/* Row i by that rate. accelerations [n], zeros [n] */
+/* Write row i of M and f from that derivative. accelerations [n], zeros [n] */
 static void
 put_rate(const qdot_scene *s, const qdot_expr *accelerations, const qdot_expr *zeros, qdot_expr rate, qdot_expr *M,
          qdot_expr *f)
@@ -123,7 +124,7 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
 
 /* --- events ------------------------------------------------------------------------------- */
 
-/* The parameters that the event sets, and those of (q, q') that change, as targets and values of `own`. */
+/* Set targets and values of `own`: the parameters that the event sets, and those q, q' that change. */
 static qdot_status
 put_changed(const qdot_scene *s, const qdot_event *event, const qdot_expr *after, qdot_event *own)
 {

@@ -15,7 +15,8 @@
 
 #include "mech/scene/scene.h"
 
-/* M [n x n], f [n]; *any: there are such coordinates. QDOT_ENOTBUILT: what one determines may jump. */
+/* Write M [n x n], f [n]; *any: there are massless coordinates. QDOT_ENOTBUILT: a value determined
+ * by one may jump. */
 QDOT_MUST_CHECK qdot_status qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any);
 
 /* What an event puts, with what follows from it by their equations (sim/model/massless-jump.h), as targets and values of

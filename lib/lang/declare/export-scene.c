@@ -28,7 +28,7 @@ enum {
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
 
-/* What is exported, while it is made. */
+/* A scene while it is being exported. */
 typedef struct {
     qdot_session *session;
     qdot_scene *scene;
@@ -52,7 +52,7 @@ typedef struct {
 
 /* --- expressions ------------------------------------------------------------------------ */
 
-/* Functions that have a value. */
+/* Collect the functions that have a value. */
 static qdot_status
 find_functions(qdot_session *s, expressions *heads, expressions *bodies)
 {
@@ -86,7 +86,7 @@ exprs_push(description *d, expressions *to, qdot_expr e)
     return qdot_vec_push(to, e);
 }
 
-/* The same on the sides of the switches, which are symbols. */
+/* Append e with all switches replaced by symbols for their sides. */
 static qdot_status
 push_frozen(description *d, expressions *to, qdot_expr e)
 {
@@ -110,7 +110,7 @@ jet(const description *d, size_t i, unsigned order)
     return qdot_symbol_jet(d->session->pool, d->scene->coordinates.at[i], order);
 }
 
-/* u of each surface, then what switches of T - V. */
+/* Export u of each switching surface, then the switching terms of T - V. */
 static qdot_status
 description_switches(description *d)
 {
@@ -148,7 +148,7 @@ description_switches(description *d)
     return QDOT_OK;
 }
 
-/* What the constraints should be, 0, and by how many derivatives they hold q''. */
+/* Export the constraint functions, which must be 0, and how many time derivatives each needs to contain q''. */
 static qdot_status
 constraints(description *d)
 {
@@ -174,7 +174,7 @@ constraints(description *d)
     return QDOT_OK;
 }
 
-/* The k-th constraint differentiated until it is linear in q''. */
+/* Constraint k, differentiated until it is linear in q''. */
 static qdot_expr
 accelerated(const description *d, size_t k)
 {
@@ -185,7 +185,7 @@ accelerated(const description *d, size_t k)
     return f;
 }
 
-/* M, f; coordinates without mass have rows of their own (export-massless.h). */
+/* Export M and f; massless coordinates have differentiated rows (export-massless.h). */
 static qdot_status
 motion(description *d)
 {
@@ -199,7 +199,7 @@ motion(description *d)
     return status;
 }
 
-/* M, f, then A and gamma, row by row. */
+/* Export M, f, then A and gamma, row by row. */
 static qdot_status
 equations(description *d)
 {
@@ -233,7 +233,7 @@ equations(description *d)
     return status;
 }
 
-/* f + A^T lambda - M q'' (row i < n), gamma - A q''. */
+/* The residual f + A^T lambda - M q'' (row i < n), or gamma - A q''. */
 static qdot_expr
 residual(const description *d, size_t i)
 {
@@ -283,7 +283,7 @@ energy(description *d)
     return exprs_push(d, &d->energy, qdot_mech_numeric_energy(d->scene));
 }
 
-/* f of the constraints on positions, then df/dt and f of those on velocities; 0 of the others. */
+/* Export f of position constraints, then df/dt of these and f of velocity constraints; 0 for the others. */
 static qdot_status
 positions(description *d)
 {
@@ -305,7 +305,7 @@ positions(description *d)
     return QDOT_OK;
 }
 
-/* The end of a coordinate's domain is an event that stops. */
+/* Export the end of a coordinate's domain as an event that stops the run. */
 static qdot_status
 add_end(description *d, const char *name, qdot_expr distance)
 {
@@ -392,7 +392,7 @@ add_parameter(description *d, qdot_expr symbol)
     return qdot_vec_push(&d->values, ((qdot_export_name){symbol_name(d->session, symbol), value}));
 }
 
-/* The parameters in these expressions. */
+/* Find the parameters in these expressions. */
 static qdot_status
 find_parameters(description *d, const expressions *list)
 {
@@ -431,7 +431,7 @@ all_parameters(description *d)
     return QDOT_OK;
 }
 
-/* t, q, q', q'', lambda, parameters, sides. */
+/* List all inputs: t, q, q', q'', lambda, parameters, sides. */
 static qdot_status
 all_inputs(description *d)
 {
@@ -463,7 +463,7 @@ all_names(description *d)
     return QDOT_OK;
 }
 
-/* Whether the run is one of these coordinates. */
+/* Whether the run has the coordinates of this scene. */
 static bool
 is_of_scene(const description *d, const qdot_run_report *r)
 {
@@ -499,7 +499,7 @@ start_of_run(description *d, qdot_run *run)
     return status;
 }
 
-/* The value of `start`; 0: none, NaN: it has no number yet. */
+/* The number given by `start`; 0 if there is none, NaN if it has no numerical value yet. */
 static qdot_status
 start_value(qdot_session *s, qdot_expr symbol, double *value)
 {
@@ -557,7 +557,7 @@ description_lower(const description *d, const expressions *e, const qdot_tape **
     return QDOT_OK;
 }
 
-/* Which element of y or which parameter an event sets. */
+/* The index of the element of y, or of the parameter, that an event sets. */
 static size_t
 target(const description *d, qdot_expr symbol)
 {

@@ -12,14 +12,14 @@
 QDOT_MUST_CHECK qdot_status qdot_export_scene(qdot_session *session, const char *file,
                                               const qdot_export_language *language, qdot_text *out);
 
-/* Append e as a function of its symbols; equations as left - right. name: how it was typed. */
+/* Append e as a function of its symbols; an equation as left - right. name: as it was typed. */
 QDOT_MUST_CHECK qdot_status qdot_export_value(qdot_session *session, const char *name, qdot_expr e,
                                               const char *file, const qdot_export_language *language,
                                               qdot_text *out);
 
-/* Of both: e with the functions that have a value replaced by it, parameters stay. */
+/* For both kinds of export: e with functions that have a value replaced by it; parameters stay. */
 qdot_expr qdot_export_bound(qdot_session *session, qdot_expr e);
-/* The number that `set` gives a parameter; NaN: none. */
+/* The number that `set` gave a parameter; NaN if none. */
 QDOT_MUST_CHECK qdot_status qdot_export_value_of(qdot_session *session, qdot_expr parameter,
                                                  double *value);
 

@@ -1,4 +1,4 @@
-/* export-value.c -- an expression, lowered to a tape with its symbols as inputs. */
+/* export-value.c -- exports an expression: lowers it to a tape with its symbols as inputs. */
 #include <math.h>
 
 #include "expr/build.h"
@@ -12,7 +12,7 @@
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
 
-/* Its scalars; of equations left - right. */
+/* Append the scalars of e; an equation as left - right. */
 static qdot_status
 scalars(qdot_session *s, qdot_expr e, expressions *to)
 {
@@ -29,7 +29,7 @@ scalars(qdot_session *s, qdot_expr e, expressions *to)
     return qdot_vec_push(to, e);
 }
 
-/* Symbols in `list`, those without a value first. */
+/* Find the symbols in `list`, first those without a value. */
 static qdot_status
 find_arguments(qdot_session *s, const expressions *list, expressions *inputs, names *to)
 {

@@ -1,4 +1,4 @@
-/* force.c -- `force`: an applied force, on a particle, a body, a coordinate, or at a place. */
+/* force.c -- the statement `force`: an applied force on a particle, a body, a coordinate, or at a point. */
 #include "expr/node.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
@@ -37,7 +37,7 @@ force_at(qdot_record *r, const qdot_filled *action, qdot_force *force)
                              : QDOT_OK;
 }
 
-/* `on NAME`, at its centre, or `on BODY at material POINT`. */
+/* Read `on NAME`, which acts at the centre, or `on BODY at material POINT`. */
 static qdot_status
 force_on(qdot_record *r, qdot_force *force)
 {

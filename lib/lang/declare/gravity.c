@@ -14,7 +14,7 @@ QDOT_STATEMENT(gravity) = {
     .handler = gravity_declare,
 };
 
-/* The statement of the field without label before one is added; nothing where there is none. */
+/* Print the field without label that existed before one is added; nothing if there is none. */
 static qdot_status
 gravity_print_plain(const qdot_scene *scene, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* new-names.c -- names that a statement declares, each with its domain. */
+/* new-names.c -- reads the names that a statement declares, each with its domain. */
 #include "lang/declare/new-names.h"
 
 #include "expr/node.h"
@@ -33,7 +33,7 @@ new_name_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
     return QDOT_OK;
 }
 
-/* The name that `part` is, and the value that follows it. */
+/* Read the name at `part` and the value that follows it. */
 static qdot_status
 new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
 {
@@ -58,7 +58,7 @@ new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
     return status == QDOT_OK ? qdot_set_keep_measured(session, &x->value) : status;
 }
 
-/* A sign also applies to the bare names before it: `param m, L > 0`. */
+/* Apply a sign also to the bare names before it: `param m, L > 0`. */
 static void
 new_names_spread(qdot_new_names *list)
 {
@@ -79,7 +79,7 @@ new_names_spread(qdot_new_names *list)
     }
 }
 
-/* What comes behind a parameter in its list may use it: `param a = 2, b = a^2`. */
+/* Make a parameter visible to the rest of its list: `param a = 2, b = a^2`. */
 static qdot_status
 new_name_show(qdot_session *session, const qdot_new_name *x, size_t *shown)
 {
@@ -132,7 +132,7 @@ new_name_same_domain(const qdot_symbol *s, const qdot_new_name *x)
            (x->hi == QDOT_NIL || s->hi_open == x->hi_open);
 }
 
-/* Declare one name; *fresh: it was not there before. */
+/* Declare one name; *fresh: it was not declared before. */
 static qdot_status
 new_name_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bool *fresh)
 {

@@ -21,7 +21,7 @@ typedef qdot_vec(qdot_new_name) qdot_new_names;
 /* The names of `param` or `coord`; free list->at in any case. Of parameters a sign spreads to the bare names before
  * it, and a value may use those before it. */
 QDOT_MUST_CHECK qdot_status qdot_new_names_read(qdot_record *r, bool params, qdot_new_names *list);
-/* Declare them; a parameter may be declared before, with the same domain. */
+/* Declare all names of the list; a parameter may have been declared before with the same domain. */
 QDOT_MUST_CHECK qdot_status qdot_new_names_declare(qdot_cursor *c, qdot_name_kind kind,
                                                    const qdot_new_names *list);
 

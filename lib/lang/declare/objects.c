@@ -1,4 +1,4 @@
-/* objects.c -- operands that statements of things in a scene share. */
+/* objects.c -- readers of operands that statements about particles, bodies, springs ... share. */
 #include "lang/declare/objects.h"
 
 #include "lang/commands/warnings.h"

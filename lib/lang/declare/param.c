@@ -14,7 +14,7 @@ QDOT_STATEMENT(param) = {
     .handler = param_declare,
 };
 
-/* Values that parameters get anew. */
+/* Check the new values of parameters that have been declared before. */
 static qdot_status
 param_check_values(qdot_cursor *c, const qdot_new_names *list)
 {
@@ -34,7 +34,7 @@ param_check_values(qdot_cursor *c, const qdot_new_names *list)
     return status;
 }
 
-/* Parameters with their values; a value outside its domain takes all back. */
+/* Declare parameters with their values; if a value is outside its domain undo all. */
 static qdot_status
 param_declare_list(qdot_cursor *c, const qdot_new_names *list)
 {

@@ -18,7 +18,7 @@ QDOT_STATEMENT(remove) = {
     .handler = remove_carry_out,
 };
 
-/* A notice of what was removed because it acted on a removed thing. */
+/* Notice of what was removed because it acted on a removed thing. */
 static qdot_status
 tell_removed(qdot_session *session, const char *label)
 {
@@ -38,7 +38,7 @@ tell_removed(qdot_session *session, const char *label)
     return status;
 }
 
-/* Kinds of things that need no label. */
+/* Kinds of things that need no label, with their words. */
 static const struct {
     const char *word, *singular, *plural;
     qdot_scene_kind kind;
@@ -51,7 +51,7 @@ static const struct {
              {"torque", "torque", "torques", QDOT_TORQUE}};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* "there are 2 potentials: 1: `potential x^2`, 2: ..." */
+/* Fail with a list of candidates: "there are 2 potentials: 1: `potential x^2`, 2: ..." */
 static qdot_status
 which(const qdot_scene *scene, size_t row)
 {
@@ -86,7 +86,7 @@ which(const qdot_scene *scene, size_t row)
     return status;
 }
 
-/* `remove potential`: the only one; `remove potential 2`. */
+/* `remove potential`, if there is only one; or `remove potential 2`. */
 static qdot_status
 remove_kind(qdot_record *r, const qdot_filled *number, size_t row)
 {

@@ -1,4 +1,4 @@
-/* scene-file.c -- what is declared, written as the statements that declare it. */
+/* scene-file.c -- writes all declarations as the statements that make them. */
 #include "lang/declare/scene-file.h"
 
 #include <stdio.h>
@@ -32,7 +32,8 @@ scene_file_put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 
 /* --- names ---------------------------------------------------------------------------- */
 
-/* `param m > 0`, `function x(s, t)`, `coord theta`: in one order, which is also that of terms. */
+/* Write `param m > 0`, `function x(s, t)`, `coord theta` in order of declaration, which is also
+ * that of terms. */
 static qdot_status
 put_symbols(qdot_session *s, qdot_text *out)
 {
@@ -52,7 +53,7 @@ put_symbols(qdot_session *s, qdot_text *out)
     return QDOT_OK;
 }
 
-/* The text as the right side of a definition, which keeps momenta. */
+/* Parse the text as the right side of a definition, in which momenta stay. */
 static qdot_status
 definition_source(const qdot_text *text, qdot_source **source)
 {
@@ -68,7 +69,7 @@ definition_source(const qdot_text *text, qdot_source **source)
     return status;
 }
 
-/* Whether the text has just this value here, and its entries go by these coordinates. */
+/* Whether the text evaluates to exactly this value, indexed by the same coordinates. */
 static qdot_status
 reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
 {
@@ -91,7 +92,7 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
     return qdot_grave(status);
 }
 
-/* Whether the text means the same wherever it stands: no `%`. */
+/* Whether the text means the same at any later time: it does not contain `%`. */
 static bool
 is_lasting(const qdot_function_body *body)
 {
@@ -103,7 +104,7 @@ is_lasting(const qdot_function_body *body)
 
 enum { VALUE, SAID, FORMS };
 
-/* One way to write the right side; nothing: it has no such form. */
+/* Write the right side in one of several forms; nothing if it does not have that form. */
 static qdot_status
 put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot_text *out)
 {
@@ -115,7 +116,7 @@ put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot
     return qdot_print(s->pool, value, QDOT_PLAIN, out);
 }
 
-/* The first form that reads back; *is: there is one. */
+/* Write the first form that evaluates to the value again; *is: there is one. */
 static qdot_status
 put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr over,
           qdot_text *out, bool *is)
@@ -171,7 +172,7 @@ put_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
 
 /* --- values --------------------------------------------------------------------------- */
 
-/* One line; `last` ends it. */
+/* Write one line, ended by `last`. */
 static qdot_status
 put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, const char *last, bool remarks,
           qdot_text *out)
@@ -197,7 +198,7 @@ put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols
     return QDOT_OK;
 }
 
-/* In the order of the coordinates, not that in which it was said: `start RUN` says it in another one. */
+/* Write `start` in the order of the coordinates; `start RUN` lists another order. */
 static qdot_status
 put_start(qdot_session *s, bool remarks, qdot_text *out)
 {
@@ -268,7 +269,7 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }
 
-/* Refuse to overwrite a regular file that does not begin as these files do. */
+/* Refuse to overwrite a regular file that does not begin with the header of such files. */
 static qdot_status
 may_overwrite(const char *path, const char *header)
 {

@@ -1,4 +1,4 @@
-/* session-file.c -- the runs of a session, and names that hold numbers of them, as statements. */
+/* session-file.c -- writes the runs of a session, and names that hold their results, as statements. */
 #include "lang/declare/session-file.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 
-/* The start as the lines written so far leave it. */
+/* What `start` would be after the lines written so far. */
 typedef struct {
     qdot_session *s;
     qdot_text *out, *lost;
@@ -33,7 +33,8 @@ put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 
 /* --- the start of a run ------------------------------------------------------------------ */
 
-/* What the written start says of q or q'; nil: nothing, or the end of a run without its error. */
+/* The value of q or q' in the start written so far; nil if none, or if it is the end of a run
+ * without its error. */
 static qdot_expr
 said(const writer *w, qdot_expr jet)
 {
@@ -52,7 +53,7 @@ is_written(const writer *w, qdot_expr jet)
     return false;
 }
 
-/* How a run's start compares with what is written. */
+/* How a run's start differs from the one written so far. */
 typedef enum { SAME, VALUES, NAMES } difference;
 
 static difference
@@ -76,7 +77,7 @@ conditions_compare(const writer *w, const qdot_conditions *c)
     return d;
 }
 
-/* The written start becomes that of the conditions. */
+/* Record the conditions of a run as the start written so far. */
 static qdot_status
 keep_start(writer *w, const qdot_conditions *c)
 {
@@ -119,7 +120,7 @@ goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
     return all || some;
 }
 
-/* Statements that make the start of the conditions, before a run, of which `before` are written. */
+/* Write statements that give the start of these conditions, before a run, after `before` other runs. */
 static qdot_status
 session_put_start(writer *w, const qdot_conditions *c, size_t before)
 {
@@ -219,7 +220,7 @@ put_with(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Whether the run can be made again: of this scene, with these functions and momenta. */
+/* Whether the run can be repeated: it belongs to this scene, with these functions and momenta. */
 static bool
 is_repeatable(const qdot_session *s, const qdot_named_run *run)
 {
@@ -270,7 +271,7 @@ put_run(writer *w, size_t k)
 
 /* --- names that hold numbers of runs ------------------------------------------------------ */
 
-/* Make run k the latest, or put it back where it was. */
+/* Move run k to the end of the list, as the latest run, or back to its place. */
 static void
 make_latest(qdot_session *s, size_t k)
 {
@@ -289,7 +290,7 @@ put_back(qdot_session *s, size_t k)
     s->runs.at[k] = run;
 }
 
-/* Whether the text that the name was defined with has its numbers, run k being the latest. */
+/* Whether the text with which the name was defined gives its numbers again if run k is the latest. */
 static qdot_status
 reads_numbers(qdot_session *s, const qdot_name *name, size_t k, bool *is)
 {
@@ -306,7 +307,7 @@ reads_numbers(qdot_session *s, const qdot_name *name, size_t k, bool *is)
     return qdot_grave(status);
 }
 
-/* The latest run behind which the name can be read, from `first` on; runs.n: there is none. */
+/* The latest run, from number `first` on, after which the name's text gives its value; runs.n if none. */
 static qdot_status
 find_run(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
 {
@@ -321,7 +322,7 @@ find_run(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
     return QDOT_OK;
 }
 
-/* # B: a number of a run, 0.54 +- 3e-13; in a scene, which has no runs, nothing. */
+/* Write `# B: a number of a run, 0.54 +- 3e-13` as a comment; nothing for a scene without runs. */
 static qdot_status
 put_lost(writer *w, const qdot_name *name)
 {
@@ -349,7 +350,7 @@ put_lost(writer *w, const qdot_name *name)
                                  "the file", name->name);
 }
 
-/* A name and the run behind which it is written. */
+/* A name, and the run after which it is written. */
 typedef struct {
     const qdot_name *name;
     size_t behind;
@@ -357,7 +358,7 @@ typedef struct {
 
 typedef qdot_vec(placed) placements;
 
-/* The run behind which all names stand that the text of `name` mentions. */
+/* The run after which all names are written that the text of `name` mentions. */
 static size_t
 earliest(const placements *list, const qdot_name *name)
 {
@@ -434,7 +435,8 @@ qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c)
     return QDOT_OK;
 }
 
-/* The file's own lines say the end of a run without its error: a run that began there with it is not said yet. */
+/* Forget starts written as the end of a run without its error: a run that began there with the
+ * error needs them again. */
 static void
 forget_ends(writer *w)
 {
@@ -471,7 +473,7 @@ session_put_all(writer *w, const placements *list)
     return status;
 }
 
-/* Runs that can be made again first, in their order; how many they are. */
+/* Move the runs that can be repeated to the front, in their order; returns their number. */
 static size_t
 sort_out(qdot_session *s, const qdot_named_run *all)
 {
@@ -488,7 +490,7 @@ sort_out(qdot_session *s, const qdot_named_run *all)
     return kept;
 }
 
-/* Runs that cannot be made again, as comments. */
+/* Write the runs that cannot be repeated as comments. */
 static qdot_status
 put_lost_runs(qdot_session *s, size_t n, const qdot_named_run *runs, qdot_text *lost)
 {
@@ -500,7 +502,7 @@ put_lost_runs(qdot_session *s, size_t n, const qdot_named_run *runs, qdot_text *
     return QDOT_OK;
 }
 
-/* The same with the runs at hand alone. */
+/* Write the runs and names of the session, considering only the runs in the list. */
 static qdot_status
 put_runs_and_names(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* session-remarks.c -- comments in files of scenes and sessions: written, kept and written again. */
+/* session-remarks.c -- comments in scene and session files about numbers of runs: writes and preserves them. */
 #include "lang/declare/session-remarks.h"
 
 #include <string.h>
@@ -32,7 +32,7 @@ put_error(double error, qdot_text *out)
         qdot_text_add(out, "unknown");
 }
 
-/* The comment that is known of the value in this session. */
+/* Write the comment that this session knows about a value. */
 static void
 put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
 {
@@ -116,7 +116,7 @@ qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length)
     return QDOT_OK;
 }
 
-/* Whether a line "# NAME: ..." or "# run ... as NAME: ..." is of a name or run that the session has again. */
+/* Whether a comment "# NAME: ..." or "# run ... as NAME: ..." concerns a name or run that exists again. */
 static bool
 is_found(const qdot_session *s, const char *line)
 {

@@ -13,20 +13,20 @@
 
 #include "lang/session/session.h"
 
-/* The first line of these files. */
+/* The first line of scene and session files. */
 extern const char qdot_session_file_header[];
 
-/* Whether it is a number that nobody types: of more than twelve digits. */
+/* Whether the value is a number with more than twelve digits, which nobody types. */
 bool qdot_session_file_is_long(const qdot_session *s, qdot_expr value);
 
-/* Keep the lines with comments of a text that begins as these files do. */
+/* If the text begins with the header of such files, remember its comment lines. */
 QDOT_MUST_CHECK qdot_status qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length);
 
 /* End the line that begins at `from` of the text: with a comment that has the error of `value`, where that is a number that
  * was read from a run, or the end of one of the first `runs`, or with the one that was kept of the same line. */
 void qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t runs, size_t from, qdot_text *out);
 
-/* Append the lines kept that are comments as a whole, of names and runs that are still missing; then `more`. */
+/* Append remembered comment lines about names and runs that are still missing; then `more`. */
 void qdot_session_remarks_lost(const qdot_session *s, const qdot_text *more, qdot_text *out);
 
 #endif

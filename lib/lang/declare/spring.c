@@ -1,4 +1,4 @@
-/* spring.c -- `spring`: K/2 (d - L)^2 between two places. */
+/* spring.c -- the statement `spring`: the potential K/2 (d - L)^2 of two points at the distance d. */
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"

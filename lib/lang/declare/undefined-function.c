@@ -1,4 +1,4 @@
-/* undefined-function.c -- `function`: functions that stay undefined. */
+/* undefined-function.c -- the statement `function`: declares functions without a definition. */
 #include <string.h>
 
 #include "expr/build.h"

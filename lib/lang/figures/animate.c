@@ -21,7 +21,7 @@ QDOT_STATEMENT(animate) = {
     .handler = animate_write,
 };
 
-/* A number that is finite; *t NaN: it was not said. */
+/* Read a finite number; *t is NaN if the option is missing. */
 static qdot_status
 time_find(qdot_record *r, const qdot_filled *part, double *t)
 {
@@ -35,7 +35,7 @@ time_find(qdot_record *r, const qdot_filled *part, double *t)
     return qdot_fail(QDOT_EDOMAIN, "`%s` needs a finite number", part->node->before);
 }
 
-/* A number that is not negative, of `speed` above 0. */
+/* Read a number that is not negative, or positive unless `zero`. */
 static qdot_status
 length_find(qdot_record *r, const qdot_filled *part, bool zero, double *value)
 {

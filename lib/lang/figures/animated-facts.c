@@ -1,4 +1,4 @@
-/* animated-facts.c -- the lines below a moving picture: which run it is, and how right. */
+/* animated-facts.c -- the lines below an animation: which run it shows, and its accuracy. */
 #include <math.h>
 
 #include "base/number-text.h"
@@ -24,7 +24,7 @@ fact_add(qdot_animation *a, const char *name, qdot_text *text)
     return status;
 }
 
-/* m = 1, g = 9.81: of all parameters that the things and equations hold. */
+/* Append the values of all parameters that the drawn things and the equations contain: m = 1, g = 9.81. */
 static qdot_status
 add_values(qdot_session *session, const qdot_named_run *run, qdot_animation *a)
 {

@@ -1,4 +1,4 @@
-/* animated.c -- a run of the scene as a moving picture: its things as points, links, bodies. */
+/* animated.c -- makes an animation of a run: particles as points, springs and rods as lines, bodies. */
 #include "lang/figures/animated.h"
 
 #include <math.h>
@@ -135,7 +135,7 @@ add_links(builder *b)
     return status;
 }
 
-/* Its arms as points; in the plane also where they are in the body, wanted once. */
+/* Add the arms of body i as points; in the plane also their constant position in the body frame. */
 static qdot_status
 add_arms(builder *b, size_t i, qdot_animation_body *one)
 {
@@ -183,7 +183,7 @@ add_bodies(builder *b)
     return QDOT_OK;
 }
 
-/* The picture's upward direction in space: against gravity, else z. */
+/* Choose the upward direction of the picture in space: against gravity, otherwise z. */
 static qdot_status
 want_gravity(builder *b)
 {
@@ -281,7 +281,7 @@ square(qdot_pool *pool, qdot_expr v)
                                                                 : qdot_mul(pool, v, v);
 }
 
-/* T as it stands: nothing is simplified for numbers. */
+/* T without simplification, as only numbers are needed. */
 static qdot_expr
 kinetic(qdot_scene *s)
 {
@@ -453,7 +453,7 @@ check_scene(builder *b, bool bare)
                                      : qdot_hint("particle bob mass m at (x, y)");
 }
 
-/* Everything that is drawn. */
+/* Add everything that is drawn. */
 static qdot_status
 add_things(builder *b)
 {
@@ -469,7 +469,7 @@ add_things(builder *b)
     return b->a->dimension == 3 ? want_gravity(b) : QDOT_OK;
 }
 
-/* In the order of add_things. */
+/* Use the values at the first time, in the order of add_things. */
 static void
 use_first(builder *b)
 {

@@ -5,7 +5,7 @@
 #include "lang/session/session.h"
 #include "show/animation.h"
 
-/* What part of a run is drawn, and how. */
+/* Which part of a run is drawn, and how. */
 typedef struct {
     double from, to;   /* times; NaN: where the run begins, ends */
     const char *title; /* borrowed; NULL: none */
@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_animated_make(qdot_session *session,
                                                const qdot_animated_options *options,
                                                qdot_animation *a);
 
-/* The lines about the run alone. */
+/* Add only the lines about the run. */
 QDOT_MUST_CHECK qdot_status qdot_animated_facts(qdot_session *session,
                                                 const qdot_named_run *run,
                                                 qdot_animation *a);

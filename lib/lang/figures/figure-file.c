@@ -1,4 +1,4 @@
-/* figure-file.c -- where a figure goes. */
+/* figure-file.c -- shows a figure in a window or the terminal, or writes it to a file. */
 #include "lang/figures/figure-file.h"
 
 #include <stdlib.h>
@@ -29,7 +29,7 @@ add_stem(const qdot_session *session, qdot_text *path)
         qdot_text_add(path, script);
 }
 
-/* The first of STEM-1.svg, STEM-2.svg ... that is not there. */
+/* The first of STEM-1.svg, STEM-2.svg ... that does not exist. */
 static qdot_status
 default_path(const qdot_session *session, qdot_text *path)
 {
@@ -88,7 +88,7 @@ expects_window(const qdot_session *session)
     return has_terminal(session) && (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
 }
 
-/* *open: a window shows the figure. A window that cannot be opened is told. */
+/* Show the figure in a window; *open: that worked. If no window can be opened, a notice says so. */
 static qdot_status
 try_window(qdot_session *session, const qdot_figure *figure, bool *open)
 {

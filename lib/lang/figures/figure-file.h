@@ -1,4 +1,4 @@
-/* figure-file.h -- where a figure goes: a file, a window, a sketch in the terminal. */
+/* figure-file.h -- shows a figure in a window or as a terminal sketch, or writes it to a file. */
 #ifndef QDOT_LANG_FIGURE_FILE_H
 #define QDOT_LANG_FIGURE_FILE_H
 
@@ -11,9 +11,9 @@
 QDOT_MUST_CHECK qdot_status qdot_figure_file_show(qdot_session *session,
                                                   const qdot_figure *figure,
                                                   const char *path);
-/* The quoted name behind `to`. */
+/* Read the quoted file name after `to`. */
 QDOT_MUST_CHECK qdot_status qdot_figure_file_read(qdot_cursor *c, const char **path);
-/* The quoted text behind `title`. */
+/* Read the quoted text after `title`. */
 QDOT_MUST_CHECK qdot_status qdot_figure_title_read(qdot_cursor *c, const char **title);
 
 #endif

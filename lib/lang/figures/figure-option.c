@@ -38,7 +38,7 @@ set_range(qdot_cursor *c, const qdot_token *start, double least, double most,
     return QDOT_OK;
 }
 
-/* A to B */
+/* Read `A to B`, the range of the horizontal axis. */
 static qdot_status
 read_from(qdot_cursor *c, qdot_panel_choice *p)
 {
@@ -129,7 +129,7 @@ qdot_figure_option_is(const qdot_token *token)
     return false;
 }
 
-/* The option whose word was stepped over. */
+/* Read an option whose word has been stepped over. */
 static qdot_status
 figure_option_read(qdot_cursor *c, const char *word, qdot_figure_choice *f, qdot_panel_choice *p)
 {
@@ -180,7 +180,7 @@ range_find(qdot_record *r, const qdot_filled *place, double least, double most, 
     return QDOT_OK;
 }
 
-/* A to B */
+/* Take the range `A to B` of the horizontal axis from the parts of a statement. */
 static qdot_status
 abscissa_find(qdot_record *r, const qdot_filled *a, qdot_panel_choice *p)
 {
@@ -233,7 +233,7 @@ labels_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
     return QDOT_OK;
 }
 
-/* The option whose word is the part, its hole the next. */
+/* Take one option: its word is this part, its value the next. */
 static qdot_status
 one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_panel_choice *p)
 {

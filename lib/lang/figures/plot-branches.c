@@ -1,4 +1,4 @@
-/* plot-branches.c -- rows of branches as curves, by stability, and as marks. */
+/* plot-branches.c -- draws branches of solutions as curves, styled by stability, with marks at bifurcations. */
 #include "lang/figures/plot-branches.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* How a part of a branch is drawn; the places in figure.h's lists of looks. */
+/* Line styles of branches; the order is that of the list of looks in figure.h. */
 enum { FULL, DASHED, DOTTED, KINDS, MOST_PANELS = 6, MOST_TYPES = 8 };
 
 static bool
@@ -15,7 +15,8 @@ is_mark(const qdot_row_table *t, size_t k)
     return !isnan(t->values[k * t->n + t->n - 1]);
 }
 
-/* Between rows k and k + 1 of one branch: at a bifurcation nothing is decided. */
+/* The line style between rows k and k + 1 of one branch; at a bifurcation stability is undecided,
+ * so the other row counts. */
 static int
 line_kind(const qdot_row_table *t, size_t k)
 {
@@ -31,7 +32,7 @@ add_point(qdot_curve *c, double *x, double *y, double px, double py)
     y[c->rows++] = py;
 }
 
-/* The parts of one kind, with gaps between them; y in column i. */
+/* Collect the segments of one style, with gaps between them; y is column i. */
 static void
 fill_kind(const qdot_row_table *t, size_t i, int kind, qdot_curve *c, double *x, double *y)
 {

@@ -9,7 +9,7 @@
 #include "lang/session/row-table.h"
 #include "show/figure.h"
 
-/* Panels and what they need; freed in any case. */
+/* Panels with the arrays that they use; freed in any case. */
 typedef struct {
     qdot_panel *panels;  /* [n] */
     qdot_curve *curves;
@@ -17,7 +17,7 @@ typedef struct {
     size_t n;
 } qdot_branch_drawing;
 
-/* Of a table of branches. QDOT_ENOMEM; QDOT_EDOMAIN: there is nothing to draw. */
+/* Make the panels of a table of branches. QDOT_ENOMEM; QDOT_EDOMAIN: there is nothing to draw. */
 QDOT_MUST_CHECK qdot_status qdot_plot_branches_draw(const qdot_row_table *branches,
                                                     qdot_branch_drawing *d);
 void qdot_plot_branches_free(qdot_branch_drawing *d);

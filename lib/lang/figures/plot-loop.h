@@ -7,10 +7,11 @@
 
 #include "lang/commands/loop.h"
 
-/* Where the clause at the cursor ends: at the first option behind something complete, or the end. */
+/* The end of the clause at the cursor: the first option after something complete, or the end of the
+ * statement. */
 const qdot_token *qdot_plot_clause_end(const qdot_cursor *c);
 
-/* ", l = 1": what the indices stand at. */
+/* The present values of the loop indices as text: ", l = 1". */
 QDOT_MUST_CHECK qdot_status qdot_plot_indices(qdot_session *session, const qdot_loop *loop,
                                               qdot_text *label);
 
@@ -21,7 +22,7 @@ typedef struct {
     qdot_status (*pass)(qdot_cursor *c, const qdot_loop *loop, void *user);
     void *user;
 } qdot_plot_loop;
-/* Carry out each pass with the indices bound. The place of an error is in c->error_at. */
+/* Repeat the body with each set of index values. The position of an error is in c->error_at. */
 QDOT_MUST_CHECK qdot_status qdot_plot_loop_carry_out(qdot_cursor *c, const qdot_plot_loop *l);
 
 #endif

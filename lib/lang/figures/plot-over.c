@@ -43,7 +43,7 @@ over_values(void *user, size_t n, const double *s, double *values)
     return QDOT_OK;
 }
 
-/* The first points of one curve. */
+/* Compute the first points of one curve. */
 static qdot_status
 fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curve *one)
 {
@@ -68,7 +68,7 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     return qdot_trace_begin(&one->source, FIRST_POINTS, s, &one->points);
 }
 
-/* One expression as a curve; behind it stands what is to be read next. */
+/* Read one expression and make it a curve; the cursor ends after it. */
 static qdot_status
 curve_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
 {
@@ -108,7 +108,7 @@ curves_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_
     return qdot_cursor_is_word(c, "vs") ? QDOT_OK : qdot_cursor_expected(c, "`vs`");
 }
 
-/* `NAME = A..B [for ...]` with options behind `vs`. */
+/* Read `NAME = A..B [for ...]` with options, after `vs`. */
 static qdot_status
 read_variable(qdot_cursor *c, variable *v, qdot_plot_panel *p, qdot_figure_choice *figure)
 {

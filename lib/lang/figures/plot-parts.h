@@ -1,4 +1,4 @@
-/* plot-parts.h -- what the files of the statement `plot` share. */
+/* plot-parts.h -- types and functions shared by the files of the statement `plot`. */
 #ifndef QDOT_LANG_PLOT_PARTS_H
 #define QDOT_LANG_PLOT_PARTS_H
 
@@ -41,14 +41,15 @@ typedef struct {
 } qdot_plot_panel;
 
 void qdot_plot_panel_clear(qdot_plot_panel *panel);
-/* A curve without numbers yet. */
+/* Add a curve without points. */
 QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
                                                 const char *axis, qdot_plot_curve **added);
 
-/* `E, ... [vs E], ... [for ...]` with options, and the first points of each curve along its run. */
+/* Read `E, ... [vs E], ... [for ...]` with options, and compute the first points of each curve
+ * along its run. */
 QDOT_MUST_CHECK qdot_status qdot_plot_run(qdot_cursor *c, const qdot_plot_runs *runs,
                                           qdot_plot_panel *panel, qdot_figure_choice *figure);
-/* The `vs` of `vs NAME = A..B` at the top level; NULL: there is none. */
+/* The token `vs` of `vs NAME = A..B` outside brackets; NULL if there is none. */
 const qdot_token *qdot_plot_over_find(const qdot_cursor *c);
 /* `E, ... vs NAME = A..B [for ...]` with options, and the first points of each curve. */
 QDOT_MUST_CHECK qdot_status qdot_plot_over(qdot_cursor *c, const qdot_token *vs,

@@ -1,4 +1,4 @@
-/* plot-rows.c -- the rows of a sweep as a figure. */
+/* plot-rows.c -- draws the rows of a sweep as curves or maps. */
 #include "lang/figures/plot-rows.h"
 
 #include <math.h>
@@ -8,10 +8,10 @@
 #include "lang/figures/plot-branches.h"
 #include "lang/session/row-tables.h"
 
-/* Places along an uneven axis; panels of a figure. */
+/* FINE: points along an axis with uneven steps; MOST_PANELS: panels of a figure. */
 enum { FINE = 400, MOST_PANELS = 12 };
 
-/* The branches that `plot` alone shows: those of the latest `continue` without a name. */
+/* The branches that `plot` without operands shows: those of the latest `continue` without a name. */
 static qdot_row_table *
 branches_alone(const qdot_cursor *c)
 {
@@ -38,7 +38,8 @@ abscissa(const qdot_row_table *t)
     return t->scattered && t->n - t->n_swept > 1 ? t->n_swept : 0;
 }
 
-/* The curves, of the rows that have numbers; x and y [columns x rows]; how many curves. */
+/* Make the curves of all columns; x and y [columns x rows] are filled with rows that have numbers;
+ * returns the number of curves. */
 static size_t
 curves_fill(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
 {
@@ -61,7 +62,7 @@ curves_fill(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
     return n;
 }
 
-/* Whether what was swept grows or falls from row to row: points that belong together. */
+/* Whether the swept parameter is monotonic from row to row, so that points can be joined. */
 static bool
 is_ordered(const qdot_row_table *t)
 {
@@ -87,7 +88,7 @@ typedef struct {
     size_t *of; /* [shown] */
 } axis;
 
-/* Panels and what they need; n of them. */
+/* Panels with the arrays that they use; n of each. */
 typedef struct {
     qdot_panel *panels;
     qdot_curve *curves;
@@ -117,7 +118,7 @@ is_even(const qdot_row_table *t, const axis *a)
     return true;
 }
 
-/* The ends, of values in any order; where they descend the axis does. */
+/* Find the ends of an axis from values in any order; if they descend so does the axis. */
 static void
 find_ends(const qdot_row_table *t, axis *a)
 {
@@ -168,7 +169,7 @@ rows_are_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
     return true;
 }
 
-/* The last two names; how many rows have one value of each name before these. */
+/* Find the last two swept names as axes, and how many rows there are for each set of values of the others. */
 static qdot_status
 find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
 {
@@ -197,7 +198,7 @@ write_title(const qdot_row_table *t, size_t row, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* The map of number j over the rows from `row` on. */
+/* Make a map of quantity j from the rows that begin at `row`. */
 static void
 fill_map(const qdot_row_table *t, const axis *axes, size_t row, size_t j, qdot_figure_map *m, double *v)
 {

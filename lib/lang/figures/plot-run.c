@@ -1,4 +1,4 @@
-/* plot-run.c -- curves along runs: against t, against each other, paths, drifts. */
+/* plot-run.c -- draws curves along runs: against t, against each other, as paths, as drifts. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 enum { LEAST_POINTS = 201, PARTS_OF_STEP = 8, MOST_AT_FIRST = 10001 };
 
-/* A drift of 0 has no logarithm: it is drawn where rounding is. */
+/* A drift of 0 has no logarithm: it is drawn at the rounding error. */
 static const double drift_floor = 0x1p-54;
 
 /* --- reading ------------------------------------------------------------------------ */
@@ -24,7 +24,7 @@ push_item(qdot_plot_panel *p, bool drift)
     return QDOT_OK;
 }
 
-/* Whether `drift(...)` is the whole operand. */
+/* Whether the whole operand is `drift(...)`. */
 static bool
 is_drift(const qdot_cursor *c)
 {
@@ -40,7 +40,7 @@ is_drift(const qdot_cursor *c)
             qdot_token_is(end + 1, ","));
 }
 
-/* In a loop an operand is called as it was written: the indices stand behind all labels. */
+/* In a loop an operand's label is its text as typed; the values of the indices are added to all labels. */
 static qdot_status
 rename_written(qdot_cursor *c, const qdot_token *start, qdot_operand *o)
 {
@@ -56,7 +56,7 @@ rename_written(qdot_cursor *c, const qdot_token *start, qdot_operand *o)
     return QDOT_OK;
 }
 
-/* E, or drift(E, ...) */
+/* Read one item: E, or drift(E, ...). */
 static qdot_status
 read_item(qdot_cursor *c, qdot_plot_panel *p)
 {
@@ -130,7 +130,7 @@ typedef struct {
     qdot_plot_panel *panel;
 } repeated;
 
-/* Keep the latest run, made for this pass, and read along it what has no run yet. */
+/* Keep the latest run, made with the present index values, and assign it to operands that name no run. */
 static qdot_status
 keep_run(qdot_session *session, qdot_plot_panel *p, qdot_operands *list, size_t first)
 {
@@ -223,7 +223,7 @@ read_all(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p, qdot_fi
                                                               : "`vs`, " QDOT_FIGURE_OPTIONS);
 }
 
-/* Curves that share no axes. */
+/* Refuse curves that cannot share axes. */
 static qdot_status
 check_kinds(const qdot_plot_panel *p)
 {
@@ -308,7 +308,7 @@ times_narrow(const qdot_operand *o, double *low, double *high)
     return o->mixed ? qdot_member_span(o->session, o->columns.at[0], low, high) : QDOT_OK;
 }
 
-/* The first times: each step in parts, or evenly where there are many steps. */
+/* The times of the first points: each step divided evenly, or, if there are many steps, evenly spaced. */
 static qdot_status
 first_times(const qdot_plot_curve *curve, double low, double high, double **times, size_t *n)
 {
@@ -356,7 +356,7 @@ leave_zero(double *times, size_t n)
         times[0] = pow(10, floor(log10(times[1])) - powers_before);
 }
 
-/* The first points of a curve along its run. */
+/* Compute the first points of a curve along its run. */
 static qdot_status
 curve_begin(qdot_plot_panel *p, qdot_plot_curve *curve)
 {

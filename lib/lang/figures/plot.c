@@ -81,7 +81,7 @@ free_frame(frame *f)
     qdot_free(f->curves);
 }
 
-/* Different labels of one axis, joined; a long list becomes no label. */
+/* Join the different labels of an axis; if they are long the axis gets none. */
 static void
 join_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
 {
@@ -147,7 +147,7 @@ point_at(const qdot_plot_curve *from, qdot_curve *to)
                        .z = from->points.at[2]};
 }
 
-/* The figure of the points that there are. */
+/* Build the figure from the points computed so far. */
 static qdot_status
 build(const panels *all, frame *f)
 {
@@ -179,7 +179,7 @@ build(const panels *all, frame *f)
     return QDOT_OK;
 }
 
-/* More points where the curves bend, as each panel will show them. */
+/* Add points where curves bend, at the scale at which each panel shows them. */
 static qdot_status
 panels_refine(panels *all, const qdot_figure *figure, frame *f)
 {
@@ -200,7 +200,7 @@ panels_refine(panels *all, const qdot_figure *figure, frame *f)
     return QDOT_OK;
 }
 
-/* A notice where logarithmic axes leave something out; 0 is not told, at which a drift begins. */
+/* Notice if logarithmic axes leave out points; not for values of 0, with which a drift begins. */
 static qdot_status
 tell_left_out(qdot_session *session, const qdot_figure *figure)
 {
@@ -219,7 +219,7 @@ tell_left_out(qdot_session *session, const qdot_figure *figure)
 
 /* --- the statement ------------------------------------------------------------------ */
 
-/* The next `|` outside brackets, or the end. */
+/* The next `|` outside brackets, or the end of the statement. */
 static qdot_token *
 find_bar(const qdot_cursor *c)
 {
@@ -242,7 +242,7 @@ read_panel(qdot_cursor *c, const qdot_plot_runs *runs, qdot_figure_choice *figur
     return vs != NULL ? qdot_plot_over(c, vs, p, figure) : qdot_plot_run(c, runs, p, figure);
 }
 
-/* Panels, each with an end of its own while it is read. */
+/* Read the panels; while one is read the `|` after it acts as the end of the statement. */
 static qdot_status
 read_panels(qdot_cursor *c, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {

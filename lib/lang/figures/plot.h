@@ -5,7 +5,7 @@
 #include "lang/figures/plot-runs.h"
 #include "lang/language/cursor.h"
 
-/* Read the panels at the cursor, draw and show them. */
+/* Read the panels at the cursor, and draw and show them. */
 QDOT_MUST_CHECK qdot_status qdot_plot_figure(qdot_cursor *c, const qdot_plot_runs *runs);
 
 #endif

@@ -1,10 +1,10 @@
-/* solid.c -- the solid of uniform density that has the mass and the moments of a body. */
+/* solid.c -- the solid of uniform density with the mass and the moments of inertia of a body. */
 #include "lang/figures/solid.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The root of what may be negative by rounding, or of a body without mass. */
+/* The square root of x, or 0 if x is negative by rounding, or not finite for a body without mass. */
 static double
 root(double x)
 {
@@ -39,7 +39,7 @@ qdot_solid_plane(double mass, double inertia, const double (*arms)[2], size_t n,
     b->half[1] = root(3 * square - b->half[0] * b->half[0]);
 }
 
-/* One turn in the plane of axes i, j that makes a[i][j] 0 (Jacobi); v: the axes so far, as rows. */
+/* One Jacobi rotation in the plane of axes i, j that makes a[i][j] 0; v: the principal axes so far, as rows. */
 static void
 jacobi_turn(double a[3][3], double v[3][3], int i, int j)
 {

@@ -1,4 +1,4 @@
-/* digits-table.c -- rows of many digits. */
+/* digits-table.c -- tables of runs with `digits`, with many digits in each cell. */
 #include "lang/files/digits-table.h"
 
 #include "base/interrupt.h"
@@ -8,7 +8,7 @@
 #include "lang/runs/data-file.h"
 #include "lang/session/bind.h"
 
-/* The time as it is read and as files have it; texts of digits. */
+/* TIMES: columns of time, one to be read by people, one for files. */
 enum { TIMES = 2 };
 
 typedef struct {
@@ -84,14 +84,14 @@ digits_table_clear(digits_table *d)
     qdot_free(d->names);
 }
 
-/* Where a row is: at a time, or at a point of the run beside an event. */
+/* The time of a row, or the point of the run just before or after an event. */
 typedef struct {
     qdot_expr time;
     bool beside;
     size_t point;
 } place;
 
-/* The values of one operand at a place. */
+/* Add the values of one operand at that time. */
 static qdot_status
 add_values(qdot_session *session, qdot_table *t, const qdot_operand *o, const place *at, int digits)
 {

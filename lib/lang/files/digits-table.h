@@ -7,7 +7,7 @@
 
 #include "lang/commands/operands.h"
 
-/* The fewest digits of the operands' runs, where all of them have `digits`; else 0. */
+/* The smallest number of digits of the operands' runs if all of them have `digits`; else 0. */
 int qdot_digits_table_of(const qdot_operands *list);
 
 /* A table at exact times [rows], nil: the end of the run; beside [rows], NULL: none: the row is that point of

@@ -32,7 +32,7 @@ static const struct language {
     {"latex", ".tex", NULL},
 };
 
-/* What is exported: the motion, or the value of an expression with its text. */
+/* What is exported: the equations of motion, or an expression with its text. */
 typedef struct {
     bool motion;
     qdot_expr value;
@@ -55,7 +55,8 @@ read_operand(qdot_record *r, const struct language *l, operand *o)
     return qdot_text_status(&o->name);
 }
 
-/* The file: its ending must be the language's. *name: without folder and ending, of `storage`. */
+/* Read the file name, whose ending must be that of the language. *name: the name without folder and
+ * ending, in `storage`. */
 static qdot_status
 read_file(qdot_record *r, const struct language *l, const char **path, qdot_text *name)
 {
@@ -77,7 +78,7 @@ read_file(qdot_record *r, const struct language *l, const char **path, qdot_text
     return qdot_text_status(name);
 }
 
-/* As `EXPR to "x.tex"`. */
+/* Write LaTeX, as `EXPR to "x.tex"` does. */
 static qdot_status
 write_latex(qdot_session *session, const operand *o, const char *path)
 {

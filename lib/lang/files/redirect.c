@@ -28,7 +28,7 @@ static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PL
 bool
 qdot_redirect_answers(const qdot_statement *row)
 {
-    /* of other groups; those not here read a `to` of their own, or have nothing to say */
+    /* words of other groups; a statement not listed parses `to` itself, or has no answer */
     static const char *const words[] = {"run",  "plan", "events", "help",
                                         "show", "vars", "print"};
 
@@ -56,7 +56,7 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
     return end - 2;
 }
 
-/* Endings of figures and of columns of numbers, which a formula cannot be. */
+/* File endings of figures and of tables, to which a formula cannot be written. */
 static qdot_status
 redirect_refuse(const char *path, const char *ending)
 {
@@ -120,7 +120,7 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
     return redirect_refuse(path, ending);
 }
 
-/* What was answered, as a page. */
+/* Make a page of the collected answers. */
 static qdot_status
 make_page(qdot_redirect *r, qdot_text *page)
 {

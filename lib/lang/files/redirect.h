@@ -32,7 +32,7 @@ bool qdot_redirect_answers(const qdot_statement *row);
  * expression. */
 const qdot_token *qdot_redirect_find(const qdot_statement *row, const qdot_token *first);
 
-/* From here on answers are kept. QDOT_EINVAL: not to a file of this ending. */
+/* Collect answers from now on. QDOT_EINVAL: a file with this ending cannot hold them. */
 QDOT_MUST_CHECK qdot_status qdot_redirect_begin(qdot_redirect *r, qdot_session *session,
                                                 const char *path);
 

@@ -1,4 +1,4 @@
-/* report-answer.c -- what statements answer, taken down for the page of a report. */
+/* report-answer.c -- collects the answers of statements for the page of a report. */
 #include "lang/files/report-answer.h"
 
 #include <stdlib.h>

@@ -1,11 +1,11 @@
-/* report-answer.h -- what statements answer, taken down for the page of a report. */
+/* report-answer.h -- collects the answers of statements for the page of a report. */
 #ifndef QDOT_LANG_REPORT_ANSWER_H
 #define QDOT_LANG_REPORT_ANSWER_H
 
 #include "lang/syntax/record.h"
 #include "show/formula-page.h"
 
-/* What stays of a session while an answer is taken down. */
+/* The session's settings, saved while an answer is collected. */
 typedef struct {
     FILE *out, *console, *file;
     bool json, console_json;
@@ -25,12 +25,12 @@ QDOT_MUST_CHECK qdot_status qdot_report_answer_begin(qdot_session *s, qdot_style
 QDOT_MUST_CHECK qdot_status qdot_report_answer_end(qdot_session *s, qdot_report_answer *a,
                                                    qdot_status status, qdot_text *text);
 
-/* Append what a statement without operands answers, as a part of a page. */
+/* Append the answer of a statement without operands, as part of a page. */
 QDOT_MUST_CHECK qdot_status qdot_report_answer_of(const qdot_cursor *c,
                                                   const qdot_statement *statement,
                                                   qdot_text *text);
 
-/* Append a line of words; `Not found: ` and why the last failure was. QDOT_ENOMEM. */
+/* Append a line of words; append `Not found: ` with the cause of the last failure. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_report_line(qdot_text *page, const char *words);
 QDOT_MUST_CHECK qdot_status qdot_report_not_found(qdot_text *page);
 

@@ -1,4 +1,4 @@
-/* report-page.c -- the statement `report`: scene, derivation, run and script as one page. */
+/* report-page.c -- the statement `report`: scene, derivation, runs and script on one page. */
 #include <string.h>
 
 #include "expr/node.h"
@@ -89,7 +89,7 @@ add_conserved(page *p)
     return qdot_report_answer_end(s, &k, status, &p->page);
 }
 
-/* The script as it was read; at the prompt, statements that give the same. */
+/* Add the script as it was read; at the prompt, statements with the same effect. */
 static qdot_status
 add_script(page *p)
 {
@@ -172,7 +172,7 @@ find_runs(qdot_record *r, page *p)
     return QDOT_OK;
 }
 
-/* The name of the script without its folder and ending. */
+/* Add the script's name without its folder and ending. */
 static void
 add_title(const qdot_session *s, qdot_text *title)
 {

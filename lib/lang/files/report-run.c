@@ -1,4 +1,4 @@
-/* report-run.c -- runs on the page of a report: how they went, their curves and moving pictures. */
+/* report-run.c -- the runs on the page of a report: their facts, curves and animations. */
 #include "lang/files/report-run.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 enum { CURVES = 12 };
 
-/* The runs of a page, each with its moving picture. */
+/* The runs of a page, each with its animation. */
 typedef struct {
     qdot_session *session;
     size_t n;
@@ -21,7 +21,7 @@ typedef struct {
     qdot_text *page;
 } sections;
 
-/* Which run this is, where there are several. */
+/* Add the name of the run, if there are several. */
 static void
 add_name(const sections *s, size_t i)
 {
@@ -32,7 +32,7 @@ add_name(const sections *s, size_t i)
     qdot_text_add(s->page, "</h3>\n");
 }
 
-/* The facts of a run, as below a moving picture, and how it ended. */
+/* Add the facts of a run, as below an animation, and how it ended. */
 static qdot_status
 add_run(const sections *s, size_t i)
 {
@@ -64,7 +64,7 @@ add_run(const sections *s, size_t i)
 
 /* --- the table of several ------------------------------------------------------------- */
 
-/* Of a number, for the digits that are shown of it. */
+/* The relative error attached to a number so that three digits are shown. */
 static const double shown = 0.0005;
 
 static void

@@ -1,4 +1,4 @@
-/* report-run.h -- runs on the page of a report: how they went, their curves and moving pictures. */
+/* report-run.h -- the runs on the page of a report: their facts, curves and animations. */
 #ifndef QDOT_LANG_REPORT_RUN_H
 #define QDOT_LANG_REPORT_RUN_H
 

@@ -12,7 +12,7 @@
 #include "show/page-curves.h"
 #include "table/html.h"
 
-/* Of a number, for the digits that are shown of it. */
+/* The relative error attached to a number so that two digits are shown. */
 static const double shown = 0.005;
 
 static qdot_status
@@ -58,7 +58,7 @@ add_words(const qdot_workprecision *w, qdot_text *page)
     qdot_text_add(page, "</p>\n");
 }
 
-/* A curve for each method; its rows are together. */
+/* Add a figure with one curve for each method, whose rows follow one another. */
 static qdot_status
 add_figure(const qdot_workprecision *w, qdot_text *page)
 {
@@ -84,7 +84,7 @@ add_figure(const qdot_workprecision *w, qdot_text *page)
     return status;
 }
 
-/* Of a run that came to no end of its own: up to where it came. */
+/* The conditions of a run; if it failed or was interrupted, up to the time that it reached. */
 static qdot_status
 take_conditions(qdot_session *session, const qdot_named_run *run, qdot_conditions *c)
 {
@@ -98,7 +98,7 @@ take_conditions(qdot_session *session, const qdot_named_run *run, qdot_condition
     return qdot_pool_check(session->pool);
 }
 
-/* The study under the conditions, which it takes over; *known: it was there. Borrowed. */
+/* The study under these conditions, which are taken over; *known: it existed. Borrowed. */
 static qdot_status
 find_study(qdot_session *session, qdot_conditions *c, bool *known,
            const qdot_workprecision **study)
@@ -149,7 +149,7 @@ add_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_tex
     return QDOT_OK;
 }
 
-/* Whether a run before run i has its conditions. */
+/* Whether an earlier run of the list has the same conditions as run i. */
 static bool
 conditions_are_told(size_t i, const qdot_named_run *const *runs)
 {

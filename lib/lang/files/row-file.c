@@ -1,4 +1,4 @@
-/* row-file.c -- rows of many runs in a file. */
+/* row-file.c -- prints the rows of many runs, or writes them to a file. */
 #include "lang/files/row-file.h"
 
 #include "lang/answer/row-answer.h"

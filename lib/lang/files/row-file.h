@@ -11,9 +11,9 @@
 #include "lang/language/cursor.h"
 #include "lang/session/row-tables.h"
 
-/* The table of rows that the token names, if what follows is `to` or the end; else NULL. */
+/* The table of rows that the token names, if `to` or the end of the statement follows; else NULL. */
 qdot_row_table *qdot_row_file_named(const qdot_cursor *c);
-/* `NAME [to "FILE"]` at the cursor, NAME a table of rows: print it or write it. */
+/* The statement `NAME [to "FILE"]` at the cursor, NAME a table of rows: print it or write it. */
 QDOT_MUST_CHECK qdot_status qdot_row_file_statement(qdot_cursor *c, const qdot_row_table *table);
 
 #endif

@@ -19,7 +19,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 
-/* Significant digits of answers. */
+/* The number of significant digits in answers. */
 enum { DIGITS = 10 };
 
 /* --- columns of numbers ------------------------------------------------------------- */
@@ -55,7 +55,7 @@ new_grid(grid *g, size_t n, size_t rows)
     return QDOT_OK;
 }
 
-/* Column i: its label, "R" or "R[2]" for a component of several. */
+/* The heading of column i: its label, "R", or "R[2]" for one component of several. */
 static qdot_status
 label_column(grid *g, size_t i, const char *label, size_t component, size_t components)
 {
@@ -73,7 +73,7 @@ label_column(grid *g, size_t i, const char *label, size_t component, size_t comp
     return QDOT_OK;
 }
 
-/* t and every column of the operands at these times. */
+/* Fill t and every column of the operands at these times. */
 static qdot_status
 fill_grid(grid *g, const qdot_operands *list, size_t rows, const double *times)
 {
@@ -128,7 +128,7 @@ blank_unknown(const qdot_operand *o, size_t rows, const double *times, double *c
     return status;
 }
 
-/* The same for all operands, with a notice. */
+/* Blank the unknown values of all operands, with a notice. */
 static qdot_status
 blank_all_unknown(qdot_session *session, grid *g, const qdot_operands *list, const double *times)
 {
@@ -144,7 +144,7 @@ blank_all_unknown(qdot_session *session, grid *g, const qdot_operands *list, con
                 : QDOT_OK;
 }
 
-/* The run that all operands are along; NULL: several. */
+/* The run to which all operands belong; NULL if there are several. */
 static qdot_run *
 only_run(const qdot_operands *list)
 {
@@ -154,7 +154,7 @@ only_run(const qdot_operands *list)
     return list->at[0].run;
 }
 
-/* To a file by its ending; path NULL: as an answer. run: that of all columns, or NULL. */
+/* Write to a file by its ending, or (path NULL) as an answer. run: that of all columns, or NULL. */
 static qdot_status
 write_grid(qdot_session *session, grid *g, qdot_run *run, const char *path)
 {
@@ -164,7 +164,7 @@ write_grid(qdot_session *session, grid *g, qdot_run *run, const char *path)
 
 /* --- table -------------------------------------------------------------------------- */
 
-/* What all the runs cover, in the direction of the first. */
+/* The time span that all the runs cover, in the direction of the first run. */
 static qdot_status
 common_span(const qdot_operands *list, double *from, double *to)
 {
@@ -187,7 +187,7 @@ common_span(const qdot_operands *list, double *from, double *to)
     return QDOT_OK;
 }
 
-/* t0, t0 + step, ... up to t1, whichever way the runs went. */
+/* The times t0, t0 + step, ... up to t1; if the runs go back in time they decrease. */
 static qdot_status
 ladder(const qdot_operands *list, double step, double **times, size_t *n)
 {
@@ -236,7 +236,7 @@ read_table(qdot_cursor *c, qdot_operands *list, qdot_expr *step, const char **pa
     return every ? QDOT_OK : qdot_cursor_expected(c, "`every` and a step");
 }
 
-/* Of runs with `digits`: times that are exact, from the first of the ladder. */
+/* A table of runs with `digits`: its times are exact, counted from the first one. */
 static qdot_status
 exact_table(qdot_session *session, const qdot_operands *list, const double *times,
             qdot_expr step, size_t rows, const char *path)
@@ -337,7 +337,7 @@ whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
     return QDOT_OK;
 }
 
-/* A run with `digits`: its steps, the last the end as the run has it. */
+/* Save a run with `digits` at its steps; the last is the exact end of the run. */
 static qdot_status
 exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
            const double *times, const char *path)
@@ -359,7 +359,7 @@ exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size
     return status;
 }
 
-/* Both sides of events: the earlier of two rows of one time has the state before it. */
+/* At events, fill the earlier of two rows of the same time with the state before the event. */
 static qdot_status
 fill_before_events(qdot_run *run, const qdot_operands *list, grid *g)
 {

@@ -1,4 +1,4 @@
-/* algebra.c -- derivatives, sides, forms, replacements, factors, eigenvalues. */
+/* algebra.c -- functions that differentiate, take sides, substitute, factor; eigenvalues. */
 #include "lang/functions/algebra.h"
 
 #include "base/memory.h"
@@ -31,7 +31,7 @@ qdot_algebra_give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
 
 /* --- derivatives --------------------------------------------------------------------- */
 
-/* Whether e changes as coordinates move and with nothing else. */
+/* Whether e changes only because coordinates move: it contains no explicit t and nothing else that moves. */
 static bool
 is_carried(const qdot_pool *pool, qdot_expr e)
 {
@@ -44,7 +44,7 @@ is_carried(const qdot_pool *pool, qdot_expr e)
                       QDOT_HAS_TIME));
 }
 
-/* A notice of diff(e, t) of what moves with the coordinates only: 0, ddt was meant. */
+/* Notice for diff(e, t) if e contains t only through coordinates: it is 0, and ddt was probably meant. */
 static qdot_status
 tell_partial(qdot_session *session, qdot_expr e)
 {
@@ -123,7 +123,7 @@ equation_side(qdot_pool *pool, qdot_expr equation, side which)
     return which == LEFT ? left : which == RIGHT ? right : qdot_sub(pool, left, right);
 }
 
-/* A side of an equation, or of each in a list or vector of them. */
+/* One side of an equation, or of each equation in a list or vector. */
 static qdot_status
 sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *value)
 {
@@ -193,7 +193,7 @@ qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args,
     return qdot_value_kind_give(s->pool, qdot_simplify(s->pool, args[0], &facts), value);
 }
 
-/* Symbols of which an expression of momenta or of velocities holds one kind. */
+/* An expression contains either momenta or velocities and accelerations, never both. */
 static const uint32_t of_motion =
     QDOT_HAS_MOMENTUM | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 
@@ -259,7 +259,7 @@ qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
 }
 
-/* Every root of det(M - x 1), as often as it is one. */
+/* All roots of det(M - x 1), repeated by multiplicity. */
 static qdot_status
 roots_of(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *value)
 {

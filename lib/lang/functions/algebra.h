@@ -1,10 +1,10 @@
-/* algebra.h -- functions that differentiate and rewrite; their rows are in builtin.c. */
+/* algebra.h -- functions that differentiate and rewrite; their table rows are in builtin.c. */
 #ifndef QDOT_LANG_ALGEBRA_H
 #define QDOT_LANG_ALGEBRA_H
 
 #include "lang/session/session.h"
 
-/* Called as rows of functions/builtin.c say, with args [n]. */
+/* Handlers for the rows of functions/builtin.c, with args [n]. */
 #define QDOT_ALGEBRA(word)                                                               \
     QDOT_MUST_CHECK qdot_status qdot_algebra_##word(                                     \
         qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -21,7 +21,7 @@ QDOT_ALGEBRA(factor);
 QDOT_ALGEBRA(eigenvalues);
 #undef QDOT_ALGEBRA
 
-/* *value = result in the shortest form found, where it is of a size that a person reads. */
+/* *value = result in the shortest form found, unless it is too large to be read. */
 QDOT_MUST_CHECK qdot_status qdot_algebra_give_short(qdot_session *s, qdot_expr result,
                                                     qdot_expr *value);
 

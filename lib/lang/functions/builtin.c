@@ -1,4 +1,4 @@
-/* builtin.c -- the functions of the language, a row each: dispatch and help in one. */
+/* builtin.c -- the table of the language's functions, used for calls and for help. */
 #include "lang/functions/builtin.h"
 
 #include <limits.h>
@@ -109,7 +109,7 @@ call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
         s->pool, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (long)size), value);
 }
 
-/* The text of an expression; of a list a list of them. */
+/* The LaTeX text of an expression; for a list a list of texts. */
 static qdot_status
 call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
@@ -183,7 +183,7 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
 
 /* --- geometry of r(q), or of a line element ----------------------------------------- */
 
-/* Of the place R alone. */
+/* Define the handler of a function whose only argument is a position vector R. */
 #define OF_PLACE(word, module)                                                           \
     static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
                                    qdot_expr *value)                                     \
@@ -192,7 +192,7 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
         QDOT_TRY(place_check(s, #word, args[0]));                                        \
         return qdot_value_kind_give(s->pool, module##_##word(s->scene, args[0]), value); \
     }
-/* Of a field and the place R whose frame it is in. */
+/* Define the handler of a function of a field and of the position vector R in whose frame it is given. */
 #define OF_FIELD(word)                                                                   \
     static qdot_status call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,   \
                                    qdot_expr *value)                                     \
@@ -267,7 +267,7 @@ over_place(qdot_session *s, uint32_t n, const qdot_expr *args)
     return qdot_mech_metric_coordinates(s->scene, args[n - 1]);
 }
 
-/* The label that its carrier symbol spells: of a body, or of a particle if those may. */
+/* The label spelled by the symbol `carrier`: of a body, or of a particle if particles are allowed. */
 static qdot_status
 label_of(qdot_session *s, qdot_expr carrier, bool particles, const char **label)
 {
@@ -338,7 +338,7 @@ call_value(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 
 /* --- the table ---------------------------------------------------------------------- */
 
-/* sum is read as a form of its own (lang/language/parse.c) and never called. */
+/* `sum` is evaluated by the parser's own form (lang/language/parse.c); this row is never called. */
 static qdot_status
 call_form(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
@@ -358,7 +358,7 @@ call_form(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     {                                                                                    \
         word, least, most, NULL, usage, summary, example, QDOT_BUILTIN_UNBUILT, NULL     \
     }
-/* Its entries go by the coordinates of R, the last argument. */
+/* Table row of a function whose entries are indexed by the coordinates of R, its last argument. */
 #define PLACE(n, word, usage, summary, example)                                          \
     {                                                                                    \
 #word, n, n, call_##word, usage, summary, example, 0, over_place                 \

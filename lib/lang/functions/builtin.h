@@ -1,10 +1,10 @@
-/* builtin.h -- the functions of the language, a row each. */
+/* builtin.h -- the table of the language's functions. */
 #ifndef QDOT_LANG_BUILTIN_H
 #define QDOT_LANG_BUILTIN_H
 
 #include "lang/session/session.h"
 
-/* A function of values, `diff`, `ds2`, `expand` ...; rows in lang/functions/builtin.c. */
+/* A function such as `diff`, `ds2`, `expand`; the rows are in lang/functions/builtin.c. */
 typedef struct {
     const char *name;
     int least, most; /* arguments; most < 0: any number */
@@ -12,7 +12,7 @@ typedef struct {
                         qdot_expr *value);
     const char *usage, *summary, *example; /* for help */
     unsigned flags;                        /* QDOT_BUILTIN_... */
-    /* the coordinates (a LIST) that the entries of its value go by, `metric(R)[r, phi]`; NULL */
+    /* the coordinates (a LIST) by which the entries of the value are indexed, as metric(R)[r, phi]; or NULL */
     qdot_expr (*over)(qdot_session *session, uint32_t n, const qdot_expr *args);
 } qdot_builtin;
 enum {

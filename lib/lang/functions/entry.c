@@ -1,4 +1,4 @@
-/* entry.c -- an entry of a value, and the name of a member. */
+/* entry.c -- an indexed entry of a value; the name of a family member. */
 #include "lang/functions/entry.h"
 
 #include "expr/node.h"
@@ -23,7 +23,7 @@ qdot_entry_name(qdot_session *session, const char *name, uint32_t n,
     return qdot_text_status(member);
 }
 
-/* An index as a number from 1: an integer, or a coordinate where entries go by those. */
+/* An index as a number from 1: an integer, or a coordinate if entries are indexed by coordinates. */
 static qdot_status
 position(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
 {

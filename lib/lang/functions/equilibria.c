@@ -1,4 +1,4 @@
-/* equilibria.c -- equilibria and modes of a session's scene, with its values for numbers. */
+/* equilibria.c -- equilibria and modes of a scene; numerical ones use the session's parameter values. */
 #include "lang/functions/equilibria.h"
 
 #include "expr/build.h"
@@ -46,7 +46,7 @@ qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e)
                                                      qdot_expr_args(pool, e->range));
 }
 
-/* Those of a LIST that are equations: without the range of a band. */
+/* The equations in a LIST, without the inequalities that describe a band. */
 static qdot_expr
 equations_of(qdot_pool *pool, qdot_expr list)
 {
@@ -75,7 +75,7 @@ qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_exp
     return qdot_pool_check(session->pool);
 }
 
-/* The conditions with the values of the session put in. */
+/* The conditions with the session's values inserted. */
 static qdot_expr
 exists_now(qdot_session *session, qdot_expr exists)
 {
@@ -170,7 +170,7 @@ qdot_equilibria_stability(qdot_session *session, qdot_expr equations, qdot_expr 
     return status;
 }
 
-/* Whether a value is one that was found in numbers: 15 decimal digits. */
+/* Whether the solution was found numerically: a value has 15 decimal digits. */
 static bool
 is_numeric(qdot_session *session, qdot_expr equations)
 {
@@ -197,7 +197,7 @@ none_to_swing_about(const qdot_equilibria *all)
     return qdot_hint("modes at equilibria[1]");
 }
 
-/* Add ", WORD CONDITIONS", unless the values of the session fulfil these; *never if they contradict them. */
+/* Append ", WORD CONDITIONS" unless the session's values satisfy these; *never if they contradict them. */
 static qdot_status
 print_place_conditions(qdot_session *session, const char *word, qdot_expr conditions, qdot_text *text, bool *never)
 {
@@ -208,7 +208,7 @@ print_place_conditions(qdot_session *session, const char *word, qdot_expr condit
     return now == QDOT_NIL ? QDOT_OK : qdot_solve_print_conditions(session->pool, word, conditions, text);
 }
 
-/* `modes about x = 0, stable when a < 0`, where the place or its stability has conditions. */
+/* Notice `modes about x = 0, stable when a < 0`, if the equilibrium or its stability has conditions. */
 static qdot_status
 modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
 {
@@ -239,7 +239,7 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     return status;
 }
 
-/* A word on each mode the square of whose frequency is not proved to be positive. */
+/* Notice for each mode whose squared frequency is not proved positive. */
 static qdot_status
 modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
 {
@@ -258,7 +258,7 @@ modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
     return status;
 }
 
-/* The first place that is not unstable. */
+/* Find the first equilibrium that is not unstable. */
 static qdot_status
 modes_find_place(qdot_session *session, qdot_equilibrium *place)
 {
@@ -277,7 +277,7 @@ modes_find_place(qdot_session *session, qdot_equilibrium *place)
     return status;
 }
 
-/* The stability of a place that is given by its equations: it exists where their values are defined. */
+/* Judge the stability of an equilibrium given by its equations; it exists where their values are defined. */
 static qdot_status
 modes_judge_place(qdot_session *session, qdot_equilibrium *place)
 {

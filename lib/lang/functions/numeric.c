@@ -12,7 +12,7 @@
 
 enum { MOST_DIGITS = 100000, DIGITS = 16 };
 
-/* The arguments of the call. */
+/* The arguments of a call of `numeric`. */
 typedef struct {
     qdot_session *session;
     int digits;
@@ -29,7 +29,7 @@ number(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
     return qdot_session_number(session, m->exact, &m->value, NULL);
 }
 
-/* What is made of numbers with errors, to so many digits of its own. */
+/* Round a value computed from numbers with errors to the requested number of digits. */
 static qdot_status
 shortened(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 {
@@ -45,7 +45,7 @@ shortened(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 
 /* --- the function -------------------------------------------------------------------- */
 
-/* A number, or a vector or list of numbers alone: not of lists or equations. */
+/* Whether e is a number, or a vector or list of numbers only, without nested lists or equations. */
 static bool
 is_flat(const qdot_pool *pool, qdot_expr e)
 {

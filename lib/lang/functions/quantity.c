@@ -1,4 +1,4 @@
-/* quantity.c -- the values of a scene, a row each: T, V, L, eom, p[theta] ... */
+/* quantity.c -- the table of quantities of a scene: T, V, L, eom, p[theta] ... */
 #include "lang/functions/quantity.h"
 
 #include <string.h>
@@ -40,7 +40,7 @@ need_coordinates(const qdot_session *s)
     return qdot_hint("declare them: coord theta");
 }
 
-/* The index of name[theta]. */
+/* Check the index of name[theta]: it must be a coordinate. */
 static qdot_status
 coordinate(qdot_session *s, const char *name, qdot_expr index)
 {
@@ -58,7 +58,7 @@ cyclic_routhian(qdot_scene *s)
     return qdot_hamilton_routhian(s, 0, NULL);
 }
 
-/* The value of `call`, of a scene that has what `need` says. */
+/* Define the getter of a quantity: `call` gives its value, after `need` has checked the scene. */
 #define OF_SCENE(word, need, call)                                                       \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
                                   qdot_expr *value)                                      \
@@ -140,7 +140,7 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
 
 /* --- momenta, forces, equations ----------------------------------------------------- */
 
-/* name: the LIST of all; name[q]: that of one. */
+/* Define a getter: name gives the LIST for all coordinates, name[q] the value for one. */
 #define BY_COORDINATE(word, all, one)                                                    \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
                                   qdot_expr *value)                                      \
@@ -246,7 +246,7 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
 
 /* --- counting ----------------------------------------------------------------------- */
 
-/* Each cyclic coordinate with its momentum, p[phi] = dL/dphi'. */
+/* List each cyclic coordinate with its momentum, p[phi] = dL/dphi'. */
 static qdot_status
 get_cyclic(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {

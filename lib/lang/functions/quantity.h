@@ -1,4 +1,4 @@
-/* quantity.h -- the values of a scene, a row each. */
+/* quantity.h -- the table of quantities of a scene: T, V, L, eom, p[theta] ... */
 #ifndef QDOT_LANG_QUANTITY_H
 #define QDOT_LANG_QUANTITY_H
 

@@ -1,4 +1,4 @@
-/* series.c -- the arguments of series(...), and what the session remembers of it. */
+/* series.c -- reads the arguments of series(...), and stores the result for printing by degree. */
 #include "lang/functions/series.h"
 
 #include "base/memory.h"
@@ -10,7 +10,7 @@
 #include "lang/session/momenta.h"
 #include "normal/calculus/series.h"
 
-/* The equations x = a as symbols and places. */
+/* Read equations x = a as symbols and expansion points. */
 static qdot_status
 series_read_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_replacements *r)
 {
@@ -40,7 +40,7 @@ series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long 
     return status;
 }
 
-/* series(e, x = a, y = b, n), of a list member by member. */
+/* series(e, x = a, y = b, n); for a list member by member. */
 qdot_status
 qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {

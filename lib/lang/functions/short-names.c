@@ -1,4 +1,4 @@
-/* short-names.c -- L, T, V in a declaration are the scene's values: said, as few mean them. */
+/* short-names.c -- in a declaration L, T, V are the scene's quantities: hints, since few users mean these. */
 #include "lang/functions/short-names.h"
 
 #include <string.h>
@@ -42,7 +42,7 @@ qdot_short_names_forget(qdot_session *session)
     session->taken = NULL;
 }
 
-/* A declaration that failed may have taken a value of the language for a name of the user's. */
+/* If a declaration failed after a short name was read as a quantity, explain that in the hint. */
 static qdot_status
 explain(const qdot_session *session, qdot_status status)
 {

@@ -9,7 +9,7 @@
 
 #include "lang/functions/quantity.h"
 
-/* The longer name of the same value, lagrange_function of L; NULL: there is none. */
+/* The longer name of the same quantity, such as lagrange_function for L; NULL if there is none. */
 const char *qdot_short_names_long(const qdot_quantity *row);
 
 /* The bare name of a value was read: kept if it has a longer one. status: what making the value

@@ -9,7 +9,7 @@
 
 /* --- conditions in words ------------------------------------------------------------------------------ */
 
-/* `u != 0` for 0 < |u|, its terms without minus signs on either side; else the relation. */
+/* Print `u != 0` for 0 < |u|, with terms moved so that no minus leads; otherwise the relation itself. */
 static qdot_status
 print_condition(qdot_pool *pool, qdot_expr relation, qdot_text *text)
 {

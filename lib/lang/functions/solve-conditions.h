@@ -13,26 +13,26 @@
 #include "lang/session/session.h"
 #include "normal/solve/solve-special.h"
 
-/* Tell the sets at special values, and where it is not known whether the set is another one. */
+/* Notices of the solutions at special parameter values, and of values where these are not known. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qdot_expr x,
                                                        const qdot_specials *specials);
 
-/* Tell `where a = 0 the solutions may be others`, of a LIST of equations that hold there. */
+/* Notice `where a = 0 the solutions may be others`, for a LIST of equations that hold there. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_expr where);
 
-/* Tell `WORDS C and D`, conditions that concern all solutions; nil: there are none, nothing is told. */
+/* Notice `WORDS C and D` for conditions that concern all solutions; nothing if nil. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
 
-/* A root as a value: x, or the relations that say which x are roots; with a notice of its conditions. */
+/* A root as a value: x, or relations that say which x are roots; with a notice of its conditions. */
 QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_session *session, qdot_expr x,
                                                   const qdot_root *root, qdot_expr *value);
 
-/* The conditions, ` and ` between them, the first behind `word`. */
+/* Print conditions joined by ` and `, the first one after `word`. */
 QDOT_MUST_CHECK qdot_status qdot_solve_print_conditions(qdot_pool *pool, const char *word,
                                                         qdot_expr conditions,
                                                         qdot_text *text);
 
-/* Tell `SOLUTION exists when C and D`, of one that has conditions. */
+/* Notice `SOLUTION exists when C and D`, if the solution has conditions. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_conditions(qdot_session *session,
                                                          qdot_expr solution,
                                                          qdot_expr conditions);

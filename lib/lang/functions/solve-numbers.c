@@ -28,7 +28,8 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, DIGITS = 17 };
 
-/* Equations with the session's values put in, their unknowns as symbols of their own: x may have a value. */
+/* Equations with the session's values inserted, in which the unknowns are new symbols, because x
+ * may have a value. */
 typedef struct {
     qdot_session *session;
     size_t n;
@@ -58,7 +59,7 @@ question_add_unknown(question *q, qdot_expr x)
     return qdot_pool_check(q->session->pool);
 }
 
-/* What stands in e beside the unknowns and has no value. */
+/* Fail if e contains a symbol without value that is not one of the unknowns. */
 static qdot_status
 need_values(const question *q, qdot_expr e)
 {
@@ -102,7 +103,7 @@ set_equation(question *q, size_t i, qdot_expr e)
     return need_values(q, q->F[i]);
 }
 
-/* A constant that the session gives e; exact. */
+/* The exact constant that e becomes with the session's values. */
 static qdot_status
 constant_of(const question *q, qdot_expr e, qdot_expr *value)
 {
@@ -120,7 +121,7 @@ constant_of(const question *q, qdot_expr e, qdot_expr *value)
 
 /* --- errors ---------------------------------------------------------------------------------------------- */
 
-/* What the errors of numbers of runs in the equations make of the zero z: |f'^-1| df, to error [n]. */
+/* The error of the zero z caused by errors of run results in the equations: |f'^-1| df, into error [n]. */
 static qdot_status
 add_errors(const question *q, const double *z, double *error)
 {
@@ -160,7 +161,7 @@ add_errors(const question *q, const double *z, double *error)
     return QDOT_OK;
 }
 
-/* Whether z [n] are numbers of few digits at which the equations hold exactly. */
+/* Whether z [n] are numbers of few digits that satisfy the equations exactly. */
 static qdot_status
 is_exact(const question *q, const double *z, bool *exact)
 {
@@ -294,7 +295,7 @@ fulfils(const question *q, qdot_expr relation, const double *z, const double *ra
     return qdot_pool_check(pool);
 }
 
-/* Leave out zeros at which what was written is not defined. */
+/* Remove zeros at which the equation as typed is undefined. */
 static qdot_status
 keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
 {
@@ -333,14 +334,14 @@ keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
 
 /* --- over a range ----------------------------------------------------------------------------------------- */
 
-/* The double of a constant. */
+/* A constant as a double. */
 static qdot_status
 double_of(const question *q, qdot_expr e, double *x)
 {
     return qdot_session_number(q->session, e, x, NULL);
 }
 
-/* One end of the range, or of the declared domain of x where that is narrower. */
+/* One end of the range, or of the declared domain of x if that is narrower. */
 static qdot_status
 narrow_end(const question *q, qdot_expr declared, bool open, bool upper, qdot_expr *end,
            bool *end_open)
@@ -388,7 +389,7 @@ number_of_root(const question *q, qdot_expr root, qdot_expr *number)
     return numbers_of(q, &one, 0, number);
 }
 
-/* A range of x under conditions in the unknown's symbol, as relations in its name. */
+/* A range of x with conditions in the internal symbol, converted to relations in the unknown's name. */
 static qdot_status
 value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
 {
@@ -401,7 +402,7 @@ value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
     return qdot_solve_root_value(q->session, q->name[0], &named, value);
 }
 
-/* The conditions of the domain in the unknown's symbol, with values put in. */
+/* The conditions of the domain in terms of the internal symbol, with the session's values inserted. */
 static qdot_expr
 bound_domain(const question *q, qdot_expr domain)
 {
@@ -453,7 +454,7 @@ add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_ex
     return status == QDOT_OK ? qdot_value_kind_check(pool, *list) : status;
 }
 
-/* The zeros in the range, numbers, to the list; with what is not proved in notices. */
+/* Append the numerical zeros in the range to the list; notices say what is not proved. */
 static qdot_status
 add_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range, qdot_expr *list)
 {
@@ -503,7 +504,7 @@ qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_ex
 
 /* --- over the whole domain -------------------------------------------------------------------------------- */
 
-/* An end of the window as a constant; *known: it is one, or there is none. */
+/* An end of the search window as a constant; *known: it is constant, or the window has no such end. */
 static qdot_status
 bind_end(const question *q, qdot_expr end, qdot_expr *constant, bool *known)
 {

@@ -12,7 +12,7 @@
 #include "lang/session/session.h"
 #include "normal/solve/solutions.h"
 
-/* solve(equation, x, a..b): a LIST. */
+/* Evaluate solve(equation, x, a..b): a LIST. */
 QDOT_MUST_CHECK qdot_status qdot_solve_range(qdot_session *session, qdot_expr equation,
                                              qdot_expr x, qdot_expr domain,
                                              const qdot_expr *ends, qdot_expr *value);

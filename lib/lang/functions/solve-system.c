@@ -1,4 +1,4 @@
-/* solve-system.c -- several equations in several unknowns: their set of solutions, and what is told of it. */
+/* solve-system.c -- several equations in several unknowns: the set of solutions, with notices. */
 #include "lang/functions/solve-system.h"
 
 #include <math.h>
@@ -96,7 +96,7 @@ add_definedness(const question *q, qdot_simultaneous *set)
     return QDOT_OK;
 }
 
-/* Whether a solution at the special values is one of the generic ones, as they are there. */
+/* Whether solution k at special parameter values is the limit of a generic solution. */
 static bool
 is_generic_solution(const question *q, const qdot_simultaneous *generic, qdot_expr where,
                     const qdot_simultaneous *there, size_t k)
@@ -121,7 +121,7 @@ is_generic_solution(const question *q, const qdot_simultaneous *generic, qdot_ex
     return false;
 }
 
-/* `for a = 0: [x = 1, y = 2], [x = 2, y = 1]`, the solutions there, where one of them is not among the generic ones. */
+/* Notice `for a = 0: [x = 1, y = 2], [x = 2, y = 1]`, if a solution there is not among the generic ones. */
 static qdot_status
 notice_special(const question *q, qdot_expr where, const qdot_simultaneous *there,
                const qdot_simultaneous *generic)
@@ -152,7 +152,7 @@ notice_special(const question *q, qdot_expr where, const qdot_simultaneous *ther
 
 static qdot_status solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where, size_t *told);
 
-/* The solutions where parameters have values at which something divided by is 0. */
+/* Solve at parameter values at which a divisor of the generic solution vanishes. */
 static qdot_status
 solve_special(const question *q, qdot_expr where, const qdot_simultaneous *generic, size_t *told)
 {
@@ -202,7 +202,8 @@ solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where,
 
 /* --- the answer ----------------------------------------------------------------------------------------- */
 
-/* `y may have any value of its domain in [x = y]`, of an unknown that neither the solution nor its conditions hold. */
+/* Notice `y may have any value of its domain in [x = y]`, for an unknown absent from the solution
+ * and its conditions. */
 static qdot_status
 notice_free(const question *q, const qdot_simultaneous_solution *one)
 {
@@ -266,7 +267,7 @@ answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value
     return status == QDOT_OK ? qdot_pool_check(q->pool) : status;
 }
 
-/* The exact solution that lies at a zero within its error; nil: none. */
+/* The exact solution that agrees with a numerical zero within its error; nil if none does. */
 static qdot_expr
 exact_at(const question *q, const qdot_simultaneous *set, const double *at, const double *radius)
 {
@@ -287,7 +288,7 @@ exact_at(const question *q, const qdot_simultaneous *set, const double *at, cons
     return QDOT_NIL;
 }
 
-/* In numbers, where these are proved to be all; else *known is false. */
+/* Solve numerically, if all zeros are proved to be found; else *known is false. */
 static qdot_status
 answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *value, bool *known)
 {

@@ -11,7 +11,8 @@
 
 #include "lang/session/session.h"
 
-/* A LIST of LISTs of equations u = value. `domain`: conditions that solutions fulfil beside the equations. */
+/* The solutions as a LIST of LISTs of equations u = value. `domain`: conditions on solutions
+ * besides the equations. */
 QDOT_MUST_CHECK qdot_status qdot_solve_system(qdot_session *session, qdot_expr equations,
                                               qdot_expr unknowns, qdot_expr domain,
                                               qdot_expr *value);

@@ -1,4 +1,5 @@
-/* solve.c -- solve(...): which of its forms is meant; exact solutions, their conditions, and what no formula gives. */
+/* solve.c -- solve(...): chooses among its forms; exact solutions with conditions, numerical ones
+ * where no formula exists. */
 #include "lang/functions/solve.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@
 #include "normal/solve/assumptions.h"
 #include "normal/solve/solve.h"
 
-/* Where all that was written is defined, of what holds x (nil: anything): conditions. */
+/* Conditions under which everything in the typed equation that contains x is defined (x nil: everything). */
 static qdot_expr
 domain_as_written(qdot_session *session, qdot_expr x)
 {
@@ -36,7 +37,8 @@ domain_as_written(qdot_session *session, qdot_expr x)
                                qdot_conditions_of_divisors(pool, list, x));
 }
 
-/* The conditions under which the functions among these values [n] exist, without those of their arguments. */
+/* Conditions under which the functions among these values [n] are defined, apart from those of
+ * their arguments. */
 static qdot_expr
 domain_of_functions(qdot_pool *pool, size_t n, const qdot_expr *value)
 {
@@ -78,7 +80,7 @@ typedef struct {
     bool constant; /* all are numbers: kept in their order */
 } solve_list;
 
-/* Add a number at its place among numbers; one that is listed as a formula already is left out. */
+/* Insert a number into the sorted list, unless the same root is listed as a formula. */
 static qdot_status
 solve_list_add(solve_list *l, qdot_solve_zero one)
 {
@@ -94,7 +96,7 @@ solve_list_add(solve_list *l, qdot_solve_zero one)
     return QDOT_OK;
 }
 
-/* The exact roots to the list, with what their conditions are in notices. */
+/* Append the exact roots to the list, with notices of their conditions. */
 static qdot_status
 add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
           solve_list *list)
@@ -120,7 +122,7 @@ add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
     return QDOT_OK;
 }
 
-/* Whether something other than x is left in e that has no value. */
+/* Whether e contains a symbol other than x that has no value. */
 static bool
 holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
 {
@@ -135,7 +137,7 @@ holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
     return others;
 }
 
-/* Where no formula gives all roots: the factors that are left, in numbers. *known: these are all. */
+/* Find the roots of the factors that no formula solves numerically. *known: these are all. */
 static qdot_status
 add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written,
             const qdot_facts *facts, solve_list *list, bool *recurs, bool *known)

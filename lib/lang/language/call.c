@@ -1,4 +1,4 @@
-/* call.c -- what name(...) means. */
+/* call.c -- decides what name(...) means. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@
 #include "lang/session/member.h"
 #include "lang/session/range.h"
 
-/* Functions that differentiate or solve: a value along a run would count as a constant. */
+/* Functions that differentiate or solve: a value along a run would wrongly count as a constant there. */
 static const char *const of_formulas[] = {
     "diff",  "ddt",        "solve",  "series", "integral",  "limit", "poisson",
     "ds2",   "speed2",     "metric", "christoffel", "gradient", "divergence", "curl",
@@ -103,7 +103,7 @@ not_a_function(const qdot_name *entry, const char *name, uint32_t n, const qdot_
     return qdot_hint("a product is written %.80s*(...)", name);
 }
 
-/* Whether something that is no function goes by the name. */
+/* Whether the name stands for something that is no function. */
 static bool
 is_value(const qdot_session *s, const qdot_name *entry, const char *name, const char *spelled)
 {

@@ -16,12 +16,12 @@ typedef struct {
     qdot_postfix_list code;
 } qdot_compiled;
 
-/* Parse at the cursor and step over it; free it in any case. */
+/* Parse at the cursor and step over the expression; free the program in any case. */
 QDOT_MUST_CHECK qdot_status qdot_compiled_parse(qdot_cursor *c, qdot_parse_extent extent,
                                                qdot_compiled *program);
 void qdot_compiled_free(qdot_compiled *program);
 
-/* As the readers of the same names do. */
+/* Evaluate a parsed expression, as the readers of the same names in read.h do. */
 QDOT_MUST_CHECK qdot_status qdot_compiled_value(qdot_cursor *c, const qdot_compiled *program,
                                                qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_compiled_named(qdot_cursor *c, const qdot_compiled *program,

@@ -7,12 +7,12 @@
 
 #include "expr/id.h"
 
-/* a op b for = == < <= > >=. QDOT_ETYPE: an inequality between values that are not numbers. */
+/* The relation a op b for op == < <= > >=. QDOT_ETYPE: an inequality between values that are not numbers. */
 QDOT_MUST_CHECK qdot_status qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a,
                                                     qdot_expr b, qdot_expr *value);
-/* Whether e is a relation, a combination of such, or a truth value. */
+/* Whether e is a relation, a logical combination of relations, or a truth value. */
 bool qdot_condition_is(const qdot_pool *pool, qdot_expr e);
-/* An equation between numbers is a value; as a condition it is true or false. */
+/* Replace an equation between numbers by true or false, as a condition needs it. */
 qdot_expr qdot_condition_decide(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* cursor.c -- steps over the tokens of a statement, and what to say where none fits. */
+/* cursor.c -- steps over the tokens of a statement, with messages for unexpected ones. */
 #include "lang/language/cursor.h"
 
 #include <stdio.h>
@@ -99,7 +99,7 @@ qdot_cursor_knows(const qdot_session *s, const char *name)
            strcmp(name, "pi") == 0 || strcmp(name, "t") == 0;
 }
 
-/* What other systems write here. */
+/* A hint for the syntax of other systems at this place. */
 static qdot_status
 hint_foreign(const qdot_token *t)
 {
@@ -161,7 +161,7 @@ qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t)
     return t->start + t->length;
 }
 
-/* A product without its sign, between `before` and the next token. */
+/* Report a product without `*` between `before` and the next token. */
 static qdot_status
 missing_times(qdot_cursor *c, const qdot_token *before)
 {
@@ -180,7 +180,7 @@ missing_times(qdot_cursor *c, const qdot_token *before)
                      (int)(to - t->start), c->source->text + t->start);
 }
 
-/* `2 on bob`: a word that joins the parts of a statement is no factor. */
+/* Whether the word joins parts of a statement, as in `2 on bob`, and is no missing factor. */
 static bool
 joins_parts(const qdot_cursor *c, const qdot_token *t)
 {
@@ -200,7 +200,7 @@ found(const char *what, const qdot_token *t)
     return qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.*s`", what, 100, t->text);
 }
 
-/* The nearest of the words in backquotes that `what` names. */
+/* A hint at the nearest of the words that `what` lists in backquotes. */
 static qdot_status
 hint_word(const char *what, const char *name)
 {

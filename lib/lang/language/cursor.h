@@ -22,13 +22,13 @@ bool qdot_cursor_is_end(const qdot_cursor *c);
 qdot_status qdot_cursor_expected(qdot_cursor *c, const char *what);
 QDOT_MUST_CHECK qdot_status qdot_cursor_expect_op(qdot_cursor *c, const char *op);
 QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
-/* Step over tokens up to (not over) the next top-level `word` or the end; NULL word: the end. */
+/* The next top-level `word`, or the end of the statement; NULL word: the end. The cursor does not move. */
 const qdot_token *qdot_cursor_find_word(const qdot_cursor *c, const char *word);
-/* The byte behind the operand that begins with `t`, with its brackets and primes. */
+/* The byte after the operand that begins with `t`, including its brackets and primes. */
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
-/* Whether the name means anything: declared, of the language or of the scene. */
+/* Whether the name is known: declared, or of the language or the scene. */
 bool qdot_cursor_knows(const qdot_session *session, const char *name);
-/* An option that may be given once: QDOT_EINVAL if `given`, at the option's word. */
+/* Check that an option is given only once: QDOT_EINVAL at its word if `given`. */
 QDOT_MUST_CHECK qdot_status qdot_cursor_once(qdot_cursor *c, const char *word,
                                              bool given);
 

@@ -1,4 +1,4 @@
-/* evaluate.c -- postfix code to a value: a loop over the code, with its own stacks. */
+/* evaluate.c -- evaluates postfix code in a loop, with stacks of its own. */
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -37,7 +37,7 @@ term(qdot_machine *m, const qdot_token *sign)
     return QDOT_OK;
 }
 
-/* Sums of scalars at once; of other kinds one by one: the caret finds the sign. */
+/* Add the top n values: scalars at once, others one by one so that an error points to its sign. */
 static qdot_status
 sum(qdot_machine *m, size_t n)
 {
@@ -122,7 +122,7 @@ common_run(qdot_machine *m, size_t n)
     return run;
 }
 
-/* value(...) and its kin look at the run of their arguments. */
+/* Whether a function such as value(...) reads its arguments along a run. */
 static bool
 takes_run(const qdot_machine *m, const qdot_postfix *code)
 {
@@ -132,7 +132,7 @@ takes_run(const qdot_machine *m, const qdot_postfix *code)
            !qdot_resolve_is_function(m->session, code->token->text);
 }
 
-/* `a` of a.( ) around this code; NULL: it is within none. */
+/* The run `a` if this code is inside a.( ); NULL otherwise. */
 static const char *
 run_around(const qdot_machine *m, const qdot_postfix *code)
 {
@@ -152,7 +152,7 @@ check_run(const qdot_machine *m, const char *name)
     return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
 }
 
-/* Mark the top value as one along a run; an error if it is one along another already. */
+/* Mark the top value as evaluated along a run; an error if it belongs to another run already. */
 static qdot_status
 put_along(qdot_machine *m, const char *run)
 {
@@ -165,7 +165,7 @@ put_along(qdot_machine *m, const char *run)
     return QDOT_OK;
 }
 
-/* The run along which the top n values are read: theirs, or `a` of a.value(x, 2), a.max(x, 0..1). */
+/* The run along which the top n values are read: the one they name, or `a` in a.value(x, 2), a.max(x, 0..1). */
 static qdot_status
 run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **run)
 {
@@ -182,7 +182,7 @@ run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **ru
     return QDOT_OK;
 }
 
-/* max(e, a..b): the ends of the range stand last. */
+/* Evaluate max(e, a..b); the ends of the range are the last arguments. */
 static qdot_status
 range(qdot_machine *m, const qdot_postfix *code)
 {
@@ -202,7 +202,7 @@ range(qdot_machine *m, const qdot_postfix *code)
     return qdot_machine_push(m, value);
 }
 
-/* a.max(x): of what moves, the greatest value on the way. */
+/* Whether a call is a.max(x) with a moving x: the largest value along the run. */
 static bool
 is_extremum(qdot_machine *m, const qdot_postfix *code)
 {
@@ -213,7 +213,7 @@ is_extremum(qdot_machine *m, const qdot_postfix *code)
            !qdot_resolve_is_function(m->session, code->token->text);
 }
 
-/* Its operand is along the run around it. */
+/* Assign the run around the call to its operand. */
 static qdot_status
 extremum_along(qdot_machine *m, const qdot_postfix *code)
 {
@@ -266,7 +266,7 @@ entry(qdot_machine *m, const qdot_postfix *code)
     return qdot_machine_push(m, value);
 }
 
-/* `cross[2]`, `cross`, a.cross[2]: times of an event, where no other name is. */
+/* Evaluate the times of an event, `cross[2]`, `cross`, a.cross[2], unless the name means something else. */
 static qdot_status
 event(qdot_machine *m, const qdot_postfix *code, bool *found)
 {
@@ -329,7 +329,7 @@ name(qdot_machine *m, const qdot_postfix *code)
                                     &qdot_machine_top(m, 1)->label);
 }
 
-/* A label is pushed as a symbol of that name; a loop's index is replaced by its value. */
+/* Push a label as a symbol of that name; a loop index in it is replaced by its value. */
 static qdot_status
 label(qdot_machine *m, const qdot_postfix *code)
 {

@@ -54,13 +54,13 @@ typedef struct {
     qdot_vec(qdot_postfix) list;
 } qdot_postfix_list;
 
-/* How far an expression goes. */
+/* How far an expression extends. */
 typedef enum {
     QDOT_PARSE_VALUE, /* relations and logic too */
     QDOT_PARSE_SIDE   /* up to a relation, `and`, `or` */
 } qdot_parse_extent;
 
-/* Parse one expression at the cursor and step over it. Append to *program. */
+/* Parse one expression at the cursor and step over it; append the code to *program. */
 QDOT_MUST_CHECK qdot_status qdot_parse(qdot_cursor *c, qdot_parse_extent extent,
                                        qdot_postfix_list *program);
 
@@ -77,24 +77,25 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
 
 /* --- meaning ------------------------------------------------------------------------ */
 
-/* What `x₁` may be, where nothing is called x1: form 0 "x[1]", form 1 "x_1". False: there is none. */
+/* What a name with a subscript such as `x₁` may stand for if x1 is not declared: form 0 "x[1]",
+ * form 1 "x_1". False: neither. */
 bool qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled);
-/* A bare name with `primes`. *over: the coordinates its entries go by, or nil. */
+/* Evaluate a name with that many primes. *over: the coordinates by which its entries are indexed, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_name(qdot_cursor *c, const qdot_token *token,
                                               unsigned primes, qdot_expr *value,
                                               qdot_expr *over);
-/* name[index ...] with `primes`. */
+/* Evaluate name[index ...] with that many primes. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_index(qdot_cursor *c, const qdot_token *token,
                                                unsigned primes, uint32_t n,
                                                const qdot_expr *index, qdot_expr *value);
-/* The failure that a prime cannot stand at `name`. QDOT_ETYPE. */
+/* Fail with QDOT_ETYPE: `name` cannot have a prime. */
 qdot_status qdot_resolve_no_prime(const char *name, const char *why);
-/* x(args), x'(args) of an undefined function; a prime only where it has one argument. */
+/* x(args), x'(args) of an undefined function; primes are allowed only with one argument. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
                                                    const qdot_name *entry, unsigned primes,
                                                    uint32_t n, const qdot_expr *args,
                                                    qdot_expr *value);
-/* name(args), name[index](args), name'(args) */
+/* A call name(args), name[index](args) or name'(args). */
 typedef struct {
     const qdot_token *token;
     unsigned primes;
@@ -103,10 +104,10 @@ typedef struct {
     const char *const *labels; /* [indices + n]: of positions of particles and bodies, else NULL */
     const char *run;           /* that the arguments name; NULL: none */
 } qdot_call;
-/* *over: as above. */
+/* Evaluate a call. *over: as for qdot_resolve_name. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_call *call,
                                               qdot_expr *value, qdot_expr *over);
-/* solve(A = B, x, a..b): a function of no run over a range, whose ends stand last. */
+/* Evaluate solve(A = B, x, a..b) and similar functions of a range; its ends are the last arguments. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_over_range(qdot_session *session, const char *name,
                                                     uint32_t n, const qdot_expr *args,
                                                     qdot_expr *value);

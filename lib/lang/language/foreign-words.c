@@ -1,11 +1,11 @@
-/* foreign-words.c -- names of functions in other systems, each with ours. */
+/* foreign-words.c -- names of functions in other systems, each with the name used here. */
 #include "lang/language/foreign-words.h"
 
 #include <string.h>
 
 #include "lang/functions/builtin.h"
 
-/* Sin, SIN need no row. NULL: there is none of ours, nor one near. */
+/* Names that differ only in case (Sin, SIN) need no row. `ours` is NULL if there is nothing similar. */
 static const struct {
     const char *theirs, *ours;
 } words[] = {

@@ -1,4 +1,4 @@
-/* foreign-words.h -- names of functions in other systems, each with ours. */
+/* foreign-words.h -- names of functions in other systems, each with the name used here. */
 #ifndef QDOT_LANG_FOREIGN_WORDS_H
 #define QDOT_LANG_FOREIGN_WORDS_H
 

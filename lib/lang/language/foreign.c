@@ -1,4 +1,4 @@
-/* foreign.c -- forms of other systems and of beginners, each with our line. */
+/* foreign.c -- recognises the syntax of other systems and of beginners, and suggests the line to type. */
 #include "lang/language/foreign.h"
 
 #include <string.h>
@@ -46,7 +46,7 @@ match_holds(const qdot_match *m, extent extent, size_t at)
            at <= m->to[-1].start + m->to[-1].length;
 }
 
-/* Where the form stands in the statement, so that it holds the place of the error. */
+/* Find where the pattern matches in the statement so that it contains the position of the error. */
 static bool
 form_find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
           qdot_match *m)
@@ -62,7 +62,7 @@ form_find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdo
     return false;
 }
 
-/* A single letter is often a slip of one that is declared: that hint stays. */
+/* A single unknown letter is often a typing error for a declared one: then that hint is kept. */
 static bool
 is_doubtful(const qdot_match *m)
 {
@@ -70,7 +70,7 @@ is_doubtful(const qdot_match *m)
            strstr(qdot_last_error()->hint, "did you mean") != NULL;
 }
 
-/* Whether the line is what stands there already. */
+/* Whether the suggested line is the same as the typed one. */
 static bool
 line_is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
 {
@@ -80,7 +80,7 @@ line_is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
            strncmp(qdot_text_str(line), c->source->text + m->from->start, line->n) == 0;
 }
 
-/* The error as the form has it; false: it has no better line. */
+/* Replace the error by that of the pattern; false if it has no better line to suggest. */
 static bool
 form_tell(qdot_cursor *c, const form *f, const qdot_match *m)
 {
@@ -108,7 +108,7 @@ form_tell(qdot_cursor *c, const form *f, const qdot_match *m)
     return fits;
 }
 
-/* Whether what was taken for a name is a word of our line: `between` of `spring between a, b`. */
+/* Whether a matched name is really a word of the suggested line, as `between` in `spring between a, b`. */
 static bool
 holds_word(const form *f, const qdot_match *m)
 {

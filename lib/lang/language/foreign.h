@@ -1,4 +1,5 @@
-/* foreign.h -- forms of other systems and of beginners, each with our line (foreign.def). */
+/* foreign.h -- recognises the syntax of other systems and of beginners, and suggests the line to
+ * type (foreign.def). */
 #ifndef QDOT_LANG_FOREIGN_H
 #define QDOT_LANG_FOREIGN_H
 

@@ -49,7 +49,7 @@ qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)
     return status;
 }
 
-/* An argument t is the time itself: that name is reserved. */
+/* The symbol of an argument; an argument t is the time itself, because that name is reserved. */
 static qdot_expr
 formal_symbol(qdot_pool *pool, const qdot_token *name)
 {

@@ -7,14 +7,14 @@
 /* `(a, b, c)`: the tokens [*n] of the names, owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c,
                                                     const qdot_token ***names, size_t *n);
-/* Arguments while they hide the names outside. */
+/* Arguments of a function while they hide outer names. */
 typedef struct {
     qdot_expr list; /* of FORMAL symbols */
     const qdot_token **names; /* [n], owned */
     size_t n, entered;
 } qdot_formals;
 
-/* Let the names mean these symbols, t the time; undo that and free them. */
+/* Let the names mean these symbols (t the time); _leave undoes that and frees them. */
 QDOT_MUST_CHECK qdot_status qdot_formals_enter(qdot_session *session, qdot_formals *f);
 void qdot_formals_leave(qdot_session *session, qdot_formals *f);
 

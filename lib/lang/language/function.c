@@ -1,4 +1,4 @@
-/* function.c -- functions of the user's: a text that each call reads anew. */
+/* function.c -- functions defined by the user: a text that each call evaluates anew. */
 #include "lang/language/function.h"
 
 #include <string.h>
@@ -35,7 +35,7 @@ is_captured(const qdot_function_body *body, const char *name)
     return false;
 }
 
-/* The indices of loops under way that the body names: they keep their value of now. */
+/* Store the present values of loop indices that the body mentions; the function keeps them. */
 static qdot_status
 capture(qdot_session *s, qdot_function_body *body, qdot_expr formals, qdot_expr *values)
 {
@@ -88,7 +88,7 @@ enclose(qdot_session *s, const qdot_name *entry, const qdot_argument *args, size
 
 /* --- definitions -------------------------------------------------------------------- */
 
-/* Parse the body at the cursor, to the end of the statement, and step over it. */
+/* Parse the body from the cursor to the end of the statement, and step over it. */
 static qdot_status
 read_body(qdot_cursor *c, qdot_name *entry)
 {
@@ -127,7 +127,7 @@ qdot_function_read(qdot_cursor *c, qdot_name *entry)
 
 /* --- calls -------------------------------------------------------------------------- */
 
-/* Name the place in the body where it failed; of calls within one another the innermost. */
+/* Add to the error where in the function's body it occurred; for nested calls the innermost. */
 static qdot_status
 tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status status)
 {
@@ -143,7 +143,7 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
     return error.hint[0] != '\0' ? qdot_hint("%s", error.hint) : status;
 }
 
-/* The body read and evaluated; the names that it sees are bound. */
+/* Parse and evaluate the body, with its arguments bound. */
 static qdot_status
 function_evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
 {
@@ -162,7 +162,7 @@ function_evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr
     return qdot_value_kind_check(c->session->pool, *value);
 }
 
-/* The body with these arguments, as they are. */
+/* Evaluate the body with these arguments. */
 static qdot_status
 apply(qdot_session *s, const qdot_name *entry, const qdot_argument *args, qdot_expr *value,
       qdot_expr *over)
@@ -234,7 +234,7 @@ apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
     return status;
 }
 
-/* The body cannot take the whole argument, as the last error says: apply it member by member. */
+/* The body failed for a vector or list as a whole (see the last error): apply it to each member. */
 static qdot_status
 apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
 {

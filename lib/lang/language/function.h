@@ -39,7 +39,7 @@ QDOT_MUST_CHECK qdot_status qdot_function_call(qdot_session *session, const qdot
 QDOT_MUST_CHECK qdot_status qdot_function_print(qdot_session *session, const qdot_name *entry,
                                                 qdot_text *out);
 
-/* Whether a word of the body, no argument, is `name` or the family of the member `name`. */
+/* Whether the body contains `name`, or the family of which it is a member, as a word that is no argument. */
 bool qdot_function_mentions(const qdot_pool *pool, const qdot_name *entry, const char *name);
 
 #endif

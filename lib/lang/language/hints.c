@@ -1,4 +1,4 @@
-/* hints.c -- what a person may have meant: the nearest name, our form of another. */
+/* hints.c -- suggestions for mistyped input: the nearest name, or the form used here. */
 #include "lang/language/hints.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ qdot_hints_is_foreign(const qdot_session *session, const char *name)
     return !qdot_cursor_knows(session, name) && qdot_foreign_word(name) != NULL;
 }
 
-/* The text inside the bracket that `open` opens, "..." where it is long. */
+/* Copy the text inside the bracket that `open` begins; "..." if it is long. */
 static void
 bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t size)
 {
@@ -61,7 +61,8 @@ bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t si
 
 /* --- names of velocities -------------------------------------------------------------- */
 
-/* What others write before and behind a coordinate's name to mean its derivatives; longer spellings first. */
+/* Prefixes and endings by which users of other systems denote derivatives of a coordinate; longer
+ * ones first. */
 static const struct {
     const char *prefix, *ending, *primes;
     bool sure; /* seldom the name of anything else */
@@ -93,7 +94,7 @@ qdot_hints_derivative(const qdot_session *session, const char *name, bool sure, 
     return false;
 }
 
-/* thetadot, thetaddot, v_theta of a coordinate theta: its primes. */
+/* Hint for thetadot, thetaddot, v_theta if theta is a coordinate: write it with primes. */
 static bool
 hint_derivative(const qdot_cursor *c, const char *name, bool sure)
 {
@@ -109,7 +110,7 @@ hint_derivative(const qdot_cursor *c, const char *name, bool sure)
 
 enum { LONGEST_NAME = 60, MOST_ARGUMENTS = 4, CLEAR = 5 /* letters */ };
 
-/* `param NAME`, `coord NAME`: of a member a whole family up to it. */
+/* Hint `param NAME` or `coord NAME`; for a member x[3] the whole family up to it. */
 static qdot_status
 hint_declaration(const qdot_token *token, const char *member, bool coordinate)
 {
@@ -132,7 +133,7 @@ hint_declaration(const qdot_token *token, const char *member, bool coordinate)
     return qdot_hint("`param %s` declares a parameter, `coord %s` a coordinate", name, name);
 }
 
-/* Arguments of the call that `open` opens; 0: they cannot be counted. */
+/* The number of arguments of the call that `open` begins; 0 if they cannot be counted. */
 static size_t
 count_arguments(const qdot_token *open)
 {
@@ -148,7 +149,7 @@ count_arguments(const qdot_token *open)
     return 0;
 }
 
-/* `function NAME(s, u)`, or its definition. */
+/* Hint `function NAME(s, u)`, or a definition of the function. */
 static qdot_status
 hint_function(const qdot_token *token)
 {

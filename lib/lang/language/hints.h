@@ -5,7 +5,7 @@
 
 #include "lang/language/cursor.h"
 
-/* A name that looks like a derivative: of what, how it is written. */
+/* A name that looks like a derivative: its coordinate and its usual notation. */
 typedef struct {
     char base[64];      /* theta of thetadot, v_theta */
     const char *primes; /* ' or '' */
@@ -15,19 +15,19 @@ typedef struct {
 /* Whether `name` is how others write the velocity or acceleration of a declared name. sure: thetadot, theta_ddot; else
  * spellings that name other things as well, v_theta, theta_d, of a coordinate. */
 bool qdot_hints_derivative(const qdot_session *session, const char *name, bool sure, qdot_derivative_name *found);
-/* Whether a name without a meaning is another system's for one of our functions: `Sin`. */
+/* Whether an unknown name is another system's name for one of our functions, as `Sin`. */
 bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
 /* "unknown name `thta`", with the hint that fits: the nearest name, our form of another
  * system's, or a statement that declares it. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
 qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,
                                const char *member);
-/* The same where only a coordinate may stand. */
+/* The same where only a coordinate is allowed. */
 qdot_status qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member);
-/* The same for a call. */
+/* The same for the name of a called function. */
 qdot_status qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token);
-/* A function's name without its brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
+/* Report a function's name without brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
 qdot_status qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token);
-/* The nearest of everything known; NULL if none is near. Valid until the next change. */
+/* The nearest of all known names; NULL if none is near. Valid until names change. */
 const char *qdot_hints_nearest(qdot_session *session, const char *name);
 
 #endif

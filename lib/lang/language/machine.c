@@ -18,7 +18,7 @@ qdot_machine_push(qdot_machine *m, qdot_expr value)
     return qdot_vec_push(&m->stack, s);
 }
 
-/* Whether session->passed keeps the value. */
+/* Whether session->passed must record the value, as one that must be defined. */
 static bool
 is_passed(const qdot_machine *m, qdot_expr value)
 {

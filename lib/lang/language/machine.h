@@ -1,4 +1,4 @@
-/* machine.h -- the state of an evaluation: its stack and unfinished sums. */
+/* machine.h -- the state of an expression's evaluation: the stack and unfinished sums. */
 #ifndef QDOT_LANG_MACHINE_H
 #define QDOT_LANG_MACHINE_H
 
@@ -13,7 +13,7 @@ typedef struct {
     const qdot_token *sign; /* the + - * / before it, or NULL for the first */
 } qdot_slot;
 
-/* An unfinished sum(...). */
+/* A sum(...) that is being evaluated. */
 typedef struct {
     const char *index;
     const qdot_token *place; /* where it stands */
@@ -25,7 +25,7 @@ typedef struct {
     qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
 } qdot_sum_frame;
 
-/* What a call with QDOT_BUILTIN_PASSED keeps while its arguments are read. */
+/* What a call with QDOT_BUILTIN_PASSED records while its arguments are evaluated. */
 typedef struct qdot_passed_frame {
     qdot_passed passed;
     qdot_passed *outer; /* that of the session before */
@@ -54,25 +54,25 @@ qdot_machine_top(qdot_machine *m, size_t n)
 }
 
 QDOT_MUST_CHECK qdot_status qdot_machine_push(qdot_machine *m, qdot_expr value);
-/* Keep a value that must exist, of a scalar with symbols. */
+/* Record a value that must be defined, if it is a scalar with symbols. */
 QDOT_MUST_CHECK qdot_status qdot_machine_pass(qdot_machine *m, qdot_expr value);
-/* Keep base^exponent, whose value it is. */
+/* Record base^exponent, which gave `value`, as a value that must be defined. */
 QDOT_MUST_CHECK qdot_status qdot_machine_pass_power(qdot_machine *m, qdot_expr base, qdot_expr exponent, qdot_expr value);
-/* Keep such values in a frame of their own, from _begin to _end. */
+/* Record such values in a separate frame, from _begin to _end. */
 QDOT_MUST_CHECK qdot_status qdot_machine_pass_begin(qdot_machine *m);
 void qdot_machine_pass_end(qdot_machine *m);
-/* A call of `name`: unless it is a function of numbers only, it may take its arguments apart. */
+/* Note a call of `name`: unless it is a function of numbers only it may use only parts of its arguments. */
 void qdot_machine_spoil(qdot_machine *m, const char *name);
-/* What is meant along a run and enters an expression: a symbol from now on. */
+/* Replace a value along a run by a symbol, so that it can enter an expression. */
 QDOT_MUST_CHECK qdot_status qdot_machine_enter(qdot_machine *m, qdot_slot *s);
 /* The failures of what is meant along two runs at once, b.(a.x), and of a condition along a run,
  * a.(x > 0). */
 qdot_status qdot_machine_along_two(const char *inner, const char *outer);
 qdot_status qdot_machine_along_condition(const char *run);
-/* The top n values, popped into m->args; take: where a text, latex(e), has no place. */
+/* Pop the top n values into m->args; _take: refuse texts such as latex(e). */
 QDOT_MUST_CHECK qdot_status qdot_machine_take_any(qdot_machine *m, size_t n);
 QDOT_MUST_CHECK qdot_status qdot_machine_take(qdot_machine *m, size_t n);
-/* Whether those of m->args are scalars. */
+/* Whether all values of m->args are scalars. */
 bool qdot_machine_all_scalars(const qdot_machine *m);
 
 #endif

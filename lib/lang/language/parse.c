@@ -13,7 +13,7 @@
 #include "lang/session/runs.h"
 #include "lang/source/lex.h"
 
-/* What waits on the stack: operators by how they are read, and open brackets. */
+/* What waits on the parser's stack: operators by precedence, and open brackets. */
 typedef enum {
     OP_OR,
     OP_AND,
@@ -103,7 +103,7 @@ waiting_push(parser *p, waiting_kind kind, const qdot_token *token)
 
 /* --- operators ---------------------------------------------------------------------- */
 
-/* The operator on top has its last operand: emit it. */
+/* Emit the operator on top, whose last operand is complete. */
 static qdot_status
 reduce(parser *p)
 {
@@ -187,7 +187,7 @@ binary(parser *p, waiting_kind kind, const qdot_token *token)
 
 /* --- operands ----------------------------------------------------------------------- */
 
-/* Step over the primes glued to what was just read. */
+/* Step over the primes attached to what was just read; returns their number. */
 static unsigned
 primes(parser *p)
 {
@@ -217,7 +217,7 @@ parse_label(parser *p, const char *what)
     return emit(p, QDOT_POSTFIX_LABEL, name, 0, 0, 0);
 }
 
-/* The cursor is past `name` (and [indices] and primes), at its `(`. */
+/* Parse a call; the cursor is after `name` (and [indices] and primes), at `(`. */
 static qdot_status
 call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
 {
@@ -264,14 +264,14 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
                                       : QDOT_OK;
 }
 
-/* Whether a raised number follows, x², glued to what stands before it. */
+/* Whether a superscript number such as x² follows without a blank. */
 static bool
 is_raised(const parser *p, const qdot_token *t)
 {
     return qdot_token_is(t, "^") && t->glued && (p->c->source->text[t->start] & 0x80) != 0;
 }
 
-/* sin²(x), the cursor past `sin`. */
+/* Parse sin²(x); the cursor is after `sin`. */
 static qdot_status
 raised_call(parser *p, const qdot_token *name)
 {
@@ -348,7 +348,7 @@ parse_name(parser *p)
     return emit(p, QDOT_POSTFIX_NAME, t, 0, 0, n);
 }
 
-/* `%` or `%3`. */
+/* Parse `%` or `%3`, an earlier answer. */
 static qdot_status
 history(parser *p)
 {

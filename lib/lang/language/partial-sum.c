@@ -1,4 +1,4 @@
-/* partial-sum.c -- sums kept by where they stand. */
+/* partial-sum.c -- keeps the values of sums with a growing upper limit in loops, by their place in the text. */
 #include "lang/language/partial-sum.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum)
     return qdot_vec_push(&session->partial_sums, sum);
 }
 
-/* A parameter or coordinate that is called so, or a member of the family. */
+/* Whether the value is a parameter or coordinate of that name, or a member of that family. */
 static bool
 is_called(const qdot_session *session, const char *name, qdot_expr value)
 {
@@ -88,7 +88,7 @@ qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code)
         return;
     known = code->op == QDOT_POSTFIX_NAME ? qdot_names_find(m->session->names, code->token->text)
                                        : NULL;
-    /* of the sums up to the one whose index it is */
+    /* mark all inner sums, out to the one that has this index */
     for (; i > 0 && !(known && known->kind == QDOT_NAME_INDEX
                       && strcmp(m->frames.at[i - 1].index, known->name) == 0);
          i--)

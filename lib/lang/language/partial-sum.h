@@ -23,7 +23,7 @@ typedef struct qdot_partial_sum {
  * until the next is kept. */
 const qdot_partial_sum *qdot_partial_sum_find(const qdot_session *session,
                                               const qdot_token *place, long first, long last);
-/* Keep it, in place of a shorter one; outside of loops nothing is kept. QDOT_ENOMEM. */
+/* Keep the sum, replacing a shorter one; only inside loops. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum);
 
 /* An instruction was carried out, its value on top: what the terms of the sums under way depend on

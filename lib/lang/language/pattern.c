@@ -1,4 +1,5 @@
-/* pattern.c -- forms of statements with placeholders, and lines made from what these held. */
+/* pattern.c -- matches statements with patterns that have placeholders, and fills lines with the
+ * matched texts. */
 #include "lang/language/pattern.h"
 
 #include <string.h>
@@ -81,7 +82,7 @@ behind_coordinate(const matcher *x, const qdot_token *t, bool primes)
     return k;
 }
 
-/* The coordinate of a momentum p_theta, ptheta; NULL if it is none. */
+/* The coordinate of a momentum written p_theta or ptheta; NULL if it is none. */
 static const char *
 momentum_of(const qdot_session *s, const char *name)
 {
@@ -94,7 +95,7 @@ momentum_of(const qdot_session *s, const char *name)
     return found != NULL && found->kind == QDOT_NAME_COORD ? name : NULL;
 }
 
-/* Whether one token is of the kind of a placeholder. */
+/* Whether a token fits a placeholder of that kind. */
 static bool
 is_kind(const matcher *x, char kind, const qdot_token *t)
 {
@@ -127,7 +128,7 @@ is_kind(const matcher *x, char kind, const qdot_token *t)
     }
 }
 
-/* Whether a token may stand in an expression outside of its brackets. */
+/* Whether a token may occur in an expression outside of its brackets. */
 static bool
 is_inner(const qdot_token *t)
 {
@@ -139,7 +140,7 @@ is_inner(const qdot_token *t)
     return t->kind != QDOT_TOKEN_STRING;
 }
 
-/* Whether an operator is missing between the token at k, not the first, and the one before it. */
+/* Whether an operator is missing between the token at k and the one before it. */
 static bool
 is_gap(const qdot_token *k)
 {
@@ -160,7 +161,7 @@ is_gap(const qdot_token *k)
 
 static bool match(matcher *x, const char *pattern, const qdot_token *t);
 
-/* The placeholder holds [from, to), and the rest matches behind it. */
+/* Let the placeholder match [from, to), and try to match the rest after it. */
 static bool
 placeholder_hold(matcher *x, char kind, const qdot_token *from, const qdot_token *to,
                  const char *rest)
@@ -237,7 +238,7 @@ is_literal(const qdot_token *t, const char *text, size_t n)
            strlen(t->text) == n && strncmp(t->text, text, n) == 0;
 }
 
-/* Whether the token is one of a|b|c, the n letters at `text`. */
+/* Whether the token is one of a|b|c, given by n characters of `text`. */
 static bool
 is_one_of(const qdot_token *t, const char *text, size_t n)
 {
@@ -303,7 +304,7 @@ qdot_pattern_matches(const qdot_session *session, const char *pattern,
 
 /* --- lines ---------------------------------------------------------------------------- */
 
-/* Whether a sign stands between operands of the tokens, outside of brackets. */
+/* Whether the tokens contain + or - between operands, outside of brackets. */
 static bool
 is_sum(const qdot_token *from, const qdot_token *to)
 {
@@ -376,7 +377,7 @@ first_coordinate(const qdot_session *s)
     return "x";
 }
 
-/* A name of that kind in what matched; NULL: there is none. */
+/* The first name of that kind among the matched tokens; NULL if there is none. */
 static const char *
 matched_name(const qdot_session *s, const qdot_match *m, qdot_name_kind kind)
 {
@@ -389,7 +390,7 @@ matched_name(const qdot_session *s, const qdot_match *m, qdot_name_kind kind)
     return NULL;
 }
 
-/* A coordinate in what a name that matched was defined as; NULL: none. */
+/* A coordinate in the definition of a matched name; NULL if there is none. */
 static const char *
 coordinate_within(const qdot_session *s, const qdot_match *m)
 {
@@ -405,7 +406,7 @@ coordinate_within(const qdot_session *s, const qdot_match *m)
     return NULL;
 }
 
-/* What an equation that matched is solved for: a coordinate that it holds, else a parameter, else the first coordinate. */
+/* The unknown of a matched equation: a coordinate in it, else a parameter, else the first coordinate. */
 static const char *
 unknown_of(const qdot_session *s, const qdot_match *m)
 {
@@ -418,7 +419,7 @@ unknown_of(const qdot_session *s, const qdot_match *m)
     return name != NULL ? name : first_coordinate(s);
 }
 
-/* What `$...` at `line` stands for; returns the place behind it. */
+/* Append the text of the placeholder `$...` at `line`; returns the position after it. */
 static const char *
 add_placeholder(const qdot_cursor *c, const char *line, const qdot_match *m,
                 qdot_text *out)

@@ -25,7 +25,7 @@ bool qdot_pattern_matches(const qdot_session *session, const char *pattern,
                           const qdot_token *from, const qdot_token *to, bool whole,
                           qdot_match *m);
 
-/* A line with the placeholders' texts, as they stand in the source. */
+/* Append a line with the matched texts, as they are in the source, for its placeholders. */
 void qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_match *m,
                         qdot_text *out);
 

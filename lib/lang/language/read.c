@@ -34,10 +34,11 @@ qdot_compiled_free(qdot_compiled *program)
     *program = (qdot_compiled){0};
 }
 
-/* What an expression may go along. */
+/* Whether an expression may depend on the motion. */
 typedef enum { NOTHING, MOTION } course;
 
-/* Along a motion coordinates move: what a loop holds them at is where they start. */
+/* Evaluate; along a motion a coordinate that a loop sets is still a variable, as the loop only sets
+ * its start. */
 static qdot_status
 evaluate_program(qdot_cursor *c, const qdot_compiled *program, course along, qdot_expr *value,
                  qdot_expr *over, const char **run)
@@ -95,7 +96,7 @@ is_number(const qdot_pool *pool, qdot_expr value)
     return qdot_expr_is_scalar(pool, value) && value != QDOT_TRUE && value != QDOT_FALSE;
 }
 
-/* a.x, which is along a run, is no number by itself. */
+/* Refuse a.x, a value along a run, where a number is needed. */
 static qdot_status
 refuse_member(qdot_cursor *c, const qdot_token *start, qdot_expr value)
 {

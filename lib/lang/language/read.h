@@ -16,9 +16,9 @@ QDOT_MUST_CHECK qdot_status qdot_read_value(qdot_cursor *c, qdot_expr *value);
  * G[r, phi]; nil: by numbers only. */
 QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
                                             qdot_expr *over);
-/* As a side of `==`, a relation, a bound: stops before = == < <= > >= and or. */
+/* Read one side of `==`, a relation or a bound: stops before = == < <= > >= and or. */
 QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
-/* A sum without relations that must be a scalar: QDOT_ETYPE otherwise. */
+/* Read a sum without relations, which must be a scalar: QDOT_ETYPE otherwise. */
 QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
 /* As numbers of the moment, parameters with their values. */
 QDOT_MUST_CHECK qdot_status qdot_read_number(qdot_cursor *c, double *value);
@@ -31,15 +31,15 @@ QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from,
 QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);
 /* name or name[...] followed by primes, of a declared coordinate: the jet symbol. */
 QDOT_MUST_CHECK qdot_status qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet);
-/* The jet of order `order` of the coordinate of that name, which stands at `start`. */
+/* The derivative of that order of the coordinate of that name; `start` is where an error is shown. */
 QDOT_MUST_CHECK qdot_status qdot_read_jet_of(qdot_cursor *c, const qdot_token *start,
                                              const char *name, uint32_t order, qdot_expr *jet);
-/* As qdot_read_side, of a motion: a coordinate that a loop holds stays itself. */
+/* As qdot_read_side, for an expression of the motion: a coordinate that a loop sets stays a variable. */
 QDOT_MUST_CHECK qdot_status qdot_read_motion(qdot_cursor *c, qdot_expr *value);
-/* The same, perhaps along a run, `a.theta` or `a.(expr)`: *run its label, else NULL. */
+/* As qdot_read_value, but it may be along a run, `a.theta` or `a.(expr)`: *run its label, else NULL. */
 QDOT_MUST_CHECK qdot_status qdot_read_member(qdot_cursor *c, qdot_expr *value,
                                              const char **run);
-/* A quoted string. */
+/* Read a quoted string. */
 QDOT_MUST_CHECK qdot_status qdot_read_string(qdot_cursor *c, const char **text);
 
 #endif

@@ -102,7 +102,7 @@ qdot_resolve_undefined(qdot_session *s, const qdot_name *entry, unsigned primes,
     return qdot_value_kind_check(s->pool, *value);
 }
 
-/* A declared or bound name with its primes. */
+/* Evaluate a declared or bound name with its primes. */
 static qdot_status
 named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value)
 {
@@ -159,7 +159,7 @@ reserved(const char *name, unsigned primes, bool *found, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* dtheta, dtheta[1], dt; deltatheta, deltatheta[1]. */
+/* Evaluate dtheta, dtheta[1], dt; deltatheta, deltatheta[1]. */
 static qdot_status
 differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
 {
@@ -220,7 +220,7 @@ quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
     return qdot_hint("write ddt(%s%s)", row->name, n > 0 ? "[...]" : "");
 }
 
-/* The coordinates that the entries of a value of the scene go by; nil: numbers alone. */
+/* The coordinates by which the entries of a quantity are indexed; nil: by numbers only. */
 static qdot_status
 coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
 {
@@ -251,7 +251,7 @@ argument_of(const qdot_session *s, const char *name)
     return QDOT_NIL;
 }
 
-/* `theta[2]`, bob[2], dtheta[2] by the spelling of the member. */
+/* Evaluate theta[2], bob[2] or dtheta[2], given the spelling of the member. */
 static qdot_status
 member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
        qdot_expr *value)
@@ -298,7 +298,7 @@ is_small(const qdot_source *source, const qdot_token *token)
     return false;
 }
 
-/* x₁, which is x1 or, where nothing is called so, x[1] or x_1. */
+/* Evaluate x₁: x1 or, if that is not declared, x[1] or x_1. */
 static qdot_status
 small(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdot_expr *value)
 {
@@ -514,7 +514,7 @@ quantity_index(qdot_session *s, const qdot_quantity *row, unsigned primes, uint3
     return quantity(s, row, primes, n, index, value);
 }
 
-/* Whether some label is a member of the family `name`. */
+/* Whether any label is a member of the family `name`. */
 static bool
 is_label_family(const qdot_scene *scene, const char *name)
 {
@@ -531,7 +531,7 @@ is_label_family(const qdot_scene *scene, const char *name)
     return false;
 }
 
-/* Whether name[...] could be a member: theta[1], bob[1], dtheta[1], deltatheta[1]. */
+/* Whether name[...] could be a family member: theta[1], bob[1], dtheta[1], deltatheta[1]. */
 static bool
 may_be_family(const qdot_session *s, const char *name)
 {
@@ -569,7 +569,7 @@ unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
                      spelled);
 }
 
-/* Members first: theta[1], bob[1], dtheta[1]. */
+/* Evaluate name[...] as a family member: theta[1], bob[1], dtheta[1]; *found. */
 static qdot_status
 resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_t n,
                const qdot_expr *index, bool *found, qdot_expr *value)
@@ -590,7 +590,7 @@ resolve_member(qdot_cursor *c, const qdot_token *token, unsigned primes, uint32_
     return status;
 }
 
-/* QDOT_ENAME: neither the member nor the family is known. */
+/* Fail with QDOT_ENAME: neither the member nor the family is known. */
 static qdot_status
 unknown_index(qdot_cursor *c, const qdot_token *token, uint32_t n, const qdot_expr *index)
 {
@@ -618,7 +618,7 @@ qdot_resolve_index(qdot_cursor *c, const qdot_token *token, unsigned primes, uin
     qdot_expr whole, over;
     bool found;
 
-    /* p[theta] is the momentum even beside a plain p */
+    /* p[theta] is the momentum even if a plain p is declared */
     if (row != NULL && strcmp(name, "p") == 0 && n == 1 && primes == 0 &&
         (entry == NULL || !all_integers(s, n, index)) && beside_momenta(c, token))
         return independent_momentum(s, index[0], value);

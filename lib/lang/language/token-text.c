@@ -1,11 +1,11 @@
-/* token-text.c -- tokens as a person would write them. */
+/* token-text.c -- writes tokens as a person would type them. */
 #include "lang/language/token-text.h"
 
 #include <string.h>
 
 #include "lang/language/evaluator.h"
 
-/* Whether a sign behind this token is one between two operands. */
+/* Whether a sign after this token stands between two operands. */
 static bool
 sign_follows_operand(const qdot_token *token)
 {
@@ -28,7 +28,7 @@ is_spaced(const qdot_token *token)
     return false;
 }
 
-/* Whether a loop holds a coordinate of that name at a value. */
+/* Whether the name is a coordinate that a loop sets to a value. */
 static bool
 is_coordinate(const qdot_session *session, const char *name)
 {
@@ -37,7 +37,7 @@ is_coordinate(const qdot_session *session, const char *name)
     return known != NULL && known->kind == QDOT_NAME_COORD;
 }
 
-/* The value of a loop's index in place of its name; false: the name is none. */
+/* Append the value of a loop index instead of its name; false if the token is no index. */
 static bool
 add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
 {
@@ -57,7 +57,7 @@ add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
     return printed;
 }
 
-/* x₁ that is x[1] or x_1, as that; false: it is neither. */
+/* Append x₁ as x[1] or x_1, whichever it stands for; false if neither. */
 static bool
 add_small(const qdot_session *session, const qdot_token *token, qdot_text *out)
 {
@@ -99,7 +99,7 @@ add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used
     return true;
 }
 
-/* indices: those of a loop are replaced by their values. */
+/* indices: replace loop indices by their values. */
 static void
 write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to,
              bool indices, qdot_text *out)

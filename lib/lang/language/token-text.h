@@ -1,4 +1,4 @@
-/* token-text.h -- tokens as a person would write them. */
+/* token-text.h -- writes tokens as a person would type them. */
 #ifndef QDOT_LANG_TOKEN_TEXT_H
 #define QDOT_LANG_TOKEN_TEXT_H
 
@@ -8,7 +8,7 @@
  * of a loop under way is replaced by its value. */
 void qdot_token_text(qdot_session *session, const qdot_token *from,
                      const qdot_token *to, qdot_text *out);
-/* The same, indices of loops by their names. */
+/* As qdot_token_text, but loop indices keep their names. */
 void qdot_token_text_written(qdot_session *session, const qdot_token *from,
                              const qdot_token *to, qdot_text *out);
 

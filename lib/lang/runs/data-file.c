@@ -84,7 +84,7 @@ add_run(const qdot_session *session, const qdot_run *run, facts *to)
     return add_number(to, "constraint drift", r->m > 0 ? r->constraint_drift : NAN);
 }
 
-/* The values that the parameters had in the run, at its beginning. */
+/* Add the values that the parameters had at the beginning of the run. */
 static qdot_status
 add_parameters(const qdot_session *session, qdot_run *run, facts *to)
 {

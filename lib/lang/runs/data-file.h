@@ -1,4 +1,4 @@
-/* data-file.h -- a table in a file, with what is known of its run. */
+/* data-file.h -- writes a table to a file, with the facts of its run. */
 #ifndef QDOT_LANG_DATA_FILE_H
 #define QDOT_LANG_DATA_FILE_H
 

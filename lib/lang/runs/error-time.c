@@ -11,7 +11,7 @@
 #include "show/figure.h"
 #include "table/text.h"
 
-/* An error of 0 has no logarithm: it is drawn where rounding is. */
+/* An error of 0 has no logarithm: it is drawn at the rounding error. */
 static const double least_error = 0x1p-60;
 
 /* The curves and their points x, y [n each]; how many curves. */
@@ -106,7 +106,7 @@ say_left_out(qdot_session *session, const qdot_methods_left_out *list)
     return QDOT_OK;
 }
 
-/* The table with the words below it; mark: before cells (table/text.h). */
+/* Append the table and the words below it; mark: text before cells (table/text.h). */
 static qdot_status
 write_table(const qdot_error_study *of, const char *mark, qdot_text *out)
 {

@@ -27,10 +27,10 @@ typedef struct {
 /* The options of such a statement; its file is a figure or one of numbers. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
-/* The tolerance behind `tol`, 1e-16 to 1; 0: it was not said. */
+/* The tolerance after `tol`, 1e-16 to 1; 0 if not given. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_tolerance(qdot_record *r, double *tol);
 
-/* What `workprecision` and `longtime` answer: methods left out, then a table and a figure, or a file. */
+/* The answer of `workprecision` or `longtime`: methods left out, a table and a figure, or a file. */
 typedef struct {
     const char *name; /* of the answer */
     const void *study; /* what the functions take */
@@ -47,7 +47,7 @@ typedef struct {
 } qdot_error_study;
 QDOT_MUST_CHECK qdot_status qdot_error_time_tell(qdot_session *session, const qdot_error_study *of);
 
-/* Draw it, into its file or a window. Errors: QDOT_EFAILED with `none`, those of the file. */
+/* Write the answer to its file, or show it. Errors: QDOT_EFAILED with `none`, those of the file. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_show(qdot_session *session,
                                                  const qdot_error_time *of);
 

@@ -1,4 +1,4 @@
-/* events.c -- `events`: what occurred in the latest run, and when. */
+/* events.c -- the statement `events`: what occurred in the latest run, and when. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ QDOT_STATEMENT(events) = {
     .handler = events_list,
 };
 
-/* The declarations, where there is no run to tell of. */
+/* Without a run: list the declared events. */
 static qdot_status
 list_declared(qdot_session *session)
 {
@@ -46,7 +46,7 @@ list_declared(qdot_session *session)
     return status;
 }
 
-/* JSON: one object an event, all its times. */
+/* For JSON: one object for each event with all its times. */
 static qdot_status
 list_numbers(qdot_session *session, const qdot_run_occurrence *list, size_t n)
 {
@@ -121,7 +121,7 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
-/* "NAME  from t = A on its sides are equal within their errors: whether it occurs there is not known" */
+/* Print "NAME  from t = A on its sides are equal within their errors: whether it occurs there is not known". */
 static void
 faded_print(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
 {
@@ -143,7 +143,7 @@ faded_print(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
     qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known");
 }
 
-/* JSON: a notice for each stretch of time in which it is not known whether an event occurs, faded [n]. */
+/* For JSON: a notice for each time span in which it is unknown whether an event occurs, faded [n]. */
 static qdot_status
 tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
 {
@@ -190,7 +190,7 @@ typedef struct {
 } event_count;
 typedef qdot_vec(event_count) event_counts;
 
-/* Count one more occurrence of the event; *k: its number among those of that event. */
+/* Count one more occurrence of the event; *k: its number among those of the same event. */
 static qdot_status
 count_occurrence(event_counts *counts, const char *event, size_t *k)
 {

@@ -29,7 +29,7 @@ typedef struct {
 
 /* --- what is told ------------------------------------------------------------------- */
 
-/* The windows of methods k .. end - 1: their root mean squares. */
+/* Fill a table with the windows of methods k .. end - 1: the rms error in each. */
 static qdot_status
 windows_fill(const qdot_longtime *l, size_t k, size_t end, qdot_table *t)
 {
@@ -55,7 +55,7 @@ windows(const void *study, qdot_table *t)
     return windows_fill(l, 0, l->n, t);
 }
 
-/* "t^1.00 +- 0.02" */
+/* Write the growth of the error as a power of t: "t^1.00 +- 0.02". */
 static void
 growth(const qdot_longtime_row *r, qdot_table *t)
 {
@@ -68,7 +68,7 @@ growth(const qdot_longtime_row *r, qdot_table *t)
     qdot_table_add_written(t, &text);
 }
 
-/* A row for each method. */
+/* Fill a table with one row for each method. */
 static qdot_status
 summary(const void *study, qdot_table *t)
 {
@@ -99,7 +99,7 @@ summary(const void *study, qdot_table *t)
     return qdot_table_status(t);
 }
 
-/* What `auto` would take, and why. */
+/* Write which method and tolerance `auto` would use, and why. */
 static void
 chosen(const qdot_longtime *l, qdot_text *out)
 {
@@ -123,7 +123,7 @@ words(const void *study, qdot_text *out)
     }
 }
 
-/* The windows of a method as rows, and why it failed. */
+/* Answer the windows of a method as JSON rows, or the reason why it failed. */
 static qdot_status
 windows_json(qdot_session *session, const qdot_longtime *l, size_t k)
 {

@@ -1,4 +1,4 @@
-/* own-run.c -- makes, keeps and drops a statement's own run. */
+/* own-run.c -- makes, keeps and drops a run that a statement needs for itself. */
 #include "lang/runs/own-run.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 static const char run_name[] = "the run";
 
-/* Keep the run, which is then the session's. */
+/* Store the run in the session, which then owns it. */
 static qdot_status
 own_run_keep(qdot_session *session, const qdot_request *request, qdot_run *made, qdot_run **run,
              qdot_expr *end)
@@ -55,7 +55,7 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
     return status;
 }
 
-/* The statement's own run, if there is one. */
+/* The statement's own run if it exists; NULL otherwise. */
 static qdot_named_run *
 own(qdot_session *session)
 {
@@ -88,7 +88,8 @@ qdot_own_run_take_back(qdot_session *session)
 
 /* --- how long ------------------------------------------------------------------------------ */
 
-/* The time, or the end of the range A..B, at the cursor, if it is farther from `from` than *latest at *t. */
+/* Read a time, or the end of a range A..B, at the cursor; if it is farther from `from` than *t it
+ * replaces *latest and *t. */
 static void
 read_time(qdot_cursor *c, double from, qdot_expr *latest, double *t)
 {

@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_own_run_lend(qdot_session *session, const qdot_
                                               qdot_run *run);
 void qdot_own_run_take_back(qdot_session *session);
 
-/* Whether a failure is one that no other values can mend: the next run would fail alike. */
+/* Whether a failure does not depend on the values, so that the next run would fail, too. */
 bool qdot_own_run_all_fail(qdot_status status);
 
 /* The time of value(E, T), max(E, A..B), ... among the tokens from the cursor on that is farthest from the

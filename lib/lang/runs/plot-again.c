@@ -17,7 +17,7 @@ typedef struct {
     qdot_run_options run; /* as the values in force have them */
 } again;
 
-/* The names in the statement are those of the scene, no indices. */
+/* Read the run statement, in which names are those of the scene, not loop indices. */
 static qdot_status
 again_read_run(again *a)
 {
@@ -29,7 +29,7 @@ again_read_run(again *a)
     return status;
 }
 
-/* What it says with the values in force. */
+/* Evaluate the options of the run statement with the present values. */
 static qdot_status
 again_find_run(again *a)
 {
@@ -44,7 +44,7 @@ again_find_run(again *a)
     return status;
 }
 
-/* Whether the statement, carried out now, makes the run that there is. */
+/* Whether the statement, carried out now, would make the existing run again. */
 static qdot_status
 is_repeatable(again *a, const qdot_named_run *latest, bool *is)
 {

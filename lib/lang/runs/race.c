@@ -125,7 +125,7 @@ race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choi
         status = qdot_answer_rows(session, "race", &t);
     qdot_text_clear(&text);
     qdot_table_clear(&t);
-    /* who stopped it does not wait for a figure unless it was asked for */
+    /* after an interruption draw the figure only if the user asked for a file */
     if (status == QDOT_OK && (!race->interrupted || figure->path != NULL))
         status = race_draw(session, race, figure, panel);
     return status;

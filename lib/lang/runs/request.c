@@ -1,4 +1,4 @@
-/* request.c -- what is asked of a run: the values and the start of the moment. */
+/* request.c -- makes the request of a run from the present values and start. */
 #include "lang/runs/request.h"
 
 #include "expr/calculus.h"
@@ -48,7 +48,7 @@ order_start(qdot_session *session, qdot_request *o)
         qdot_status status;
 
         QDOT_TRY(qdot_pool_check(session->pool));
-        /* values that constraints solve for are checked after that */
+        /* values that constraints determine are checked after solving for them */
         status = named || scene->constraints.n == 0
                      ? qdot_session_in_domain(session, q, q0)
                      : QDOT_OK;
@@ -94,7 +94,7 @@ put_errors(const qdot_session *session, qdot_request *o)
     return qdot_pool_check(session->pool);
 }
 
-/* Whether an event sets it, in a run. */
+/* Whether an event of the scene sets the symbol. */
 static bool
 is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
 {
@@ -105,7 +105,7 @@ is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
     return false;
 }
 
-/* Values made of parameters that events set keep these symbols, so that they change with them. */
+/* Values that depend on parameters set by events keep their symbols, so that they change with these. */
 static qdot_status
 follow_events(qdot_session *session, qdot_request *o)
 {
@@ -216,7 +216,7 @@ negative(qdot_session *session, const char *what, const char *name, qdot_expr e,
     return status;
 }
 
-/* QDOT_ESINGULAR if e, a scalar or the moments of a body, is negative with these values. */
+/* QDOT_ESINGULAR if e, a scalar or the moments of inertia of a body, is negative with these values. */
 static qdot_status
 refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
                 const char *name, qdot_expr e)

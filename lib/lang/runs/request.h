@@ -5,7 +5,7 @@
 #include "lang/commands/pairs.h"
 #include "lang/session/session.h"
 
-/* A request and what it borrows. */
+/* A request with the arrays that it borrows. */
 typedef struct {
     qdot_pairs values;
     qdot_vec(qdot_expr) q0, v0;
@@ -16,15 +16,15 @@ typedef struct {
 
 /* Fill in the session's present values and start. */
 QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
-/* Its limits, which are constants of the session. */
+/* Set the time limits, which must be constants of the session. */
 QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr from,
                                                 qdot_expr to, qdot_request *o);
-/* Both, for a statement that integrates by itself; a notice where no `start` was said. */
+/* Set values, start and limits for a statement that integrates by itself; a notice if there was no `start`. */
 QDOT_MUST_CHECK qdot_status qdot_request_between(qdot_session *session, qdot_expr from,
                                                  qdot_expr to, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
-/* QDOT_ESINGULAR if a mass or moment of inertia is negative by its values: which, and of what. */
+/* QDOT_ESINGULAR if a mass or moment of inertia is negative with these values; the message says which. */
 QDOT_MUST_CHECK qdot_status qdot_request_masses(qdot_session *session, const qdot_request *o);
 /* The status of what was done with the request. Where the mass matrix was singular and a mass or
  * moment of inertia is negative, the error says so: which, and the value of its parameter. Tests:

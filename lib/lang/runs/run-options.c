@@ -11,7 +11,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
 
-/* What the tokens [from, to) say, behind what was said before. */
+/* Append the tokens [from, to) to the text of the options. */
 static void
 add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
          qdot_run_options *o)
@@ -23,7 +23,7 @@ add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
     qdot_token_text(c->session, from, to, &o->text);
 }
 
-/* What loops hold is said as `with l = 1`. */
+/* Append the values that loops set as `with l = 1`. */
 static qdot_status
 add_held(qdot_cursor *c, qdot_run_options *o)
 {
@@ -58,7 +58,7 @@ with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
     return qdot_pairs_push(with, part->from, symbol, value);
 }
 
-/* Those of the list that begins with `first`. */
+/* Take the values of the list NAME = VALUE, ... that begins with `first`. */
 static qdot_status
 with_find(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_pairs *with)
 {
@@ -106,7 +106,7 @@ digits_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
     return qdot_hint("digits 30");
 }
 
-/* The option whose word is the part, before `to`. */
+/* Take the option whose word is this part; it ends before `to`. */
 static qdot_status
 option_find(qdot_record *r, const qdot_filled *word, const qdot_filled *to, qdot_run_options *o)
 {

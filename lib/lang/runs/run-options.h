@@ -5,7 +5,7 @@
 #include "lang/runs/request.h"
 #include "lang/syntax/record.h"
 
-/* The options as usage texts have them, but for a name. */
+/* The options as they occur in usages, except for a name. */
 #define QDOT_RUN_USAGE "[tol E | digits N] " QDOT_RUN_USAGE_OTHERS
 #define QDOT_RUN_USAGE_OTHERS                                                            \
     "[method NAME] [with NAME = VALUE, ...] [constraints project|baumgarte|none]"
@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_options_find(qdot_record *r, const qdot_fil
                                                   const qdot_filled *to, qdot_run_options *o);
 /* Whether a start is among the values of `with`. */
 bool qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o);
-/* Put the values of `with` in force; the caller keeps and restores the session's. */
+/* Set the values of `with`; the caller saves and restores the session's values. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_put(qdot_session *session, const qdot_run_options *o);
 /* The request of the present values, those of `with` in place of them, of these options, and of the
  * limits from..to, which may hold such values. */
@@ -35,7 +35,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session, const q
                                                   qdot_expr from, qdot_expr to,
                                                   qdot_request *request);
 void qdot_run_options_free(qdot_run_options *o);
-/* The place of an error of that status: the method, where it is unknown or not built. */
+/* Set the place of an error with that status: at the method's name if it is unknown or not built. */
 void qdot_run_options_place(qdot_cursor *c, const qdot_run_options *o, qdot_status status);
 
 #endif

@@ -21,7 +21,7 @@ QDOT_STATEMENT(run) = {
     .handler = run_make,
 };
 
-/* Integrate, keep the run, tell how it went. */
+/* Integrate, keep the run, and report how it went. */
 static qdot_status
 run_integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
 {

@@ -49,7 +49,7 @@ static const qdot_table_column columns[] = {
 
 enum { COLUMNS = sizeof columns / sizeof *columns, CONSTRAINT_ERR = 10 };
 
-/* Constraint errors have a column only where there are constraints. */
+/* Fill the table of results; the column of constraint errors only exists for scenes with constraints. */
 static qdot_status
 study_fill(const void *study, qdot_table *t)
 {
@@ -149,7 +149,7 @@ workprecision_tell(qdot_session *session, const qdot_workprecision *w, const cho
     return qdot_error_time_tell(session, &of);
 }
 
-/* A whole study is kept for reports (lang/files/report-work.h). */
+/* Keep a complete study, for use in reports (lang/files/report-work.h). */
 static qdot_status
 workprecision_keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
 {

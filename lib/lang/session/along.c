@@ -1,4 +1,4 @@
-/* along.c -- values along runs, of expressions that may name several of them. */
+/* along.c -- values of expressions along runs; an expression may name several runs. */
 #include "lang/session/along.h"
 
 #include <math.h>
@@ -43,7 +43,7 @@ any_member(const qdot_session *session, const qdot_runs_columns *columns)
     return false;
 }
 
-/* Note what the columns are of the run, from the arguments as they were written; slopes are of velocities. */
+/* Record in m what the numbers are of the run, for sensitivities (of momenta written as velocities). */
 static void
 note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
              qdot_expr time, qdot_measured *m)
@@ -62,7 +62,8 @@ note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr
     }
 }
 
-/* The columns at a time: numbers m [columns], or values [columns] of such numbers, not nil. */
+/* Measure the columns at a time: as numbers m [columns], or for several runs as expressions values
+ * [columns], not nil. */
 static qdot_status
 measure_columns(qdot_session *session, const char *run, const qdot_runs_columns *columns,
                 qdot_expr time, qdot_measured *m, qdot_expr *values)
@@ -74,7 +75,7 @@ measure_columns(qdot_session *session, const char *run, const qdot_runs_columns 
     return QDOT_OK;
 }
 
-/* e at a double t, along whatever runs it names, else along `run`. */
+/* The value of e at time t, along the runs that it names, otherwise along `run`. */
 static qdot_status
 along_value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
 {
@@ -112,7 +113,7 @@ add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, 
     return QDOT_OK;
 }
 
-/* The same of all components of args [n], whose numbers are m. */
+/* Add such errors for all components of args [n], whose numbers are m. */
 static qdot_status
 add_errors_within(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
                   qdot_expr time, qdot_measured *m)

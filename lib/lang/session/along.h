@@ -1,4 +1,4 @@
-/* along.h -- values along runs of expressions that may refer to several runs. */
+/* along.h -- values of expressions along runs; an expression may refer to several runs. */
 #ifndef QDOT_LANG_ALONG_H
 #define QDOT_LANG_ALONG_H
 

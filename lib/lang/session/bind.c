@@ -44,7 +44,7 @@ apply_function(qdot_pool *pool, qdot_expr application, qdot_expr head, qdot_expr
     return value;
 }
 
-/* Every application of a function that has a definition, replaced. */
+/* Replace every application of a defined function by its value. */
 static qdot_expr
 bind_functions(qdot_session *session, qdot_expr e)
 {
@@ -109,7 +109,7 @@ qdot_session_bind(qdot_session *session, qdot_expr e)
 
 /* --- numbers ------------------------------------------------------------------------ */
 
-/* The measured symbols that occur in e. */
+/* List the symbols in e that stand for results of runs. */
 static qdot_status
 find_measured(qdot_session *session, qdot_expr e, size_t *n, const qdot_measured ***list)
 {
@@ -137,7 +137,7 @@ find_measured(qdot_session *session, qdot_expr e, size_t *n, const qdot_measured
     return QDOT_OK;
 }
 
-/* e with its measured symbols as inputs: the value and sum |de/dm| error. */
+/* Evaluate e with the results of runs as inputs: the value, and the error sum |de/dm| error(m). */
 static qdot_status
 measured_evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *const *list,
                   double *value, double *error)

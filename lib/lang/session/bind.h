@@ -7,10 +7,11 @@
 /* e with the values of parameters (`set`, `param x = v`) put in; exact. Repeated, as values may
  * hold other parameters; a cycle is QDOT_EINVAL. */
 qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
-/* As a double: bound, measured symbols put in; error (may be NULL) propagated from measured ones. */
+/* Evaluate e as a double, with the session's values and the results of runs; the error (may be
+ * NULL) is propagated from theirs. */
 QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
                                                 double *value, double *error);
-/* The same, and what an exact number is beyond the double; 0 of a measured one. */
+/* The same, with *low = the exact value minus the double; 0 if e contains results of runs. */
 QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
                                                double *value, double *low);
 /* As an integer: QDOT_ETYPE with the value otherwise. */

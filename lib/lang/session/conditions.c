@@ -1,11 +1,11 @@
-/* conditions.c -- under what conditions a run was made, and the studies made under them. */
+/* conditions.c -- the conditions (scene, values, start, limits) of a run; the studies made under them. */
 #include "lang/session/conditions.h"
 
 #include <string.h>
 
 enum { MOST_STUDIES = 8 };
 
-/* Append the n items at `from` to a list, as long as all goes well. */
+/* Append the n items at `from` to a list unless `status` is a failure. */
 #define APPEND(list, from, n)                                                            \
     for (size_t i = 0; i < (n) && status == QDOT_OK; i++)                                \
     status = qdot_vec_push(&(list), (from)[i])

@@ -7,7 +7,7 @@
 
 #include "sim/study/workprecision.h"
 
-/* The scene, the values of parameters, the start and the limits; not how it was integrated. */
+/* The scene, parameter values, start and limits of a run; not how it was integrated. */
 typedef struct {
     uint64_t version; /* of the scene */
     qdot_vec(qdot_expr) symbols, values; /* of parameters */
@@ -18,19 +18,19 @@ typedef struct {
     qdot_expr said[2]; /* the limits as they were said; nil: t0, t1 */
 } qdot_conditions;
 
-/* The conditions of a request, copied into *conditions from {0}; clear it in any case. QDOT_ENOMEM. */
+/* Copy the conditions of a request to *conditions, which is {0}; clear it in any case. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_conditions_take(const qdot_scene *scene,
                                                  const qdot_run_request *request,
                                                  qdot_conditions *conditions);
 void qdot_conditions_clear(qdot_conditions *conditions);
 
-/* A request under these conditions: tol 1e-12, method auto. It borrows their arrays. */
+/* A request with these conditions: tol 1e-12, method auto. It borrows their arrays. */
 qdot_run_request qdot_conditions_request(const qdot_conditions *conditions);
 
-/* Whether both are of one state of the scene, with the same values, start and limits. */
+/* Whether both have the same version of the scene, and the same values, start and limits. */
 bool qdot_conditions_same(const qdot_conditions *a, const qdot_conditions *b);
 
-/* Work and precision, measured under these conditions. */
+/* A work-precision study made under these conditions. */
 typedef struct {
     qdot_conditions conditions;
     qdot_workprecision measured;

@@ -26,7 +26,8 @@ qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o)
     return o->exact == QDOT_NIL ? 0 : qdot_run_get_report(run)->digits;
 }
 
-/* The error that occurrence k is not among the n that are known, and since when it is open whether the event occurs. */
+/* Fail because occurrence k is not among the n known ones; say since when it is unknown whether the
+ * event occurs. */
 static qdot_status
 unknown(const qdot_named_run *named, const char *name, long k, size_t n)
 {

@@ -12,7 +12,7 @@ typedef struct qdot_function_body {
     qdot_vec(const char *) captured; /* indices of loops around the definition */
 } qdot_function_body;
 
-/* The tokens [from, to) of a source, with one use; NULL: no memory. */
+/* A function body: the tokens [from, to) of a source, with reference count 1; NULL if out of memory. */
 qdot_function_body *qdot_function_body_new(const qdot_source *source, const qdot_token *from,
                                            const qdot_token *to);
 qdot_function_body *qdot_function_body_keep(qdot_function_body *body); /* one use more; NULL: NULL */

@@ -1,4 +1,4 @@
-/* held.c -- parameters and coordinates that have a value for one pass of a loop. */
+/* held.c -- parameters and coordinates that a loop sets for the time of one iteration. */
 #include "lang/session/held.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 
 /* --- values of `set` and `start` --------------------------------------------------------- */
 
-/* Where the symbol stands in one of the two lists; its length: nowhere. */
+/* The index of the symbol in one of the two lists; n if it is not there. */
 static size_t
 find(const qdot_expr *symbols, size_t n, qdot_expr symbol)
 {

@@ -12,22 +12,23 @@
 #include "lang/session/session.h"
 #include "mech/scene/saved.h"
 
-/* Hold the symbol at the value, innermost last; its value of `set` or `start` is kept for the end. */
+/* Set a symbol to the value for one iteration; the value of `set` or `start` is saved. */
 QDOT_MUST_CHECK qdot_status qdot_held_begin(qdot_session *session, qdot_expr symbol,
                                             qdot_expr value);
-/* Let go of the innermost. */
+/* Undo the most recent qdot_held_begin that is still in force. */
 void qdot_held_end(qdot_session *session);
 
-/* e with what is held put in. Nil: the pool keeps the failure. */
+/* e with all values that loops set inserted. Nil: the pool keeps the failure. */
 qdot_expr qdot_held_apply(qdot_session *session, qdot_expr e);
-/* The same of held parameters alone. */
+/* e with those values of parameters only. */
 qdot_expr qdot_held_parameters(qdot_session *session, qdot_expr e);
-/* Whether a coordinate is held. */
+/* Whether a loop sets a coordinate at present. */
 bool qdot_held_coordinate(const qdot_session *session);
 /* QDOT_EDOMAIN where a value is outside the declared domain. */
 QDOT_MUST_CHECK qdot_status qdot_held_check(qdot_session *session);
 
-/* Put held parameters into the scene, {0} before; end() in any case, which puts the scene back. */
+/* Insert the loop values of parameters into the scene; kept is {0} before. Call _end in any case,
+ * which restores the scene. */
 QDOT_MUST_CHECK qdot_status qdot_held_scene_begin(qdot_session *session, qdot_scene_saved *kept);
 void qdot_held_scene_end(qdot_session *session, qdot_scene_saved *kept);
 

@@ -7,13 +7,13 @@
 
 typedef qdot_vec(const char *) qdot_words;
 
-/* Append the labels, borrowed from the scene; fewer where there is no memory. */
+/* Append the labels of particles and bodies, borrowed from the scene; fewer if memory runs out. */
 void qdot_labels_add(const qdot_scene *scene, qdot_words *list);
 
-/* Those of what is applied, and events. */
+/* Append the labels of forces, springs and other things that act, and of events. */
 void qdot_labels_add_applied(const qdot_scene *scene, qdot_words *list);
 
-/* "there is no particle or body `bod`", with the nearest label. QDOT_ENAME. */
+/* Fail with QDOT_ENAME: "there is no particle or body `bod`", with the nearest label as a hint. */
 qdot_status qdot_labels_unknown(const qdot_scene *scene, const char *what,
                                 const char *label);
 

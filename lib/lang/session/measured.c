@@ -1,4 +1,4 @@
-/* measured.c -- numbers that runs gave, as symbols. */
+/* measured.c -- results of runs, represented by symbols in expressions. */
 #include "lang/session/measured.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ qdot_measured_rational(qdot_pool *pool, double x)
     return qdot_expr_of_double(pool, x);
 }
 
-/* The number as formulas show it: every digit that it was asked with, or as few as read back as the same double. */
+/* Write the number as formulas show it: with all requested digits, or as few as identify the double. */
 static void
 write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
 {
@@ -43,7 +43,7 @@ write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
     qdot_text_double(out, m->value + 0.0, qdot_double_digits(m->value, 15));
 }
 
-/* The symbol's name: the number, and behind # one that no other symbol has, which is not printed. */
+/* Add a symbol for a number; its name is the number, then # and a counter that is not printed. */
 qdot_expr
 qdot_measured_add(qdot_session *session, qdot_measured m)
 {

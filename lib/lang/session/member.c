@@ -112,7 +112,7 @@ qdot_member_refuse(const qdot_session *session, qdot_expr e)
 
 /* --- one run ------------------------------------------------------------------------- */
 
-/* Whether e is along one run only; *run its name, NULL where no run is named. */
+/* Whether e refers to one run only; *run its name, NULL if no run is named. */
 static bool
 along_one(const qdot_session *session, qdot_expr e, const char **run)
 {

@@ -5,30 +5,30 @@
 #include "expr/symbol.h"
 #include "lang/session/session.h"
 
-/* What a symbol that stands alone reads along the latest run. */
+/* Classes of symbols that, without the name of a run, are read along the latest run. */
 #define QDOT_MEMBER_MOTION                                                               \
     (QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |        \
      QDOT_HAS_MULTIPLIER)
 
-/* e along the run, as a symbol (of a vector or list: of its members) "a.x". */
+/* e along a run as a symbol "a.x"; for a vector or list, one symbol for each member. */
 qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
-/* What such a symbol stands for; NULL: it is none. */
+/* The run and expression for which such a symbol stands; NULL if it is an ordinary symbol. */
 const qdot_member *qdot_member_find(const qdot_session *session, qdot_expr symbol);
-/* Whether such symbols occur. */
+/* Whether e contains such symbols. */
 bool qdot_member_any(const qdot_session *session, qdot_expr e);
-/* QDOT_EINVAL where such symbols occur: nothing is read along a run here. */
+/* Fail with QDOT_EINVAL if e contains such symbols, where values along runs are not allowed. */
 QDOT_MUST_CHECK qdot_status qdot_member_refuse(const qdot_session *session, qdot_expr e);
 /* Where all such symbols of *e are along one run: *run is that run, *e has what they stand for in
  * their place. Else *mixed. */
 QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,
                                                 qdot_expr *e, bool *mixed);
-/* Times along a run, what is wanted there, and where it goes. */
+/* Times along a run, and the arrays for the values there. */
 typedef struct {
     size_t n;
     const double *times, *lows; /* [n]; lows: what the exact times are beyond these, NULL: 0 */
     double *values, *errors;    /* [n]; errors NULL: not wanted */
 } qdot_samples;
-/* Values of an expression of several runs; what names none is along `run` (NULL: the latest). */
+/* Values of an expression of several runs; parts that name no run belong to `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
                                                qdot_expr e, const qdot_samples *at);
 /* An expression of several runs at a time: *value has numbers of these runs in the place of its
@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char
 QDOT_MUST_CHECK qdot_status qdot_member_exactly(qdot_session *session, const char *run,
                                                 qdot_expr e, qdot_expr time,
                                                 qdot_expr *value);
-/* Narrow [from, to] to the times that all runs in e cover. */
+/* Restrict [from, to] to the times that all runs in e cover. */
 QDOT_MUST_CHECK qdot_status qdot_member_span(qdot_session *session, qdot_expr e,
                                              double *from, double *to);
 

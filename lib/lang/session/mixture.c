@@ -38,7 +38,7 @@ qdot_mixture_free(qdot_mixture *x)
     qdot_free(x);
 }
 
-/* The index of a run, a new one if need be. */
+/* The index of a run in the list; it is appended if new. */
 static qdot_status
 mixture_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
 {
@@ -111,7 +111,7 @@ mixture_make_room(qdot_mixture *x, size_t times)
     return x->room > 0 ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The value at time j and its error, by moving each symbol by its own. */
+/* The value at time j and its error, by shifting each symbol by its own error. */
 static void
 combine(const qdot_mixture *x, const qdot_samples *at, size_t j)
 {

@@ -1,4 +1,4 @@
-/* momenta.c -- expressions in momenta p[q] and in velocities q', one turned into the other. */
+/* momenta.c -- converts expressions between momenta p[q] and velocities q'. */
 #include "lang/session/momenta.h"
 
 #include "expr/node.h"
@@ -15,7 +15,7 @@ node_holds(const qdot_session *s, qdot_expr e)
     return e == QDOT_NIL ? 0 : qdot_expr_node(s->pool, e)->holds;
 }
 
-/* Whether the scene has a Lagrangian, which relates momenta and velocities. */
+/* Whether the scene has a Lagrangian, so that momenta and velocities are related. */
 static bool
 is_related(const qdot_scene *scene)
 {
@@ -40,7 +40,7 @@ symbol_is_held(const qdot_session *s, uint32_t n, const qdot_expr *e, qdot_expr 
     return false;
 }
 
-/* Whether the momentum of q is one of places and time alone, as where L is linear in q'. */
+/* Whether the momentum of q depends on coordinates and time only, as where L is linear in q'. */
 static bool
 is_of_places(const qdot_session *s, qdot_expr q)
 {

@@ -1,4 +1,4 @@
-/* names.c -- the names of a session: a hash table, their order, what is bound. */
+/* names.c -- the names of a session: a hash table, the order of declaration, temporary bindings. */
 #include "lang/session/names.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ typedef struct entry {
     struct entry *next;
 } entry;
 
-/* How many members NAME[...] has. */
+/* A family NAME[...], with the number of its members. */
 typedef struct family {
     char *name;
     uint32_t hash;
@@ -210,7 +210,7 @@ check_reserved(const char *name)
     return QDOT_OK;
 }
 
-/* dNAME of a coordinate NAME is its differential. */
+/* Refuse dNAME if NAME is a coordinate: it is its differential. */
 static qdot_status
 check_differential(const qdot_names *names, const qdot_name *entry)
 {
@@ -286,7 +286,7 @@ check_family(const qdot_names *names, const char *name)
 
 /* --- changing ----------------------------------------------------------------------- */
 
-/* Twice the slots when both tables are full; a failure leaves them as they are. */
+/* Double the slots if both tables are full; on failure they stay unchanged. */
 static qdot_status
 names_make_room(qdot_names *names)
 {
@@ -323,7 +323,7 @@ names_make_room(qdot_names *names)
     return QDOT_OK;
 }
 
-/* One member more of the family that `name` belongs to, if any. */
+/* Count one more member of the family to which `name` belongs, if any. */
 static qdot_status
 count_member(qdot_names *names, const char *name)
 {
@@ -350,7 +350,7 @@ count_member(qdot_names *names, const char *name)
     return QDOT_OK;
 }
 
-/* Its own copies of the texts of *name. */
+/* Replace the texts of *name by copies of its own. */
 static qdot_status
 copy_texts(qdot_name *name)
 {
@@ -395,7 +395,7 @@ put_in_slot(qdot_names *names, entry *e)
     *slot = e;
 }
 
-/* Its pointer in its slot. */
+/* The pointer to an entry in its hash slot. */
 static entry **
 link_to(qdot_names *names, const entry *e)
 {
@@ -440,7 +440,7 @@ insert(qdot_names *names, const qdot_name *name)
     return QDOT_OK;
 }
 
-/* A new entry takes the place of `old`, which is released. */
+/* Replace the entry `old`, which is released, by a new one. */
 static qdot_status
 name_replace(qdot_names *names, entry *old, const qdot_name *name)
 {

@@ -37,11 +37,11 @@ typedef struct qdot_names qdot_names;
 qdot_names *qdot_names_new(void);
 void qdot_names_free(qdot_names *names);
 
-/* The innermost meaning; NULL if there is none. Valid until the next change. */
+/* The innermost meaning of a name; NULL if it has none. Valid until the next change. */
 const qdot_name *qdot_names_find(const qdot_names *names, const char *name);
-/* The declared meaning, whatever is bound; NULL if there is none. */
+/* The declared meaning of a name, regardless of temporary bindings; NULL if there is none. */
 const qdot_name *qdot_names_declared(const qdot_names *names, const char *name);
-/* Whether any NAME[...] is declared. */
+/* Whether any member NAME[...] is declared. */
 bool qdot_names_is_family(const qdot_names *names, const char *name);
 /* Declare. A VALUE or FUNCTION replaces a VALUE or FUNCTION; the very same PARAM again is
  * allowed (its value changes); any other clash, a family and a plain name of one spelling ("a name is
@@ -49,7 +49,7 @@ bool qdot_names_is_family(const qdot_names *names, const char *name);
  * QDOT_ENAME with where it was declared. `entry` is copied, with one more use of
  * its body. */
 QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
-/* Other expressions for a declared name of the same meaning. QDOT_ENOMEM. */
+/* Replace the expressions of a declared name, whose meaning stays. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_names_update(qdot_names *names, const char *name,
                                               qdot_expr value, qdot_expr formals);
 void qdot_names_remove(qdot_names *names, const char *name);
@@ -57,7 +57,7 @@ void qdot_names_remove(qdot_names *names, const char *name);
 QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
                                             qdot_expr value);
 void qdot_names_pop(qdot_names *names);
-/* Bind a formal argument; `label` is borrowed and outlives it. */
+/* Bind a formal argument; `label` is borrowed and must outlive the binding. */
 QDOT_MUST_CHECK qdot_status qdot_names_push_argument(qdot_names *names, const char *name,
                                                      qdot_expr value, const char *label);
 /* Hide what is bound so far, for the body of a function; returns what disclose() takes, which
@@ -70,10 +70,10 @@ void qdot_names_disclose(qdot_names *names, size_t outer);
 const qdot_name *qdot_names_keep(const qdot_name *declared);
 void qdot_names_release(const qdot_name *declared);
 void qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list);
-/* The names before this one, in order, are those of the last call of settle or restore. */
+/* The number of names, in order, unchanged since the last call of settle or restore; mark all as unchanged. */
 size_t qdot_names_settled(const qdot_names *names);
 void qdot_names_settle(qdot_names *names);
-/* i-th in order of declaration (indices left out); NULL past the end. */
+/* Name number i in order of declaration (without loop indices); NULL past the end. */
 const qdot_name *qdot_names_at(const qdot_names *names, size_t i);
 /* The declared or known name nearest in spelling (edit distance), NULL if none is near. `extra` [n]:
  * further candidates. */

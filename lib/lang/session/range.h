@@ -5,7 +5,7 @@
 #include "lang/session/session.h"
 
 bool qdot_range_is_word(const char *word);
-/* Whether it is one of these, or `value`: words that read a run on its way. */
+/* Whether the word is one of these or `value`, which read a run at intermediate times. */
 bool qdot_range_is_of_way(const char *word);
 /* Of each expression [n] along the run (NULL: the latest) between range [2], NULL: all of
  * it. A list where there are several. */

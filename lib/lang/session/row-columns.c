@@ -1,4 +1,4 @@
-/* row-columns.c -- the rows of many runs as a table. */
+/* row-columns.c -- presents the rows of many runs as a table. */
 #include "lang/session/row-columns.h"
 
 #include "base/memory.h"
@@ -34,7 +34,7 @@ row_columns_allocate(const qdot_row_table *t, bool some, qdot_row_columns *x)
     return x->numbers && x->order ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The rows that are done, and the column of their numbers. */
+/* Select the finished rows, and add a column with their numbers. */
 static void
 row_columns_add_numbers(const qdot_row_table *t, const bool *done, qdot_row_columns *x)
 {
@@ -71,7 +71,7 @@ row_columns_add(const qdot_row_table *t, qdot_row_columns *x)
     return QDOT_OK;
 }
 
-/* The column that says how each row ended, and why; of a table whose rows have notes, these. */
+/* Add the column that says how each row ended and why; for a table with notes, the column of notes. */
 static void
 row_columns_add_reasons(const qdot_row_table *t, qdot_row_columns *x)
 {

@@ -19,7 +19,7 @@ typedef struct {
     size_t *order;   /* the rows that are done */
 } qdot_row_columns;
 
-/* Columns of numbers in files, without that of the rows' numbers. */
+/* The number of number columns in files, without the row number. */
 static inline size_t
 qdot_row_columns_count(const qdot_row_table *t)
 {

@@ -1,4 +1,4 @@
-/* row-table.c -- rows of numbers of many runs. */
+/* row-table.c -- a table with a row of numbers for each of many runs. */
 #include "lang/session/row-table.h"
 
 #include <math.h>

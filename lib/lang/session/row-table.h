@@ -34,16 +34,16 @@ typedef struct qdot_row_table {
     unsigned uses;
 } qdot_row_table;
 
-/* A table without rows; labels are copied. NULL: no memory. */
+/* Make a table without rows; labels are copied. NULL: no memory. */
 qdot_row_table *qdot_row_table_new(const char *name, size_t n_swept, size_t n,
                                    const char *const *labels);
-/* One more row, of NaN. QDOT_ENOMEM. */
+/* Append one row of NaN. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add(qdot_row_table *table);
-/* So many more, with room for no others. QDOT_ENOMEM. */
+/* Append that many rows, with no spare capacity. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add_all(qdot_row_table *table, size_t rows);
-/* Bytes of a row. */
+/* The memory of one row in bytes. */
 size_t qdot_row_table_row_bytes(const qdot_row_table *table);
-/* One use less; the last frees it. NULL is nothing. */
+/* Drop one reference; the last one frees the table. NULL is allowed. */
 void qdot_row_table_release(qdot_row_table *table);
 
 #endif

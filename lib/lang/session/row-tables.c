@@ -1,4 +1,4 @@
-/* row-tables.c -- tables of rows that a session keeps by name. */
+/* row-tables.c -- the tables of rows that a session keeps by name. */
 #include "lang/session/row-tables.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 
-/* The index of that name; the number of tables: there is none. */
+/* The index of the table of that name; the number of tables if there is none. */
 static size_t
 index_of(const qdot_session *session, const char *name)
 {
@@ -75,7 +75,7 @@ note_parameter(qdot_row_table *t, const char *name, double value)
     return QDOT_OK;
 }
 
-/* The symbols stand for themselves, so that values made of them are seen to be. */
+/* Set symbols to themselves, so that values depending on them are recognised. */
 static void
 let_open(qdot_session *session, size_t n, const qdot_expr *open)
 {

@@ -1,4 +1,4 @@
-/* runs.c -- the runs of a session by name, and values at a time of one of them. */
+/* runs.c -- the runs of a session by name; values at a time along one of them. */
 #include "lang/session/runs.h"
 
 #include <stdio.h>
@@ -114,7 +114,7 @@ made_with(const qdot_session *session, const qdot_conditions *c, qdot_expr symbo
     return QDOT_NIL;
 }
 
-/* "l = 1" */
+/* Write a value as "l = 1". */
 static qdot_status
 put_value(const qdot_session *session, qdot_expr symbol, qdot_expr value, qdot_text *text)
 {
@@ -202,7 +202,7 @@ columns_measure_at(qdot_session *session, qdot_run *run, const qdot_runs_columns
     return status;
 }
 
-/* The same of a run with `digits`, whose time is exact too. */
+/* The same for a run with `digits`, at an exact time. */
 static qdot_status
 measure_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
                 qdot_expr time, qdot_measured *m)

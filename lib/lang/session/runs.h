@@ -1,10 +1,10 @@
-/* runs.h -- the runs of a session by name, and values at a time of one of them. */
+/* runs.h -- the runs of a session by name; values at a time along one of them. */
 #ifndef QDOT_LANG_RUNS_H
 #define QDOT_LANG_RUNS_H
 
 #include "lang/session/session.h"
 
-/* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
+/* The run of that name; the latest one for NULL. QDOT_ENAME if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_runs_find(qdot_session *session, const char *name,
                                            qdot_named_run **run);
 /* The same, for numbers along it: QDOT_EINVAL where a loop holds a parameter or a start at another value
@@ -18,10 +18,10 @@ bool qdot_runs_is_family(const qdot_session *session, const char *name);
 QDOT_MUST_CHECK qdot_status qdot_runs_keep(qdot_session *session, const char *name,
                                            const char *text,
                                            const qdot_run_request *request, qdot_run *run);
-/* run1, run2, ...: the first that is free, from the number of runs on. */
+/* The first unused name among run1, run2, ..., counting from the number of runs. */
 void qdot_runs_next_name(const qdot_session *session, char *name, size_t size);
 
-/* Components of vectors and lists side by side: append to columns; *n of them. */
+/* Append the components of vectors and lists to columns, *n of them. */
 typedef qdot_vec(qdot_expr) qdot_runs_columns;
 QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e,
                                               qdot_runs_columns *columns);
@@ -31,7 +31,7 @@ QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e
 QDOT_MUST_CHECK qdot_status qdot_runs_measure(qdot_session *session, const char *run,
                                               const qdot_runs_columns *columns,
                                               qdot_expr time, qdot_measured *m);
-/* One expression, of one run alone, at a time, in doubles or with the digits of the run. */
+/* The value of one expression of a single run at a time, in doubles or with the digits of the run. */
 QDOT_MUST_CHECK qdot_status qdot_runs_measure_one(qdot_session *session, const char *run,
                                                   qdot_expr e, qdot_expr time,
                                                   qdot_measured *m);

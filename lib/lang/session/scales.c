@@ -1,4 +1,4 @@
-/* scales.c -- the list of scales, in the order in which they were first said. */
+/* scales.c -- the session's scales of coordinates, in the order in which they were given. */
 #include "lang/session/scales.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ qdot_scales_set(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return QDOT_ENOMEM;
 }
 
-/* The number; QDOT_EINVAL if it is not positive. */
+/* The value of a scale; QDOT_EINVAL if it is not positive. */
 static qdot_status
 number_of(qdot_session *session, qdot_expr symbol, qdot_expr value, double *number)
 {
@@ -48,7 +48,7 @@ qdot_scales_check(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return number_of(session, symbol, value, &number);
 }
 
-/* What was said of one symbol; 0: nothing. */
+/* The scale given for a symbol; 0 if there is none. */
 static qdot_status
 said_of(qdot_session *session, qdot_expr symbol, double *scale)
 {

@@ -7,7 +7,7 @@
 
 #include "lang/session/session.h"
 
-/* From now on q, q' or t has this scale. Errors: QDOT_ENOMEM. */
+/* Set the scale of q, q' or t. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_scales_set(qdot_session *session, qdot_expr symbol,
                                             qdot_expr value);
 

@@ -1,4 +1,4 @@
-/* session.c -- a conversation begun and ended, and what it is given. */
+/* session.c -- creates and frees a session; stores the values it is given. */
 #include "lang/session/session.h"
 
 #include <errno.h>

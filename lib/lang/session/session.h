@@ -17,7 +17,7 @@
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
-/* What a number is of a run: where its slopes are to be found (lang/slopes/slopes.h). */
+/* How a number was obtained from a run, from which its sensitivities are found (lang/slopes/slopes.h). */
 typedef enum {
     QDOT_ORIGIN_OTHER, /* of several runs, or of none */
     QDOT_ORIGIN_VALUE, /* e at a time */
@@ -34,7 +34,7 @@ typedef struct {
     const char *run, *event; /* borrowed, for the statement; run NULL: the latest */
 } qdot_origin;
 
-/* A number from a run; a FORMAL symbol represents it in expressions. */
+/* A result of a run; in expressions a FORMAL symbol stands for it. */
 typedef struct {
     qdot_expr symbol;
     double value, error; /* error NaN: unknown */
@@ -50,7 +50,7 @@ typedef struct {
     char *run;
 } qdot_member;
 
-/* Shared by the session and the states that `undo` keeps. */
+/* A named run; shared by the session and the states that `undo` keeps. */
 typedef struct {
     char *name; /* "a", "run1" */
     char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
@@ -60,7 +60,7 @@ typedef struct {
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
 
-/* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
+/* Subexpressions of the two sides of a check: each must be defined where the sides are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
     qdot_vec(qdot_expr) root; /* of powers among them, base and exponent in turn */
@@ -74,13 +74,14 @@ typedef struct {
     qdot_expr before; /* its value of `set` or `start`; nil: none */
 } qdot_held;
 
-/* A value of `start RUN`, and how far both companions of that run ended from it (qdot_run_end_apart). */
+/* A start value taken by `start RUN`, and its differences from the ends of both companions
+ * (qdot_run_end_apart). */
 typedef struct {
     qdot_expr symbol, value;
     double apart[2];
 } qdot_start_error;
 
-/* What is written to a terminal that shows colours. */
+/* Which output goes to a terminal that shows colours. */
 typedef enum { QDOT_COLOURS_ANSWERS = 1, QDOT_COLOURS_ERRORS = 2 } qdot_colours;
 
 typedef struct qdot_session {
@@ -145,24 +146,24 @@ QDOT_MUST_CHECK qdot_status qdot_session_remember(qdot_session *session, qdot_ex
  * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
 void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
                       qdot_status *status);
-/* From now on a run starts with this value of q or q'. */
+/* Set the value of q or q' with which runs start. */
 QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
                                                qdot_expr value);
-/* The one or the other, by what the symbol is. */
+/* Set a parameter's value or a start value, depending on the symbol. */
 QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
                                              qdot_expr value);
-/* The values of `set` and `start`, kept while others are tried. */
+/* The values of `set` and `start`, saved while others are tried. */
 typedef struct {
     qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values;
 } qdot_kept_values;
-/* Copy them; QDOT_ENOMEM: nothing is kept. restore: put them back and let go of the copy. */
+/* Save the values (QDOT_ENOMEM: nothing is saved); _restore puts them back and frees the copy. */
 QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
                                                      qdot_kept_values *kept);
 void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);
 /* Append the path of a file that is read, `name` as the present script says it: "dir/other.lag" for
  * "other.lag" in "dir/this.lag". */
 void qdot_session_path(const qdot_session *session, const char *name, qdot_text *path);
-/* Exchange all that `reset` forgets; what is no part of a scene stays: style, files ... */
+/* Exchange everything that `reset` clears; what does not belong to a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
 #endif

@@ -1,4 +1,4 @@
-/* transfer.c -- a pass over the nodes, each built again in the other pool. */
+/* transfer.c -- copies expressions to another pool, node by node. */
 #include "lang/session/transfer.h"
 
 #include "base/memory.h"
@@ -68,7 +68,7 @@ carry_ufun(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *a
     return made;
 }
 
-/* One node whose children are there already. */
+/* Copy one node whose children have been copied. */
 static qdot_expr
 carry_node(const qdot_pool *from, qdot_pool *to, qdot_expr e, const qdot_expr *args)
 {

@@ -1,4 +1,4 @@
-/* undo-state.c -- the state of a session as arrays of items that are copied as they are. */
+/* undo-state.c -- the state of a session as arrays of items that can be copied bytewise. */
 #include "lang/session/undo-state.h"
 
 #include <string.h>

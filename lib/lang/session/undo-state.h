@@ -23,7 +23,7 @@ enum { /* behind those of the scene */
     QDOT_UNDO_PARTS
 };
 
-/* The state that is not in arrays. */
+/* The parts of the state that are not arrays. */
 typedef struct {
     qdot_expr lagrangian, series, series_in;
     qdot_style style;
@@ -42,22 +42,23 @@ typedef struct {
     qdot_vec(const qdot_name *) names; /* no copy: those of the session, in order */
 } qdot_undo_state;
 
-/* Where part k of the session is; of the names: the list in *state. Its items. */
+/* The address of part k of the session (of names: the list in *state); the items of a part; the
+ * parts that are no arrays. */
 qdot_scene_part qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k);
 unsigned char *qdot_undo_items(const qdot_scene_part *part);
 qdot_undo_single qdot_undo_single_of(const qdot_session *s);
 
-/* Count one use more, or less, of each item of a part. */
+/* Raise, or lower, the reference count of each item of a part by one. */
 void qdot_undo_count(int part, const unsigned char *at, size_t n, bool more);
-/* *to becomes a copy, the caller's, with uses of its own. QDOT_ENOMEM. */
+/* *to becomes a copy, owned by the caller, with references of its own. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_copy(int part, const unsigned char *from, size_t n,
                                            size_t size, unsigned char **to);
-/* Room for n items. QDOT_ENOMEM. */
+/* Make room for n items in a part. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_make_room(qdot_scene_part *part, size_t n);
 /* Replace the items [at, at + gone) by `come` items of `in`; there must be room. */
 void qdot_undo_splice(const qdot_scene_part *part, size_t at, size_t gone,
                       const unsigned char *in, size_t come);
-/* The same in a copy of the state, which has uses of its own. */
+/* The same in a copy of the state, which has references of its own. */
 void qdot_undo_splice_kept(qdot_undo_state *kept, int k, size_t size, size_t at,
                            size_t gone, const unsigned char *in, size_t come);
 void qdot_undo_clear(qdot_undo_state *state);

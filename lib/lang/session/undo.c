@@ -1,4 +1,4 @@
-/* undo.c -- what statements changed, kept to be taken back. */
+/* undo.c -- records what statements change, so that it can be undone. */
 #include "lang/session/undo.h"
 
 #include <stdint.h>
@@ -10,14 +10,14 @@
 enum { TEXT_LIMIT = 160 };
 static const size_t most_bytes = (size_t)256 << 20; /* of all records */
 
-/* The items [at, at + n[0]) of a part became [at, at + n[1]). */
+/* A change: the items [at, at + n[0]) of a part became [at, at + n[1]). */
 typedef struct {
     int part;
     size_t at, n[2];
     unsigned char *items[2];
 } change;
 
-/* What one statement changed: [0] before, [1] after. */
+/* What one statement changed: [0] before it, [1] after it. */
 typedef struct {
     char *text;
     bool joined; /* it goes with the record before it */
@@ -43,7 +43,7 @@ struct qdot_undo {
     uint64_t version; /* of the scene, as the statement before left it */
 };
 
-/* Whether a part changes with every answer. */
+/* Whether a part changes with every answer, as the history of answers does. */
 static bool
 is_answers(int k)
 {
@@ -126,7 +126,7 @@ list_names(qdot_session *s)
     return QDOT_OK;
 }
 
-/* Compare one part with its copy: the difference goes into r, the copy is brought up to date. */
+/* Compare one part with its copy: store the difference in r and update the copy. */
 static qdot_status
 compare_part(qdot_session *s, int k, record *r)
 {
@@ -214,7 +214,7 @@ qdot_undo_text_end(qdot_session *s, size_t outer)
         s->undo->floor = outer < s->undo->done.n ? outer : s->undo->done.n;
 }
 
-/* Forget all records; the error of the statement under way stays the last one. */
+/* Forget all records; the error of the present statement remains the last one. */
 static void
 let_go(qdot_session *s, const qdot_error *error)
 {
@@ -249,7 +249,7 @@ qdot_undo_begin(qdot_session *s)
     return s->undo->done.n;
 }
 
-/* The source text in one line: `;` for what ends the lines of a block. */
+/* The source text in one line, with `;` between the lines of a block. */
 static char *
 one_line(const char *text, size_t length)
 {
@@ -279,7 +279,7 @@ one_line(const char *text, size_t length)
     return copy;
 }
 
-/* Records since `begun` become one step to undo, described by `text`. */
+/* Join the records since `begun` to one undo step, described by `text`. */
 static qdot_status
 records_join(qdot_undo *u, size_t begun, const char *text, size_t length)
 {
@@ -374,7 +374,7 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
     r.version[0] = u->version;
     r.version[1] = s->scene->version;
     status = session_compare(s, &r);
-    /* declaring the same thing again is a change of which no array shows anything */
+    /* declaring the same thing again changes the version of the scene but no array */
     if (status == QDOT_OK &&
         (!is_nothing(&r) || (!u->moved && r.version[0] != r.version[1])))
         status = record_push(s, &r);
@@ -420,7 +420,7 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
 
 /* --- back and forth ------------------------------------------------------------------- */
 
-/* Hide the symbols of names that go, show those of names that come. */
+/* Hide the symbols of names that are removed, and show those of names that return. */
 static void
 move_symbols(qdot_session *s, const change *c, int to)
 {
@@ -470,7 +470,7 @@ reset_cross(qdot_session *s, record *r)
     s->undo->now.single = qdot_undo_single_of(s);
 }
 
-/* Room in the session and in the copy for what the record puts there. */
+/* Make room in the session and in the copy for what the record inserts. */
 static qdot_status
 record_prepare(qdot_session *s, const record *r, int to)
 {
@@ -486,7 +486,7 @@ record_prepare(qdot_session *s, const record *r, int to)
     return QDOT_OK;
 }
 
-/* Put the session into the state before (to = 0) or after (to = 1) the statement. */
+/* Bring the session to the state before (to = 0) or after (to = 1) the statement. */
 static qdot_status
 apply(qdot_session *s, record *r, int to)
 {
@@ -525,7 +525,7 @@ apply(qdot_session *s, record *r, int to)
     return QDOT_OK;
 }
 
-/* Apply the latest record of `from` and move it to `into`. */
+/* Apply the latest record of `from` and move it to the list `into`. */
 static qdot_status
 move(qdot_session *s, records *from, records *into, int to)
 {

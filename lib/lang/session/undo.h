@@ -32,14 +32,14 @@ void qdot_undo_end(qdot_session *session, size_t begun, const char *text, size_t
 
 /* How many statements can be taken back, or done again. */
 size_t qdot_undo_statements(const qdot_session *session, bool again);
-/* Whether that ends at the beginning of an included script under way. */
+/* Whether undo has reached the beginning of the script that is being included. */
 bool qdot_undo_is_at_floor(const qdot_session *session);
 /* Take back the latest statement, or do it again: there must be one. *text: what it says, borrowed.
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_step(qdot_session *session, bool again,
                                            const char **text);
 
-/* `other` is the session as it was until this `reset`; it is taken over. */
+/* Record a `reset`; `other` is the session before it, and is taken over. */
 void qdot_undo_reset(qdot_session *session, qdot_session *other);
 
 #endif

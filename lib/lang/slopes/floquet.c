@@ -23,7 +23,7 @@ QDOT_STATEMENT(floquet) = {
     .handler = floquet_print,
 };
 
-/* re + im*i with one error; JSON: [re, im]. */
+/* Answer re + im*i with a common error; in JSON as [re, im]. */
 static qdot_status
 answer_complex(qdot_session *session, const char *name, double re, double im,
                double error)

@@ -5,7 +5,7 @@
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 
-/* With the unknown parameters in force as their own values. */
+/* Fill values and start of the request; unknown parameters keep their symbols as values. */
 static qdot_status
 request_fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
              qdot_expr *values, qdot_expr *start, bool *named)

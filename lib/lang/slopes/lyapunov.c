@@ -1,4 +1,4 @@
-/* lyapunov.c -- the statement `lyapunov [spectrum] T0..T1`: exponents, and how they settled as a figure. */
+/* lyapunov.c -- the statement `lyapunov [spectrum] T0..T1`: exponents, with a figure of their convergence. */
 #include <math.h>
 #include <stdio.h>
 
@@ -23,7 +23,7 @@ QDOT_STATEMENT(lyapunov) = {
     .handler = lyapunov_find,
 };
 
-/* As of a run. */
+/* The default tolerance, as for a run. */
 static const double tol_default = 1e-12;
 
 typedef struct {
@@ -34,7 +34,7 @@ typedef struct {
 
 /* --- what is told ------------------------------------------------------------------------ */
 
-/* "lyapunov" of the largest alone, else "lyapunov[k]". */
+/* The name of exponent k: "lyapunov" if only the largest is computed, otherwise "lyapunov[k]". */
 static void
 exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
 {

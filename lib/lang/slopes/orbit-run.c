@@ -1,4 +1,4 @@
-/* orbit-run.c -- which run is a periodic orbit. */
+/* orbit-run.c -- finds a run that is a periodic orbit. */
 #include "lang/slopes/orbit-run.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ is_within_error(const qdot_named_run *named, double off)
     return off <= fmin(inexact, qdot_run_get_report(named->run)->scaled_error);
 }
 
-/* How an orbit is found, by a coordinate of this scene. */
+/* A hint how to find a periodic orbit, with a coordinate of this scene. */
 static qdot_status
 hint_to_find_one(const qdot_session *session)
 {

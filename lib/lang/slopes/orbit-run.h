@@ -7,9 +7,9 @@
 
 #include "lang/session/session.h"
 
-/* The latest run of the scene that is one. QDOT_EINVAL: none is. */
+/* The latest run of the scene that is a periodic orbit. QDOT_EINVAL: there is none. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit);
-/* The one of that name. */
+/* The run of that name, which must be a periodic orbit. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_run_named(qdot_session *session, const char *name,
                                                  qdot_named_run **orbit);
 

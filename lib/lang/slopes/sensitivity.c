@@ -45,7 +45,7 @@ slope_answer(qdot_session *session, const char *of, const char *by, qdot_expr sl
     return status;
 }
 
-/* All slopes are found before the first is told. */
+/* Answer all sensitivities of e; all are computed before the first is printed. */
 static qdot_status
 tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
 {
@@ -60,7 +60,7 @@ tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
     return status;
 }
 
-/* The run that the numbers in e are of; NULL: the latest. */
+/* The run from which numbers in e come, of those measured from index `first` on; NULL: the latest. */
 static const char *
 run_of(const qdot_session *session, size_t first)
 {
@@ -70,7 +70,7 @@ run_of(const qdot_session *session, size_t first)
     return NULL;
 }
 
-/* The slopes, then the answers. */
+/* Compute the sensitivities, then print the answers. */
 static qdot_status
 sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
 {
@@ -103,7 +103,7 @@ sensitivity_tell(qdot_record *r)
         const qdot_cursor look = {.session = session, .source = r->cursor.source, .at = r->start};
         const qdot_expr end = qdot_own_run_needed(&look, QDOT_ZERO);
 
-        /* without a time, whoever needs a run says that there is none */
+        /* without a time there is no run to make: whatever needs one reports that */
         if (end != QDOT_NIL)
             status = qdot_own_run_make(session, NULL, QDOT_ZERO, end, NULL, NULL);
         if (status != QDOT_OK)

@@ -1,4 +1,4 @@
-/* slope-numbers.c -- what numbers of a run and expressions of them have as slopes, by the chain rule. */
+/* slope-numbers.c -- sensitivities of results of runs, and of expressions of them, by the chain rule. */
 #include <float.h>
 #include <math.h>
 
@@ -34,7 +34,7 @@ at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
     return qdot_pool_check(s->session->pool);
 }
 
-/* D of what is e in the scene given; numbers of runs in e are constants of it. */
+/* The derivative in direction k of an expression e of the scene; results of runs in e are constants. */
 static qdot_expr
 slope_along(const qdot_slopes *s, qdot_expr e, size_t k)
 {
@@ -75,7 +75,8 @@ slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
     return qdot_pool_check(pool);
 }
 
-/* Where the slope of an event's time is read: at it, or just before it where it changes the state. */
+/* The time at which the sensitivity of an event's time is evaluated: just before it if the event
+ * changes the state. */
 static double
 read_at(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
 {
@@ -123,7 +124,7 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
     return add_way_to_event(s, qdot_ddt(pool, Dg), qdot_ddt(pool, dg), time, way, up, down, slope);
 }
 
-/* Of the k-th end of a range, as it was said, or as the limit of the run was. */
+/* The derivative of the k-th end of a range, as typed, or as the limit of the run was given. */
 static qdot_status
 slope_of_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size_t k, qdot_expr *slope)
 {
@@ -137,7 +138,8 @@ slope_of_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size
     return said == QDOT_NIL ? QDOT_OK : qdot_slopes_of(s, said, first, k, slope);
 }
 
-/* max, min: De where e is largest or least; there, at an end of the range, that moves along with rate de/dt. */
+/* The derivative of max or min: De at the extremum; if that is at an end of the range, also de/dt
+ * times the shift of the end. */
 static qdot_status
 slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k,
                   qdot_expr *slope)

@@ -1,4 +1,4 @@
-/* slopes.c -- directions of names, and the run with its variational equations. */
+/* slopes.c -- directions of derivatives, and the run with its variational equations. */
 #include "lang/slopes/slopes.h"
 
 #include <math.h>
@@ -92,7 +92,8 @@ free_value(qdot_session *session, const qdot_conditions *of, qdot_expr said, qdo
                : had;
 }
 
-/* The same of all values [of->symbols.n], p, the own-th of them, set to itself in the session. */
+/* All parameter values [of->symbols.n] as functions of p, number `own`, which is set to itself in
+ * the session. */
 static qdot_status
 free_values(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_t own, qdot_expr *values)
 {
@@ -127,7 +128,7 @@ qdot_slopes_free_values(qdot_session *session, const qdot_conditions *of, qdot_e
     return status;
 }
 
-/* Parameters with the k-th free, and how the start follows it. */
+/* Let parameter k vary, and find how the start depends on it. */
 static qdot_status
 free_parameter(qdot_slopes *s, size_t k)
 {
@@ -198,7 +199,7 @@ find_directions(qdot_slopes *s)
     return qdot_pool_check(pool);
 }
 
-/* Scales of the states by the run, where these are far apart, and of the directions. */
+/* Find scales of the states from the run if their sizes differ much, and of the directions. */
 static qdot_status
 find_scales(qdot_slopes *s)
 {
@@ -229,7 +230,7 @@ find_scales(qdot_slopes *s)
     return status;
 }
 
-/* The start as constraints left it. */
+/* The start after its projection onto the constraints. */
 static qdot_status
 find_start(qdot_slopes *s, const char *name)
 {
@@ -284,7 +285,7 @@ find_run(qdot_slopes *s, const char *name)
     return qdot_pool_check(s->session->pool);
 }
 
-/* The time up to which a number of the run needs it; nil: all of it. */
+/* The time up to which a number of the run needs it; nil: the whole run. */
 static qdot_expr
 needed_time(qdot_slopes *s, const qdot_measured *m)
 {
@@ -319,7 +320,7 @@ find_values(const qdot_slopes *s, size_t first, indices *values)
     return QDOT_OK;
 }
 
-/* Whether the number stands in e, or in what those values are of. */
+/* Whether the number occurs in e, or in the expressions of those values. */
 static bool
 is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symbol)
 {
@@ -337,7 +338,8 @@ is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symb
     return used;
 }
 
-/* How far from its start the run is needed for numbers measured from the first-th on; infinite: all of it. */
+/* How far from its start the run is needed for the numbers measured from index `first` on;
+ * infinite: all of it. */
 static qdot_status
 find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, double *furthest)
 {
@@ -363,7 +365,8 @@ find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, 
     return QDOT_OK;
 }
 
-/* End the run with slopes where the last number measured from the first-th on needs it. */
+/* Shorten the run with variational equations to the last time that the numbers measured from index
+ * `first` on need. */
 static qdot_status
 shorten(qdot_slopes *s, qdot_expr e, size_t first)
 {
@@ -384,7 +387,7 @@ shorten(qdot_slopes *s, qdot_expr e, size_t first)
     return qdot_pool_check(s->session->pool);
 }
 
-/* Whether two values of one coordinate, with their errors, may be of one motion. */
+/* Whether two values of a coordinate agree within their errors, so that both may come from the same motion. */
 static bool
 agree(const double *value, const double *error)
 {

@@ -18,7 +18,7 @@
 #include "lang/syntax/record.h"
 #include "sim/study/variation.h"
 
-/* What is differentiated by. */
+/* A variable by which derivatives are taken. */
 typedef struct {
     const qdot_token *place;
     char *label;
@@ -40,18 +40,19 @@ typedef struct {
     qdot_variation variation;
 } qdot_slopes;
 
-/* The name under which that run is kept meanwhile. */
+/* The temporary name under which the variational run is kept. */
 extern const char qdot_slopes_run[];
 
-/* The name that the part is, a parameter, q or q'; its label is the caller's to free. */
+/* Find the parameter, q or q' that the part names; its label is freed by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_slope_name_find(qdot_record *r, const qdot_filled *part, qdot_slope_name *x);
-/* Take x and its label into the list if it was read; else it is freed. QDOT_EINVAL: it stands there twice. */
+/* Append x, with its label, to the list if `read` is QDOT_OK, else free it. QDOT_EINVAL: it is
+ * there already. */
 QDOT_MUST_CHECK qdot_status qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names,
                                                   const qdot_slope_name *x,
                                                   qdot_status read);
 /* Whether the k-th name is a parameter, not a coordinate or a velocity. */
 bool qdot_slopes_is_parameter(const qdot_slopes *s, size_t k);
-/* The holes NAME behind that word of the usage, into slopes from {0}. Free them in any case. */
+/* Take the holes NAME after that word of the usage into slopes, which is {0}. Free them in any case. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s);
 /* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,
  * measured from the first-th on, need it. Errors: those of qdot_variation_make and of the run; QDOT_EFAILED

@@ -126,7 +126,7 @@ qdot_trial_vary(qdot_trial *t, size_t m, const qdot_expr *e)
         m == 0 ? QDOT_ZERO : qdot_list(t->session->pool, (uint32_t)m, e), t->first);
 }
 
-/* e with the numbers of other runs as constants. */
+/* Replace the results of other runs in e by constants. */
 static qdot_status
 hold_others(const qdot_trial *t, qdot_expr *e)
 {

@@ -26,7 +26,7 @@ typedef struct {
     const qdot_run_options *options; /* NULL: those of a bare `run` */
     qdot_expr from, to;              /* limits; they may hold unknowns */
 
-    /* while it is open */
+    /* set while the trial is open: */
     bool open;
     qdot_run *run; /* borrowed: the session's */
     qdot_expr end; /* its last time, exact */
@@ -36,18 +36,18 @@ typedef struct {
         slopes; /* of which slopes.variation.scene, and the run of name qdot_slopes_run */
 } qdot_trial;
 
-/* Put values [n], exact, in force as `set` and `start` do; QDOT_EDOMAIN: one lies outside its domain. */
+/* Set exact values [n] as `set` and `start` do; QDOT_EDOMAIN: one lies outside its domain. */
 QDOT_MUST_CHECK qdot_status qdot_trial_put(qdot_session *session, size_t n,
                                            const qdot_slope_name *unknowns,
                                            const qdot_expr *values);
 
-/* Make the run at values [n]. Close it in any case. QDOT_EFAILED: the run failed, with its reason. */
+/* Make the run for values [n]. Close it in any case. QDOT_EFAILED: the run failed; the error has its reason. */
 QDOT_MUST_CHECK qdot_status qdot_trial_open(qdot_trial *t, const qdot_expr *values);
 void qdot_trial_close(qdot_trial *t);
 
-/* What moves in *e is taken at the end of the run, as a number of it. QDOT_EINVAL: the run ended at an event. */
+/* Replace what moves in *e by its value at the end of the run. QDOT_EINVAL: the run ended at an event. */
 QDOT_MUST_CHECK qdot_status qdot_trial_at_end(qdot_session *session, qdot_expr *e);
-/* e, of what moves, at a time, as a number of the run. */
+/* The value of a moving expression e at a time, as a result of the run. */
 QDOT_MUST_CHECK qdot_status qdot_trial_at_time(qdot_session *session, qdot_expr e,
                                                qdot_expr time, qdot_expr *number);
 
@@ -56,7 +56,7 @@ QDOT_MUST_CHECK qdot_status qdot_trial_numbers(qdot_trial *t, size_t m,
                                                const qdot_expr *e, double *value,
                                                double *error);
 
-/* Make the run with slopes, as far as the numbers in e [m] need it (m = 0: to the end of the run). */
+/* Make the run with variational equations, as far as the results in e [m] need it (m = 0: to the end). */
 QDOT_MUST_CHECK qdot_status qdot_trial_vary(qdot_trial *t, size_t m, const qdot_expr *e);
 /* Make it, and the slopes [m x n] of e by the unknowns, with their errors (NULL: not wanted). Numbers of other
  * runs are constants. */

@@ -1,4 +1,4 @@
-/* latex-line.c -- a line of LaTeX as our language writes it. */
+/* latex-line.c -- translates a line of LaTeX into our language, for a hint. */
 #include "lang/source/latex-line.h"
 
 #include <ctype.h>
@@ -26,7 +26,7 @@ is_word_char(char c)
     return isalnum((unsigned char)c) || c == '.' || (c & 0x80) != 0;
 }
 
-/* What stands in the braces at r, or the one letter, digit or command there. */
+/* Translate the argument at r: a group in braces, or a single letter, digit or command. */
 static void
 argument(reader *r, qdot_text *out)
 {
@@ -46,7 +46,7 @@ argument(reader *r, qdot_text *out)
     }
 }
 
-/* The argument, in brackets unless it is one name or number. */
+/* Translate the argument, in brackets unless it is a single name or number. */
 static void
 add_factor(reader *r, qdot_text *out)
 {
@@ -92,7 +92,7 @@ add_call(reader *r, const char *name, qdot_text *out)
     qdot_text_clear(&text);
 }
 
-/* Whether the n letters are among the words, which are divided by blanks. */
+/* Whether the n letters are one of the words, which are separated by blanks. */
 static bool
 is_among(const char *name, size_t n, const char *words)
 {
@@ -102,7 +102,7 @@ is_among(const char *name, size_t n, const char *words)
     return false;
 }
 
-/* The command at r, behind its backslash. Returns whether it is an operand. */
+/* Translate the command at r, after its backslash. Returns whether it is an operand. */
 static bool
 command(reader *r, bool operand, qdot_text *out)
 {
@@ -146,7 +146,7 @@ command(reader *r, bool operand, qdot_text *out)
     return true;
 }
 
-/* One letter or sign that begins no command; returns whether an operand ends with it. */
+/* Translate one letter or sign that begins no command; returns whether an operand ends with it. */
 static bool
 sign(reader *r, bool operand, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* letters.c -- the letters a name may hold, and how Greek ones are spelled. */
+/* letters.c -- the letters allowed in names, and the spelling of Greek ones. */
 #include "lang/source/letters.h"
 
 #include <string.h>
@@ -66,7 +66,7 @@ qdot_letters_superscript(uint32_t c)
     return c == 0x2070 || (c >= 0x2074 && c <= 0x2079) ? (int)(c - 0x2070) : -1;
 }
 
-/* ä, ë, ï, ö, ü, ÿ are left out: they are letters of words. */
+/* Letters with dots for time derivatives; ä, ë, ï, ö, ü, ÿ are missing because they occur in words. */
 static const struct {
     const char *letter, *base;
     unsigned dots;

@@ -1,4 +1,4 @@
-/* letters.h -- the letters a name may hold, and how Greek ones are spelled. */
+/* letters.h -- the letters allowed in names, and the spelling of Greek ones. */
 #ifndef QDOT_LANG_LETTERS_H
 #define QDOT_LANG_LETTERS_H
 
@@ -9,7 +9,7 @@
 const char *qdot_letters_greek(uint32_t c);
 /* Whether c is a Latin letter. */
 bool qdot_letters_latin(uint32_t c);
-/* The digit 0-9 that a subscript or superscript stands for, -1 if c is none. */
+/* The digit 0-9 of which c is the subscript, or the superscript; -1 if c is neither. */
 int qdot_letters_subscript(uint32_t c);
 int qdot_letters_superscript(uint32_t c);
 /* How many dots the letter that text begins with carries, ẋ 1, ẍ 2; *letter the one below them. ä, ë,

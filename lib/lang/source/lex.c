@@ -18,7 +18,7 @@ typedef struct {
     qdot_vec(uint32_t) open; /* tokens that opened a bracket */
 } lexer;
 
-/* Longest first where one begins another. */
+/* Spellings of operators; longer ones first if one is the beginning of another. */
 static const struct {
     const char *text, *token;
 } operators[] = {
@@ -65,7 +65,7 @@ static const struct {
     {"\xE2\x80\x99", "'"},  /* apostrophe */
 };
 
-/* Fractions of one sign: exact numbers. */
+/* Characters such as ½ that are exact fractions. */
 static const struct {
     const char *sign, *text;
 } fractions[] = {
@@ -107,7 +107,7 @@ last_is_kind(const lexer *x, qdot_token_kind kind)
     return x->tokens.n > 0 && x->tokens.at[x->tokens.n - 1].kind == kind;
 }
 
-/* The end of a statement; blank ones leave no token. */
+/* Push the end of a statement; empty statements leave no token. */
 static qdot_status
 push_end(lexer *x, size_t start, size_t end)
 {
@@ -248,7 +248,7 @@ lex_dots(lexer *x)
     return dots;
 }
 
-/* n tokens `'`, all of them at the bytes [start, end). */
+/* Push n tokens `'`, all at the bytes [start, end). */
 static qdot_status
 push_primes(lexer *x, unsigned n, size_t start, size_t end)
 {
@@ -257,7 +257,7 @@ push_primes(lexer *x, unsigned n, size_t start, size_t end)
     return QDOT_OK;
 }
 
-/* A name; dots over its first letter are primes behind it: θ̇₁ is theta1'. */
+/* Lex a name; dots over its first letter become primes after it: θ̇₁ is theta1'. */
 static qdot_status
 lex_name(lexer *x, qdot_text *name)
 {
@@ -285,7 +285,7 @@ lex_name(lexer *x, qdot_text *name)
     return push_primes(x, dots, start, x->i);
 }
 
-/* The value of a raised digit at `text`, -1: none; *length its bytes. */
+/* The value of a superscript digit at `text`, -1 if none; *length its bytes. */
 static int
 raised_digit(const char *text, size_t *length)
 {
@@ -302,7 +302,7 @@ last_ends_operand(const lexer *x)
             (last_is_kind(x, QDOT_TOKEN_OPERATOR) && strchr(")]'", last_text(x)[0]) != NULL));
 }
 
-/* x⁻¹² as x^-12, x⁽⁴⁾ as x''''; behind an operand alone. */
+/* Lex superscripts after an operand: x⁻¹² as x^-12, x⁽⁴⁾ as x''''. */
 static qdot_status
 lex_raised(lexer *x, bool *found)
 {
@@ -369,7 +369,7 @@ qdot_lex_number(qdot_pool *pool, const char *text)
                : qdot_expr_decimal(pool, text, strlen(text));
 }
 
-/* "...": \" and \\ stand for the sign itself. */
+/* Lex a quoted text "...", in which \" and \\ stand for the quote and the backslash. */
 static qdot_status
 lex_string(lexer *x, qdot_text *buffer)
 {
@@ -398,7 +398,7 @@ lex_string(lexer *x, qdot_text *buffer)
     return QDOT_OK;
 }
 
-/* Comments, blanks, ends of lines: true if something was stepped over. */
+/* Step over comments, blanks and ends of lines; *found: there were some. */
 static qdot_status
 lex_blank(lexer *x, bool *found)
 {
@@ -501,7 +501,7 @@ prompt_length(const char *text)
     return n > 4 && strncmp(text + n, "]:", 2) == 0 ? n + 2 : 0;
 }
 
-/* Where a line begins: step over prompts that were pasted with it. */
+/* At the beginning of a line: step over prompts that were pasted with it. */
 static void
 skip_prompts(lexer *x)
 {
@@ -537,7 +537,7 @@ lex_all(lexer *x, qdot_text *buffer)
         x->i = opened->start;
         return qdot_refuse_open(x->source->text, x->i);
     }
-    /* the last token is an END, whatever there was */
+    /* in any case the last token is an END */
     if (!last_is_kind(x, QDOT_TOKEN_END))
         return token_push(x, QDOT_TOKEN_END, "", x->source->length, x->source->length);
     return QDOT_OK;

@@ -9,9 +9,9 @@
 #define QDOT_LEX_PRIMES 200u       /* primes behind one name */
 #define QDOT_LEX_BRACKETS 1000000u /* open brackets */
 
-/* Fill source->tokens from source->text. On failure the place is in *at. */
+/* Fill source->tokens from source->text. On failure *at is the position of the error. */
 QDOT_MUST_CHECK qdot_status qdot_lex(qdot_source *source, size_t *at);
-/* The exact number of a QDOT_TOKEN_NUMBER: "9.81", or of a fraction of one sign "1/2". */
+/* The exact value of a QDOT_TOKEN_NUMBER: "9.81", or "1/2" for a fraction of one character. */
 qdot_expr qdot_lex_number(qdot_pool *pool, const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* refuse.c -- what to say of bytes with which nothing of the language begins. */
+/* refuse.c -- errors and hints for characters that the language does not have. */
 #include "lang/source/refuse.h"
 
 #include <stdint.h>
@@ -11,7 +11,7 @@
 
 enum { SHOWN = 120 }; /* bytes of a line in a hint */
 
-/* Signs of print that are not read, and what to write for them. */
+/* Typographic characters that are not accepted, with what to write for them. */
 static const struct {
     const char *text, *ours;
 } foreign[] = {
@@ -33,7 +33,7 @@ static const struct {
     {"`", "a text in double quotes: \"text\""},
 };
 
-/* The line that holds the byte: [*from, *to), without blanks at its ends. */
+/* The line that contains the byte: [*from, *to), without blanks at its ends. */
 static void
 line_of(const char *text, size_t at, size_t *from, size_t *to)
 {
@@ -79,7 +79,7 @@ refuse_quotes(const char *text, size_t at)
     return QDOT_ESYNTAX;
 }
 
-/* Whether the byte is one of a name, with its primes. */
+/* Whether the byte may be part of a name or of its primes. */
 static bool
 is_of_name(char c)
 {
@@ -87,7 +87,7 @@ is_of_name(char c)
                          strchr("_'0123456789", c) != NULL);
 }
 
-/* Bytes of the name that begins at `at`. */
+/* The length in bytes of the name that begins at `at`. */
 static size_t
 name_length(const char *text, size_t at)
 {
@@ -98,7 +98,7 @@ name_length(const char *text, size_t at)
     return n;
 }
 
-/* ∂T/∂x, a partial derivative. */
+/* Refuse ∂T/∂x, with a hint how to write a partial derivative. */
 static qdot_status
 refuse_partial(const char *text, size_t at)
 {
@@ -142,7 +142,7 @@ refuse_at(const char *text, size_t at)
                      (int)(to - at - 1), text + at + 1);
 }
 
-/* 30°, an angle in degrees. */
+/* Refuse 30°, with the angle in radians as a hint. */
 static qdot_status
 refuse_degrees(const char *text, size_t at)
 {
@@ -255,7 +255,7 @@ byte_is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* `1_000`, or `_x`. */
+/* Refuse `1_000` or `_x`, with a hint. */
 static qdot_status
 refuse_underscore(const char *text, size_t at)
 {

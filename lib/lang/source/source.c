@@ -1,4 +1,4 @@
-/* source.c -- a text with its tokens, and errors that show the place. */
+/* source.c -- a source text with its tokens; prints errors with their line and a caret. */
 #include "lang/source/source.h"
 
 #include <string.h>
@@ -67,7 +67,7 @@ qdot_source_free(qdot_source *source)
     qdot_free(source);
 }
 
-/* First byte of the line that holds byte `at`; a byte-order mark belongs to no line. */
+/* The first byte of the line that contains byte `at`; a byte-order mark belongs to no line. */
 static size_t
 line_start(const qdot_source *source, size_t at)
 {
@@ -100,7 +100,7 @@ qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line, uint32_
     *column = 1 + (uint32_t)qdot_utf8_columns(source->text + start, at - start);
 }
 
-/* One byte back or on, by whole characters. */
+/* Step one character back, or forward, in UTF-8 text. */
 static size_t
 step_back(const char *text, size_t at, size_t start)
 {
@@ -119,7 +119,7 @@ step_on(const char *text, size_t at, size_t end)
     return at;
 }
 
-/* Bytes [from, to) as printable text: what is not becomes `?`, a tab a blank. */
+/* Append bytes [from, to) as printable text: unprintable ones become `?`, a tab becomes a blank. */
 static void
 add_clean(qdot_text *out, const char *text, size_t from, size_t to)
 {
@@ -148,7 +148,7 @@ columns_shown(size_t width)
     return width > LEAST_SHOWN + BESIDE ? (int)width - BESIDE : LEAST_SHOWN;
 }
 
-/* The line with its caret, cut on both sides to the columns shown. */
+/* Append the line with a caret below, cut on both sides to the given width. */
 static void
 add_line(const qdot_source *source, size_t at, bool colours, size_t width, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* token.h -- a text and the tokens it is lexed to. */
+/* token.h -- a source text and its tokens. */
 #ifndef QDOT_LANG_TOKEN_H
 #define QDOT_LANG_TOKEN_H
 
@@ -38,7 +38,7 @@ qdot_token_is(const qdot_token *token, const char *op)
     return token->kind == QDOT_TOKEN_OPERATOR && strcmp(token->text, op) == 0;
 }
 
-/* 1 for an opening bracket, -1 for a closing one, else 0. */
+/* 1 for an opening bracket, -1 for a closing one, 0 for other tokens. */
 static inline int
 qdot_token_bracket(const qdot_token *token)
 {

@@ -1,4 +1,4 @@
-/* columns.c -- what is asked of each run. */
+/* columns.c -- the expressions that a sweep evaluates for each run. */
 #include "lang/sweeps/columns.h"
 
 #include "expr/node.h"
@@ -39,7 +39,7 @@ qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
                                                      : qdot_fail(QDOT_ETYPE, "a column is one number a row");
 }
 
-/* Whether events set a parameter that is in e, or that the value of one in it follows from. */
+/* Whether e contains a parameter that events set, or one whose value depends on such a parameter. */
 static bool
 is_set_by_events(const qdot_session *session, qdot_expr e)
 {
@@ -59,7 +59,7 @@ is_set_by_events(const qdot_session *session, qdot_expr e)
     return false;
 }
 
-/* A number, or an expression at the end of the run. */
+/* Evaluate a column: a number, or an expression at the end of the run. */
 static qdot_status
 column_measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
 {

@@ -1,4 +1,4 @@
-/* members.c -- reads what a sweep runs over, and makes its runs. */
+/* members.c -- reads the parameters of a sweep, and makes its runs. */
 #include "lang/sweeps/members.h"
 
 #include "lang/runs/own-run.h"
@@ -34,7 +34,7 @@ qdot_members_free(qdot_members *m)
 
 /* --- a member --------------------------------------------------------------------------- */
 
-/* Make the run up to there and use it; it is kept meanwhile. */
+/* Make the run up to `to` and pass it to `use`; the session keeps it meanwhile. */
 static qdot_status
 make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use use, void *user)
 {
@@ -51,7 +51,7 @@ make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use us
     return status;
 }
 
-/* Put value i of member k in force. */
+/* Set parameter number i to its value in member k. */
 static qdot_status
 set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
 {

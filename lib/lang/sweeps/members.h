@@ -19,24 +19,24 @@ typedef struct {
     qdot_run_options run;
 } qdot_members;
 
-/* As usage texts have them, with what stands before the columns. */
+/* The usage of a sweep's parameters and run, before the columns. */
 #define QDOT_MEMBERS_USAGE QDOT_SWEEP_AXES " run T0..T1 " QDOT_RUN_USAGE " : "
-/* Those of the statement. From {.run.tol = 1e-12}; free it in any case. */
+/* Take them from the statement. m starts as {.run.tol = 1e-12}; free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_members_find(qdot_record *r, qdot_members *m);
 void qdot_members_free(qdot_members *m);
 
-/* Put the values of member k in force, swept [axes] out; the caller keeps and restores the session's. */
+/* Set the values of member k, also written to swept [axes]; the caller saves and restores the session's. */
 QDOT_MUST_CHECK qdot_status qdot_members_set(qdot_session *session, const qdot_members *m, size_t k,
                                              double *swept);
 
-/* What is done with a member's run; end: its last time. */
+/* A function applied to a member's run; end: its last time. */
 typedef qdot_status (*qdot_member_use)(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user);
 
 /* Make the run of member k and use it; swept [axes] out: its values. A run that failed is an error,
  * QDOT_EFAILED with its reason. */
 QDOT_MUST_CHECK qdot_status qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k,
                                              double *swept, qdot_member_use use, void *user);
-/* The same of a run that ends where it begins. */
+/* The same for a run of no duration, which shows only its start. */
 QDOT_MUST_CHECK qdot_status qdot_members_begin(qdot_cursor *c, const qdot_members *m, size_t k,
                                                double *swept, qdot_member_use use, void *user);
 

@@ -73,7 +73,7 @@ surface_find(qdot_record *r, poincare *p)
     return qdot_pool_check(session->pool);
 }
 
-/* `of NAME`, a sweep. */
+/* Take `of NAME`, the sweep whose runs are used. */
 static qdot_status
 sweep_find(qdot_record *r, const qdot_filled *part, poincare *p)
 {
@@ -88,7 +88,7 @@ sweep_find(qdot_record *r, const qdot_filled *part, poincare *p)
     return qdot_hint("sweep omega = 0..5 step 0.1 run 0..20 : max(theta) as %s", name);
 }
 
-/* Where the options of the run end whose word is the part: at the colon, a word of the section, or the end. */
+/* The end of the options of the run whose word is this part: the colon, a word of the section, or the end. */
 static const qdot_filled *
 run_end(const qdot_record *r, const qdot_filled *run, bool behind)
 {
@@ -100,7 +100,7 @@ run_end(const qdot_record *r, const qdot_filled *run, bool behind)
     return part;
 }
 
-/* Whose section it is, before the colon or behind the columns. */
+/* Find the run or sweep of the section, which may be given before the colon or after the columns. */
 static qdot_status
 whose_find(qdot_record *r, poincare *p)
 {
@@ -124,7 +124,7 @@ whose_find(qdot_record *r, poincare *p)
     return QDOT_OK;
 }
 
-/* `from A to B`, times. */
+/* Take the time limits `from A to B`. */
 static qdot_status
 limits_find(qdot_record *r, poincare *p)
 {
@@ -137,7 +137,7 @@ limits_find(qdot_record *r, poincare *p)
     return qdot_record_number(r, qdot_record_next(r, from, "B"), &p->limits[1]);
 }
 
-/* `as NAME` behind the columns. */
+/* Take `as NAME` after the columns. */
 static qdot_status
 name_find(qdot_record *r, poincare *p)
 {
@@ -166,7 +166,7 @@ poincare_find_all(qdot_record *r, poincare *p)
 
 /* --- the points ------------------------------------------------------------------------- */
 
-/* A row for each point: what was swept [n_swept - 1], the time, the numbers. */
+/* Append a row for each point: the swept values [n_swept - 1], the time, the columns. */
 static qdot_status
 add_points(poincare *p, const qdot_run *run, const double *swept, const qdot_section *s)
 {
@@ -203,7 +203,7 @@ add_points(poincare *p, const qdot_run *run, const double *swept, const qdot_sec
     return QDOT_OK;
 }
 
-/* The section of a run, the latest; swept: the values that it was made with. */
+/* Find the section points of a run, the latest one; swept: its parameter values. */
 static qdot_status
 find_points(qdot_cursor *c, poincare *p, qdot_run *run, const double *swept)
 {
@@ -272,7 +272,7 @@ use_member(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
     return find_points(c, m->p, run, m->swept);
 }
 
-/* A row that says why a member has no points. */
+/* Append a row that says why a member has no points. */
 static qdot_status
 add_failure(poincare *p, const double *swept)
 {
@@ -285,7 +285,7 @@ add_failure(poincare *p, const double *swept)
     return t->reasons[t->rows - 1] != NULL ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The sections of all members; *interrupted: some are left. */
+/* Find the sections of all members; *interrupted: some are missing. */
 static qdot_status
 go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
 {
@@ -363,7 +363,7 @@ poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                : QDOT_OK;
 }
 
-/* A notice where the run does not cover the times asked for. */
+/* Notice if the run does not cover the requested times. */
 static qdot_status
 tell_limits(qdot_session *session, const poincare *p, const qdot_run *run)
 {

@@ -1,4 +1,4 @@
-/* sweep-axis.c -- what a sweep runs over. */
+/* sweep-axis.c -- the parameters that a sweep varies, and their values. */
 #include "lang/sweeps/sweep-axis.h"
 
 #include <math.h>
@@ -20,7 +20,8 @@ static const double most_members = 1e7;
 /* The generator takes 32 bits of a seed, and no more. */
 static const long most_seed = 0xffffffff;
 
-/* GSL takes 4357 for 0, and of other numbers the lower 32 bits: of this one they are 0. */
+/* Seed used instead of 0, which GSL replaces by 4357; GSL uses the lower 32 bits, and those of this
+ * number are 0. */
 static const unsigned long instead_of_0 = (unsigned long)UINT64_C(0x100000000);
 
 void
@@ -44,7 +45,7 @@ constant(qdot_session *session, qdot_expr e, qdot_expr *value, double *number)
                              : qdot_fail(QDOT_EINVAL, "a sweep runs over finite numbers");
 }
 
-/* `step H` behind A..B. */
+/* Take `step H` after A..B. */
 static qdot_status
 step_find(qdot_record *r, const qdot_filled *part, double a, double b, qdot_sweep_axis *x)
 {
@@ -63,7 +64,7 @@ step_find(qdot_record *r, const qdot_filled *part, double a, double b, qdot_swee
     return QDOT_OK;
 }
 
-/* `count N` behind A..B. */
+/* Take `count N` after A..B. */
 static qdot_status
 count_find(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axis *x)
 {
@@ -82,7 +83,7 @@ count_find(qdot_record *r, const qdot_filled *part, qdot_expr to, qdot_sweep_axi
     return qdot_pool_check(pool);
 }
 
-/* The options of an axis, [its values, to): the words that are there. */
+/* The words of the options found among the parts of an axis, [its values, to). */
 typedef struct {
     const qdot_filled *step, *count, *seed;
 } axis_options;
@@ -100,7 +101,7 @@ find_options(const qdot_filled *values, const qdot_filled *to)
     return o;
 }
 
-/* Fail at an option that does not belong to the axis; NULL: there is none. */
+/* Fail at an option that does not fit the axis; nothing if NULL. */
 static qdot_status
 refuse_option(qdot_record *r, const qdot_filled *word)
 {
@@ -110,7 +111,7 @@ refuse_option(qdot_record *r, const qdot_filled *word)
     return qdot_fail(QDOT_ESYNTAX, "expected `,` or `run T0..T1`, found `%s`", word->from->text);
 }
 
-/* One value stands where a range belongs: what is wrong with it, else that. */
+/* Fail for a single value where a range is needed; first report errors in the value itself. */
 static qdot_status
 fail_single(qdot_record *r, const qdot_filled *part, const qdot_sweep_axis *x)
 {
@@ -171,7 +172,7 @@ list_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_s
     return refuse_option(r, o->seed);
 }
 
-/* normal(A, B) or uniform(A, B); *is: it is one of them. */
+/* Take normal(A, B) or uniform(A, B); *is: it is one of the two. */
 static qdot_status
 random_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot_sweep_axis *x, bool *is)
 {
@@ -212,7 +213,7 @@ symbol_find(qdot_record *r, qdot_sweep_axis *x)
     return QDOT_OK;
 }
 
-/* The axis whose name is the part: NAME = VALUES [options]. */
+/* Take an axis, NAME = VALUES [options], whose name is this part. */
 static qdot_status
 axis_find(qdot_record *r, const qdot_filled *name, const qdot_filled *to, qdot_sweep_axis *x)
 {
@@ -253,7 +254,7 @@ axes_draw_values(qdot_sweep_axes *axes)
     return QDOT_OK;
 }
 
-/* `count N` and `seed K` of random axes, behind the last. */
+/* Take `count N` and `seed K` of random axes, after the last of them. */
 static qdot_status
 draws_find(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes)
 {
@@ -279,7 +280,7 @@ draws_find(qdot_record *r, const qdot_filled *to, qdot_sweep_axes *axes)
     return axes_draw_values(axes);
 }
 
-/* `count` and `seed` stand behind all random axes. */
+/* Check that `count` and `seed` come after all random axes. */
 static qdot_status
 draws_check(qdot_record *r, const qdot_sweep_axes *axes)
 {
@@ -293,7 +294,7 @@ draws_check(qdot_record *r, const qdot_sweep_axes *axes)
     return QDOT_OK;
 }
 
-/* The axes are of one kind, and differ; how many members they have. */
+/* Check that all axes are random or none is, and that their names differ; compute the number of members. */
 static qdot_status
 axes_check(qdot_record *r, qdot_sweep_axes *axes)
 {

@@ -37,7 +37,7 @@ typedef struct {
     double *drawn; /* [members x axes] of random axes; NULL: none */
 } qdot_sweep_axes;
 
-/* As usage texts have them. */
+/* The usage of the axes of a sweep. */
 #define QDOT_SWEEP_AXES "NAME = A..B [step H] [count N] [seed K], ..."
 /* The axes among the parts [from, to), from {0}, with `count` and `seed`; draw what is random; free them in
  * any case. QDOT_ELIMIT: more than 10^7 members. */
@@ -45,7 +45,7 @@ QDOT_MUST_CHECK qdot_status qdot_sweep_axes_find(qdot_record *r, const qdot_fill
                                                  const qdot_filled *to, qdot_sweep_axes *axes);
 void qdot_sweep_axes_free(qdot_sweep_axes *axes);
 
-/* The value of axis i for a member, exact. Nil: the pool failed. */
+/* The exact value of axis i for a member. Nil: the pool failed. */
 qdot_expr qdot_sweep_axes_value(qdot_session *session, const qdot_sweep_axes *axes, size_t member,
                                 size_t i);
 

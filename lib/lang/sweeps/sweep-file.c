@@ -1,4 +1,4 @@
-/* sweep-file.c -- the rows of a sweep that are done, in a file. */
+/* sweep-file.c -- stores the finished rows of a sweep in a file, from which it can be resumed. */
 #include "lang/sweeps/sweep-file.h"
 
 #include <errno.h>
@@ -41,7 +41,7 @@ add_number(uint64_t *sum, double x)
     }
 }
 
-/* What the sweep said, and the checksum of it and of the rows. */
+/* Write the text of the sweep, with the checksum of it and of the rows. */
 static qdot_status
 sign(const char *said, uint64_t sum, qdot_text *out)
 {
@@ -146,7 +146,7 @@ sum_read(const qdot_hdf5_columns *from)
     return sum;
 }
 
-/* That the file is of this sweep, with its rows as they were written. */
+/* Check that the file belongs to this sweep and that its rows are undamaged. */
 static qdot_status
 file_check(const qdot_hdf5_columns *from, const char *path, const char *said, const qdot_row_table *t)
 {

@@ -1,4 +1,5 @@
-/* sweep-lanes-members.c -- what fits lanes; members as numbers. */
+/* sweep-lanes-members.c -- decides which sweeps can run in vector lanes; computes the members'
+ * start and parameters. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -14,10 +15,10 @@
 #include "sim/ensemble/path.h"
 #include "sim/model/substitute.h"
 
-/* A member with more steps is run alone, which may do better. */
+/* A member with more steps than this is repeated as a single run, which may use a better method. */
 enum { MOST_STEPS = 20000 };
 
-/* So many members are run at a time if all their steps are kept. */
+/* The number of members run at a time if all their steps are stored. */
 enum { KEPT_TOGETHER = 32 };
 
 /* Under this tolerance the method's error may be less than that of rounding. Then one companion does not
@@ -91,7 +92,7 @@ take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_co
     return qdot_pool_check(pool);
 }
 
-/* Whether lanes have all that e reads. */
+/* Whether e depends only on quantities that lanes compute: no accelerations, multipliers or results of runs. */
 static bool
 is_of_states(qdot_session *session, qdot_expr e)
 {
@@ -100,7 +101,7 @@ is_of_states(qdot_session *session, qdot_expr e)
            && !qdot_measured_occurs(session, e);
 }
 
-/* The columns; an empty `why`: lanes have them all. Expressions into e [columns]. */
+/* Read the columns, expressions into e [columns]; `why` stays empty if lanes can compute them all. */
 static qdot_status
 lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
 {
@@ -208,7 +209,7 @@ find_varied(qdot_sweep_lanes *x, qdot_text *why)
     return QDOT_OK;
 }
 
-/* The request of an ensemble from that of a member: without a start and varied parameters. */
+/* Make the request of an ensemble from that of one member: without start and varied parameters. */
 static qdot_status
 make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
 {
@@ -271,7 +272,7 @@ drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
     return true;
 }
 
-/* The ensemble, where the first member's run fits. */
+/* Make the ensemble if the first member's run is suitable; otherwise `why` says why not. */
 static qdot_status
 lanes_prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
 {
@@ -390,7 +391,7 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
     return status;
 }
 
-/* Members as numbers, and the rows that are made of them. */
+/* Members as numbers, with the indices of their rows. */
 typedef struct {
     size_t n, *row;
     double *y, *parameters; /* [n x 2 coordinates], [n x varied] */
@@ -416,7 +417,7 @@ members_init(members *o, const qdot_sweep_lanes *x, size_t most)
     return o->row && o->y && o->parameters && o->results ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Run them, with so many companions; `again` gets those that are to have more. */
+/* Run members with that many companions; `again` collects those that need more companions. */
 static qdot_status
 run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
 {
@@ -445,7 +446,7 @@ run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
     return status;
 }
 
-/* Run these members [count], all of them side by side. */
+/* Run these members [count] together in lanes. */
 static qdot_status
 run_together(qdot_sweep_lanes *x, const size_t *rows, size_t count)
 {

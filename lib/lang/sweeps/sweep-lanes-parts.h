@@ -38,11 +38,11 @@ struct qdot_sweep_lanes {
     char **reasons;        /* [members] */
 };
 
-/* Put the values of member k in force; its request, those swept into swept. */
+/* Set the values of member k (also written to `swept`) and make its request. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept,
                                                      qdot_request *request);
 
-/* Row k from member m of the ensemble, as it has been run; it stays unmade for a run alone. */
+/* Fill row k from member m of the ensemble; the row stays empty if the member must be run singly. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_fill_row(qdot_sweep_lanes *x, size_t m, size_t k);
 
 #endif

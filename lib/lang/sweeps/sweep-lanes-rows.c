@@ -1,4 +1,4 @@
-/* sweep-lanes-rows.c -- rows of members that were run side by side: columns with their errors. */
+/* sweep-lanes-rows.c -- fills rows of members that ran in lanes: columns with their errors. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "sim/ensemble/path.h"
 #include "tape/rounding.h"
 
-/* A member with a larger error is run alone, which may do better. */
+/* A member with a larger error is repeated as a single run, which may use a better method. */
 static const double largest_error = 1e-4;
 enum { PLACES = 16 };
 
@@ -19,13 +19,14 @@ enum { PLACES = 16 };
  * far less at the end than before may be so by chance. Then one companion does not tell enough. */
 static const double roundings = 64;
 
-/* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
+/* The median of the distances before the end counts up to this many times that at the end (ode/companion.h). */
 static const double most_between = 30;
 
-/* Coordinates below this may have a scale of their own (sim/run/scales.h). */
+/* Coordinates between `nothing` and `small` may need a scale of their own (sim/run/scales.h). */
 static const double small = 1e-3, nothing = 1e-15;
 
-/* All expressions of that pass of a member at a place, into out [outputs]; false: it is not there. */
+/* Evaluate all expressions of that pass of a member at a stored time, into out [outputs]; false:
+ * there is no state. */
 static bool
 member_evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
 {
@@ -36,7 +37,7 @@ member_evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double
     return true;
 }
 
-/* The errors of all expressions at a place into errors [outputs]; x->out has them. */
+/* The errors of all expressions at a stored time, into errors [outputs]; x->out gets their values. */
 static bool
 member_errors(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
@@ -61,7 +62,7 @@ by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether an error of a number of that size may be that of rounding, which takes two companions. */
+/* Whether an error may be caused by rounding only, which needs two companions to estimate. */
 static bool
 is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
 {
@@ -111,7 +112,7 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
     return QDOT_OK;
 }
 
-/* Whether the sizes of a member's coordinates make a run alone look for scales. */
+/* Whether a member's coordinates are so small that a single run would look for scales. */
 static bool
 member_is_small(const qdot_sweep_lanes *x, size_t m)
 {
@@ -123,7 +124,7 @@ member_is_small(const qdot_sweep_lanes *x, size_t m)
     return false;
 }
 
-/* The time of an event and its error; *there is false for a run alone to decide. */
+/* The time of an event and its error; *there false: a single run must decide. */
 static qdot_status
 read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, size_t k, double *to, bool *there)
 {
@@ -150,7 +151,8 @@ read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, siz
     return qdot_text_status(&text);
 }
 
-/* The columns that read the way, while the member is the latest run. What fails a run alone tells. */
+/* Evaluate columns that read intermediate times, with the member as the latest run. A failure is
+ * left to a single run to report. */
 static qdot_status
 measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, bool *there)
 {
@@ -169,7 +171,7 @@ measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, 
     return QDOT_OK;
 }
 
-/* The same of row k, with its values in force, into values and errors [columns]. */
+/* The same for row k, with its parameter values set, into values and errors [columns]. */
 static qdot_status
 read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
 {

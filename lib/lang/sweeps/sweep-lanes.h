@@ -21,25 +21,25 @@
 #include "base/text.h"
 #include "lang/sweeps/sweep-parts.h"
 
-/* Fewer members are run alone. */
+/* Sweeps with fewer members than this are run one by one. */
 enum { QDOT_SWEEP_LANES_LEAST = 16 };
 
 typedef struct qdot_sweep_lanes qdot_sweep_lanes;
 
-/* What it keeps of a member: whether it is made, and why its row failed. */
+/* The memory per member: whether it is finished, and why its row failed. */
 enum { QDOT_SWEEP_LANES_BYTES = sizeof(bool) + sizeof(char *) };
 
-/* For a sweep that was read. *lanes NULL: its members are run alone, and `why` says why. */
+/* Set up lanes for a sweep that was read. *lanes NULL: members are run one by one, and `why` says why. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes,
                                                  qdot_text *why);
 void qdot_sweep_lanes_free(qdot_sweep_lanes *lanes);
 
-/* Run these members [n]; or those of first ... first + count - 1 that are not done. */
+/* Run these members [n]; or those of first ... first + count - 1 that are not finished. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run_rows(qdot_sweep_lanes *lanes, const size_t *rows,
                                                       size_t n);
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run(qdot_sweep_lanes *lanes, size_t first,
                                                  size_t count);
-/* Whether row k has been made; then *status is that of the row, with the last error. */
+/* Whether row k has been made; then *status is its status, with the last error set. */
 bool qdot_sweep_lanes_made(qdot_sweep_lanes *lanes, size_t k, qdot_status *status);
 
 #endif

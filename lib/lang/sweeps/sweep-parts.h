@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
 /* Of a statement `plan sweep ...`. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_plan(qdot_record *r);
 
-/* Make row k of the table, in this process. QDOT_EFAILED and others: the row's own failure. */
+/* Make row k of the table in this process. Failures such as QDOT_EFAILED concern this row. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_fill_row(qdot_sweep *s, size_t k);
 
 /* Make all rows of the empty table, but for those that the file has; after Ctrl-C those that are done

@@ -1,4 +1,5 @@
-/* sweep-plan.c -- `plan sweep`: how many members, by lanes or alone and why, time and memory from a few. */
+/* sweep-plan.c -- `plan sweep`: the number of members, whether they run in lanes, an estimate of
+ * time and memory. */
 #include <string.h>
 
 #include "base/clock.h"
@@ -10,7 +11,7 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* So many members are run, spread over all. */
+/* The number of members, spread over the sweep, that are run for the estimate. */
 enum { BY_LANES = 32, ALONE = 4 };
 
 typedef struct {
@@ -18,7 +19,7 @@ typedef struct {
     double seconds; /* of one row */
 } sample;
 
-/* Run a few rows, for what they cost. */
+/* Run a few members to measure their cost. */
 static qdot_status
 plan_measure(qdot_sweep *s, sample *m)
 {
@@ -74,7 +75,7 @@ tell_way(const qdot_sweep *s, const sample *m, const char *why, qdot_text *text)
                          QDOT_LANES, m->rows, m->alone);
 }
 
-/* An estimate, with two digits at most. */
+/* Write an estimated duration with at most two digits. */
 static void
 tell_seconds(double x, qdot_text *text)
 {

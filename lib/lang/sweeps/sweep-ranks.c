@@ -1,4 +1,4 @@
-/* sweep-ranks.c -- the rows of a sweep, from rank 0 to the others. */
+/* sweep-ranks.c -- sends the rows of a sweep from MPI rank 0 to the other ranks. */
 #include "lang/sweeps/sweep-ranks.h"
 
 #include <stdint.h>
@@ -7,12 +7,12 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* How the sweep ended. */
+/* The result of the sweep, as sent to the other ranks. */
 typedef struct {
     uint64_t done, failed, resumed;
 } sweep_end;
 
-/* Before the numbers of a row, their errors and its reason [reason]. */
+/* The head of a row in a message; the row's numbers, errors and reason [reason] follow. */
 typedef struct {
     uint64_t row, reason; /* UINT64_MAX: none */
 } row_head;
@@ -48,7 +48,7 @@ pack(const qdot_sweep *s, size_t first, size_t end, qdot_text *out)
     }
 }
 
-/* What rank 0 has packed; its own bytes are of the right form. */
+/* Unpack the rows that rank 0 has packed; its data are trusted. */
 static qdot_status
 unpack(qdot_sweep *s, const char *at, const char *end)
 {
@@ -73,7 +73,7 @@ unpack(qdot_sweep *s, const char *at, const char *end)
     return QDOT_OK;
 }
 
-/* The rows, block by block. */
+/* Send the rows to the other ranks in blocks. */
 static qdot_status
 share_blocks(qdot_sweep *s, qdot_text *text)
 {

@@ -1,4 +1,4 @@
-/* sweep-rows.c -- makes the rows of a sweep: here or by other processes, and kept in a file. */
+/* sweep-rows.c -- makes the rows of a sweep, here or in other processes, and stores them in a file. */
 #include <math.h>
 #include <string.h>
 
@@ -14,13 +14,13 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* Seconds of work that are worth more than one process. */
+/* The least work (s) for which further processes are started. */
 static const double worth = 0.05;
 
-/* Rows that are made side by side: at most in this process; at least. */
+/* The largest and the smallest number of rows that this process makes together in lanes. */
 enum { MOST = 256, LEAST = 32 };
 
-/* Seconds after which rows are to be taken, which until then an interruption would cost. */
+/* The aim for the duration (s) of such a group of rows, which an interruption would lose. */
 static const double soon = 0.5;
 
 /* --- a row ------------------------------------------------------------------------------ */
@@ -68,7 +68,7 @@ qdot_sweep_fill_row(qdot_sweep *s, size_t k)
 
 /* --- the file ------------------------------------------------------------------------- */
 
-/* Write what is done, at the end or if the last time was a while ago. */
+/* Write the finished rows to the file if the last write was long ago, or now if `at_once`. */
 static qdot_status
 keep_rows(qdot_sweep *s, bool at_once)
 {
@@ -87,7 +87,7 @@ keep_rows(qdot_sweep *s, bool at_once)
 
 /* --- a row that is done ----------------------------------------------------------------- */
 
-/* The next rows to JSON, while they are done; at the end all that are left. */
+/* Answer the next rows as JSON as far as they are finished; `all`: including the rest. */
 static qdot_status
 tell_rows(qdot_sweep *s, bool all)
 {
@@ -98,7 +98,7 @@ tell_rows(qdot_sweep *s, bool all)
     return s->told > from ? qdot_row_answer_part(s->c->session, s->table, from, s->told) : QDOT_OK;
 }
 
-/* Row k has been made, or has failed with that status and the last error. */
+/* Record that row k is finished, or has failed with that status and the last error. */
 static qdot_status
 rows_take_row(qdot_sweep *s, size_t k, qdot_status status)
 {
@@ -120,13 +120,13 @@ rows_take_row(qdot_sweep *s, size_t k, qdot_status status)
 
 /* --- rows made by other processes ------------------------------------------------------- */
 
-/* What a worker answers: this, the numbers and their errors, the message and the hint of a failure. */
+/* The head of a worker's answer; the numbers, their errors, and the message and hint of a failure follow. */
 typedef struct {
     qdot_status status;
     size_t error_at, message, hint;
 } row_head;
 
-/* Make what rows can be made side by side; a failure shows in the runs alone. */
+/* Run those rows in lanes that can be; a failure will be reported by the single runs. */
 static void
 begin_rows_there(size_t first, size_t count, void *user)
 {
@@ -183,7 +183,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
 
 /* --- the sweep -------------------------------------------------------------------------- */
 
-/* How many rows to make side by side where as many as before have taken these seconds. */
+/* The number of rows for the next group, if as many as `before` took that many seconds. */
 static size_t
 next_together(size_t before, double seconds)
 {
@@ -192,7 +192,7 @@ next_together(size_t before, double seconds)
     return seconds < soon / 2 && before < MOST ? 2 * before : before;
 }
 
-/* The rows first ... end - 1 that are not done, in this process. */
+/* Make the rows first ... end - 1 that are not finished, in this process. */
 static qdot_status
 run_here(qdot_sweep *s, size_t first, size_t end)
 {
@@ -245,7 +245,7 @@ run_all(qdot_sweep *s)
     return job.workers > 1 ? qdot_workers_run(&job) : run_here(s, job.first, members);
 }
 
-/* Leave the rows that are done. */
+/* Remove the rows that are not finished from the table. */
 static void
 drop_others(qdot_sweep *s)
 {
@@ -262,7 +262,7 @@ drop_others(qdot_sweep *s)
     t->rows = n;
 }
 
-/* The table with the rows that the file has. */
+/* Begin the table, with the rows that are in the file. */
 static qdot_status
 begin_rows(qdot_sweep *s)
 {

@@ -48,7 +48,7 @@ threads_find(qdot_record *r, qdot_sweep *s)
     return qdot_fail(QDOT_EINVAL, "threads are from 1 to %d", MOST_THREADS);
 }
 
-/* The file that rows are kept in. */
+/* Take the name of the file in which rows are stored. */
 static qdot_status
 sweep_find_file(qdot_record *r, qdot_sweep *s)
 {
@@ -91,7 +91,7 @@ sweep_find_all(qdot_sweep *s)
     return sweep_find_name(r, s);
 }
 
-/* What the sweep says, and of which scene: a hash (FNV-1a) of all that would be saved of it. */
+/* Write the text of the sweep and a hash (FNV-1a) of its scene as it would be saved. */
 static qdot_status
 say_what(qdot_sweep *s)
 {
@@ -129,7 +129,7 @@ make_table(qdot_session *session, qdot_sweep *s)
     return status;
 }
 
-/* Rows that are done, with a number whose error is unknown. */
+/* The number of finished rows with a number whose error is unknown. */
 static size_t
 unknown_errors(const qdot_row_table *t)
 {
@@ -167,7 +167,7 @@ sweep_tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, 
     return t->rows <= QDOT_ROWS_PRINTED ? qdot_row_answer(session, t) : QDOT_OK;
 }
 
-/* Whether no row has a number that was asked for. */
+/* Whether no row has any requested number. */
 static bool
 is_empty(const qdot_row_table *t)
 {
@@ -179,7 +179,7 @@ is_empty(const qdot_row_table *t)
     return empty;
 }
 
-/* A notice of a run, as that its start was moved onto the constraints. */
+/* Repeat the notice of a run, for instance that its start was moved onto the constraints. */
 static qdot_status
 tell_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 {
@@ -194,7 +194,7 @@ tell_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
                               (int)strcspn(notice, "\n"), notice);
 }
 
-/* Whether a start is swept or stands behind `with`. */
+/* Whether a start value is swept or given by `with`. */
 static bool
 names_start(const qdot_session *session, const qdot_members *m)
 {
@@ -204,7 +204,7 @@ names_start(const qdot_session *session, const qdot_members *m)
     return qdot_run_options_name_start(session->pool, &m->run);
 }
 
-/* Rows do not tell of their starts: what the first, the middle and the last member's tell. */
+/* Repeat notices about starts for the first, the middle and the last member, as rows do not show them. */
 static qdot_status
 tell_starts(qdot_cursor *c, const qdot_members *m)
 {
@@ -223,7 +223,7 @@ tell_starts(qdot_cursor *c, const qdot_members *m)
     return status;
 }
 
-/* The parameters that are the same in all rows, with the values of the runs. */
+/* Record the parameters that have the same value in all rows. */
 static qdot_status
 note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *table)
 {

@@ -1,4 +1,4 @@
-/* expected.c -- what to say of a token that does not fit. */
+/* expected.c -- the message for a token that does not fit the usage. */
 #include "lang/syntax/expected.h"
 
 #include <stdio.h>
@@ -6,12 +6,12 @@
 
 #include "lang/syntax/holes.h"
 
-/* Of a figure. */
+/* The options of a figure, for messages. */
 #define FIGURE_OPTIONS                                                                   \
     "`from`, `range`, `log`, `title`, `labels`, `size`, `keep`, `to` or the end of the " \
     "statement"
 
-/* Of a run. */
+/* The options of a run, for messages. */
 #define RUN_OPTIONS "`tol`, `digits`, `method`, `with`, `constraints`"
 
 typedef struct {
@@ -62,7 +62,7 @@ row_is_behind(const char *before, const qdot_usage_node *first, const qdot_usage
             (before[n] == ' ' && sign != NULL && strcmp(before + n + 1, sign->text) == 0));
 }
 
-/* Add the nodes that may come first at `node`. */
+/* Add all nodes that may come next at `node`. */
 static void
 expected_collect(qdot_expected *list, int node, bool taken)
 {
@@ -96,7 +96,7 @@ qdot_expected_add(qdot_expected *list, int node, uint64_t taken)
         expected_collect(list, at->next, true);
 }
 
-/* The first node of that kind, by the order of the usage; NULL: none. */
+/* The first node of that kind in the order of the usage; NULL if none. */
 static const qdot_usage_node *
 expected_first(const qdot_expected *list, int kind)
 {
@@ -109,7 +109,7 @@ expected_first(const qdot_expected *list, int kind)
     return first >= 0 ? &list->usage->node[first] : NULL;
 }
 
-/* Whether a node that is listed before has the word too. */
+/* Whether an earlier node of the list has the same word. */
 static bool
 is_said(const qdot_expected *list, int node)
 {
@@ -139,7 +139,7 @@ list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                                    i == 0 ? "" : i + 1 < n ? ", " : " or ", word[i]);
 }
 
-/* The row for words or signs of which `first` is the first; NULL: none. */
+/* The row of expected.def for expected words or signs that begin with `first`; NULL if none. */
 static const expected_row *
 expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const qdot_usage_node *sign)
 {
@@ -190,7 +190,7 @@ qdot_expected_clause(const char *statement, const char *word)
     return NULL;
 }
 
-/* The hint with what it holds in place of its `%s` or `%n`. */
+/* Give the hint, with the token or earlier text inserted for `%s` or `%n`. */
 static void
 hint_give(const char *hint, const qdot_token *token, const qdot_record *r)
 {

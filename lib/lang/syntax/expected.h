@@ -26,11 +26,12 @@ typedef struct {
 
 /* Add what may come at that node of the usage. */
 void qdot_expected_add(qdot_expected *list, int node, uint64_t taken);
-/* The words behind "expected", as "`at`, `mass` or the end", into what; returns a hint that goes with them, or NULL. */
+/* Write the words after "expected", such as "`at`, `mass` or the end", to what; returns a fitting
+ * hint, or NULL. */
 const char *qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT]);
-/* What to say at the end where the clause of that word is missing; NULL: nothing better than that it is. */
+/* The message at the end of a statement in which the clause of that word is missing; NULL: the general one. */
 const char *qdot_expected_clause(const char *statement, const char *word);
-/* Whether the token is a word that a row of expected.def refuses there; then that is the failure. */
+/* Whether a row of expected.def refuses the token here; the failure is then set. */
 bool qdot_expected_refuses(const qdot_expected *list, const qdot_record *r);
 
 #endif

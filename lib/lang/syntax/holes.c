@@ -1,4 +1,4 @@
-/* holes.c -- what the holes of usage texts take. */
+/* holes.c -- the table of what the holes of usage texts accept. */
 #include "lang/syntax/holes.h"
 
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 #ifndef QDOT_LANG_HOLES_H
 #define QDOT_LANG_HOLES_H
 
-/* How the tokens of a hole are read; what they mean is asked when the statement is carried out. */
+/* How the tokens of a hole are parsed; their meaning is evaluated when the statement is carried out. */
 typedef enum {
     QDOT_HOLE_SIDE,       /* an expression up to a relation, `and`, `or` */
     QDOT_HOLE_VALUE,      /* an expression, with these */
@@ -32,7 +32,7 @@ typedef struct {
     const char *expected; /* what belongs there, in words */
 } qdot_hole;
 
-/* The row of a hole of that statement, behind that word of its usage; every hole has one. */
+/* The row of a hole of that statement, after that word of its usage; every hole has one. */
 int qdot_hole_find(const char *statement, const char *before, const char *text);
 const qdot_hole *qdot_hole_at(int row);
 

@@ -29,7 +29,7 @@ typedef struct {
 
 /* --- places -------------------------------------------------------------------------- */
 
-/* Whatever may come at the node. */
+/* Add everything that may come at the node to the current positions. */
 static qdot_status
 match_add_place(matcher *m, int node, uint32_t from, uint64_t taken)
 {
@@ -59,7 +59,7 @@ node_class(const qdot_usage_node *node)
     return qdot_hole_at(node->hole)->class;
 }
 
-/* Whether the token is that word or sign. */
+/* Whether the token is the word or sign of the node. */
 static bool
 node_is_token(const qdot_usage_node *node, const qdot_token *token)
 {
@@ -67,7 +67,7 @@ node_is_token(const qdot_usage_node *node, const qdot_token *token)
            (node->kind == QDOT_USAGE_SIGN && qdot_token_is(token, node->text));
 }
 
-/* Whether a sign or word that may follow the node is the token. */
+/* Whether the token is a sign or word that may come at the node. */
 static bool
 leads_to(const qdot_usage *u, int node, const qdot_token *token)
 {
@@ -78,7 +78,7 @@ leads_to(const qdot_usage *u, int node, const qdot_token *token)
     return leads_to(u, at->next, token) || (at->other >= 0 && leads_to(u, at->other, token));
 }
 
-/* The token behind the name that begins at t, with its brackets. */
+/* The token after the name that begins at t, including its index. */
 static const qdot_token *
 behind_name(const qdot_token *t)
 {
@@ -111,7 +111,7 @@ read_expression(matcher *m, qdot_parse_extent extent, qdot_filled *part)
     return status;
 }
 
-/* name, name[i, j], with primes if it is a coordinate */
+/* Read name or name[i, j], with primes if it is a coordinate. */
 static qdot_status
 read_name(matcher *m, const qdot_hole *hole, qdot_filled *part)
 {
@@ -141,7 +141,7 @@ is_relation(const qdot_token *t)
     return t->kind == QDOT_TOKEN_OPERATOR && strchr("<>", t->text[0]) != NULL;
 }
 
-/* Whether the name is declared, or stands in the statement already. */
+/* Whether the name is declared, or was given earlier in the statement. */
 static bool
 is_declared(const matcher *m, const char *name)
 {
@@ -214,7 +214,7 @@ tell_unknown(matcher *m, const qdot_filled *part)
                : QDOT_OK;
 }
 
-/* SIDE = SIDE, or an equation by its name; of a comparison any relation */
+/* Read SIDE = SIDE, or the name of an equation; for a comparison any relation. */
 static qdot_status
 read_equation(matcher *m, const qdot_usage_node *node, qdot_filled *part)
 {
@@ -233,7 +233,7 @@ read_equation(matcher *m, const qdot_usage_node *node, qdot_filled *part)
     return qdot_cursor_expected(c, comparison ? "`==` and the other side" : "`=` and the other side");
 }
 
-/* SIDE = SIDE, or `returns after SIDE` */
+/* Read SIDE = SIDE, or `returns after SIDE`. */
 static qdot_status
 read_one_condition(matcher *m, const qdot_hole *hole, qdot_filled *part)
 {
@@ -252,7 +252,7 @@ read_one_condition(matcher *m, const qdot_hole *hole, qdot_filled *part)
     return read_expression(m, QDOT_PARSE_SIDE, part);
 }
 
-/* (SIDE, SIDE): as many as the usage names */
+/* Read (SIDE, SIDE, ...) with as many components as the usage names. */
 static qdot_status
 read_tuple(matcher *m, const char *names, qdot_filled *part)
 {
@@ -289,7 +289,7 @@ read_call(matcher *m, const qdot_hole *hole, qdot_filled *part)
     return status;
 }
 
-/* An expression in which the arguments of the call before it hide other names. */
+/* Read an expression in which the arguments of the call before it hide other names. */
 static qdot_status
 read_body(matcher *m, qdot_filled *part)
 {
@@ -327,7 +327,7 @@ read_token(matcher *m, const qdot_hole *hole, qdot_token_kind kind)
     return QDOT_OK;
 }
 
-/* Whether the class can begin with the token, where others may stand too. */
+/* Whether a hole of this class can begin with the token, where several nodes are possible. */
 static bool
 class_suits(const matcher *m, const qdot_usage_node *node)
 {
@@ -346,7 +346,7 @@ class_suits(const matcher *m, const qdot_usage_node *node)
     }
 }
 
-/* Whether `to "FILE"`, which comes behind the expression or the name of the hole, stands in its place. */
+/* Whether `to "FILE"`, which should follow the value or name of the hole, is in its place. */
 static bool
 is_file_in_place(const matcher *m, const qdot_usage_node *node)
 {
@@ -393,7 +393,7 @@ read_hole(matcher *m, const qdot_usage_node *node, qdot_filled *part)
 
 /* --- which hole ---------------------------------------------------------------------- */
 
-/* The hole to be read at the token; NULL: none may stand there. */
+/* The hole to be read at the token; NULL: none is possible here. */
 static const qdot_usage_node *
 hole_choose(const matcher *m)
 {
@@ -418,7 +418,7 @@ hole_choose(const matcher *m)
 
 /* --- the statement ------------------------------------------------------------------- */
 
-/* Keep the part and go on from the places whose node it may be: the token, or a hole of that class. */
+/* Record the part, and advance from the positions whose node matches it: the token, or a hole of that class. */
 static qdot_status
 go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
 {
@@ -438,7 +438,7 @@ go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
     return QDOT_OK;
 }
 
-/* Whether the usage has that word, which is no name of the session. */
+/* Whether the token is a word of the usage and not a name of the session. */
 static bool
 is_usage_word(const matcher *m, const qdot_token *t)
 {
@@ -448,7 +448,8 @@ is_usage_word(const matcher *m, const qdot_token *t)
     return false;
 }
 
-/* Whether a factor may go on at the token: a value stands before it, and neither is a word of the usage. */
+/* Whether the token may be a factor whose `*` is missing: a value precedes it, and neither is a
+ * word of the usage. */
 static bool
 may_be_factor(const matcher *m)
 {
@@ -470,7 +471,7 @@ may_be_factor(const matcher *m)
     }
 }
 
-/* Whether what was told last is that a product lacks its sign. */
+/* Whether the last error reports a product without `*`. */
 static bool
 tells_product(void)
 {
@@ -478,7 +479,7 @@ tells_product(void)
            strncmp(qdot_last_error()->hint, "a product ", 10) == 0;
 }
 
-/* Fail at the token: nothing of the usage fits it. */
+/* Fail at the token: nothing in the usage fits it. */
 static qdot_status
 fail_at_token(matcher *m)
 {
@@ -572,7 +573,7 @@ match_token(matcher *m, bool *end)
     return go_on(m, &part, hole);
 }
 
-/* The first clause that must be there and is not among `taken`; NULL: none is missing. */
+/* The first required clause that is not among those `taken`; NULL: none is missing. */
 static const qdot_usage_node *
 clause_missing(const qdot_usage *u, uint64_t taken)
 {
@@ -582,7 +583,7 @@ clause_missing(const qdot_usage *u, uint64_t taken)
     return NULL;
 }
 
-/* The parts are the nodes by which the end was reached. */
+/* Assign to the parts the nodes through which the end was reached. */
 static qdot_status
 trace_back(matcher *m)
 {
@@ -605,7 +606,7 @@ trace_back(matcher *m)
     return qdot_hint("%s", m->r->row->form != NULL ? m->r->row->form : m->r->row->usage);
 }
 
-/* Read up to the end, from what may come first. */
+/* Read tokens up to the end of the statement. */
 static qdot_status
 match_all(matcher *m, qdot_status status)
 {

@@ -1,4 +1,4 @@
-/* record.c -- a statement as it was read: its words and holes, and the values of these. */
+/* record.c -- a parsed statement: its words and holes, and the values of the holes. */
 #include "lang/syntax/record.h"
 
 #include <string.h>
@@ -205,7 +205,7 @@ qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k, qdot_bound 
     return QDOT_OK;
 }
 
-/* The n values that the code [0, at) leaves, as a list. */
+/* Evaluate the code [0, at), which leaves n values, as a list. */
 static qdot_status
 evaluate_as_list(qdot_record *r, const qdot_compiled *whole, size_t at, uint32_t n, qdot_expr *list)
 {
@@ -223,7 +223,7 @@ evaluate_as_list(qdot_record *r, const qdot_compiled *whole, size_t at, uint32_t
     return status;
 }
 
-/* The same of the name that the code [0, at] is, with its indices before it. */
+/* Spell the name that the code [0, at] stands for, whose indices come before it. */
 static qdot_status
 spell_code(qdot_record *r, const qdot_compiled *whole, size_t at, const char **name)
 {

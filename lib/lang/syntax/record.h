@@ -23,7 +23,7 @@
 
 enum { QDOT_RECORD_INDICES = 8 }; /* the most of a bare name */
 
-/* A word, a sign or a hole that was filled. */
+/* A word, a sign or a filled hole of the statement. */
 typedef struct {
     const qdot_usage_node *node;
     const qdot_token *from, *to; /* its tokens */
@@ -56,43 +56,43 @@ qdot_record qdot_record_alone(const qdot_cursor *c, const qdot_statement *row);
 
 /* --- what was read ------------------------------------------------------------------- */
 
-/* The first of these; NULL: it is not there. before or text NULL: any. */
+/* The first such word or hole; NULL if there is none. before or text NULL: any. */
 const qdot_filled *qdot_record_word(const qdot_record *r, const char *word);
 const qdot_filled *qdot_record_hole(const qdot_record *r, const char *before, const char *text);
-/* The next hole behind `part` of that name, of a list; NULL: there is none. */
+/* The next hole of that name after `part`, as in a list; NULL if there is none. */
 const qdot_filled *qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text);
-/* What the hole is told apart by: its name in the usage text. */
+/* Whether a part is the hole (or word) of that name in the usage. */
 bool qdot_filled_is(const qdot_filled *part, const char *text);
 
 /* --- values -------------------------------------------------------------------------- */
 
 QDOT_MUST_CHECK qdot_status qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value);
-/* The same, to be named: *over: the coordinates its entries go by, or nil. */
+/* The value for an answer with a name. *over: the coordinates by which its entries are indexed, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_record_named(qdot_record *r, const qdot_filled *part, qdot_expr *value,
                                               qdot_expr *over);
 QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_number(qdot_record *r, const qdot_filled *part, double *value);
 QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);
-/* The ends of a..b, exact. */
+/* The exact ends of a range a..b. */
 QDOT_MUST_CHECK qdot_status qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from,
                                               qdot_expr *to);
 /* The scalar k of a tuple. */
 QDOT_MUST_CHECK qdot_status qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
-/* The value of expression k: a side of a comparison. */
+/* The value of expression k of the part, one side of a comparison. */
 QDOT_MUST_CHECK qdot_status qdot_record_side(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
 /* The sides of an equation; of a motion: what a loop holds moves there. `A = B` or an equation by its
  * name, else a failure behind it. */
 QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion,
                                                  qdot_expr *left, qdot_expr *right);
-/* A name with its indices evaluated, in the source's arena. */
+/* A name with its indices evaluated, stored in the arena of the source. */
 QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
-/* Bound k of a name with bounds, as they stand there; *is: there are so many. */
+/* Bound k of a name with bounds, in the order typed; *is: there are that many. */
 QDOT_MUST_CHECK qdot_status qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k,
                                               qdot_bound *bound, bool *is);
-/* The arguments of NAME(u, v); and an expression in which they hide other names. Leave them in any case. */
+/* The arguments of NAME(u, v); an expression in which they hide other names. Leave f in any case. */
 QDOT_MUST_CHECK qdot_status qdot_record_formals(qdot_record *r, const qdot_filled *call, qdot_formals *f);
 QDOT_MUST_CHECK qdot_status qdot_record_body(qdot_record *r, const qdot_filled *part, qdot_formals *f,
                                              qdot_expr *body);
@@ -103,10 +103,10 @@ QDOT_MUST_CHECK qdot_status qdot_record_coordinate(qdot_record *r, const qdot_fi
  * more than a name. */
 QDOT_MUST_CHECK qdot_status qdot_record_bare_name(qdot_record *r, const qdot_filled *part, size_t k,
                                                   const char **name);
-/* The label in FUNCTION(LABEL, ...), a call and nothing else; *label NULL: it is none. */
+/* The label in FUNCTION(LABEL, ...), if the part is just such a call; otherwise *label is NULL. */
 QDOT_MUST_CHECK qdot_status qdot_record_label_in(qdot_record *r, const qdot_filled *part,
                                                  const char *function, const char **label);
-/* The arguments of FUNCTION(A, B), that call and nothing else, as numbers; *is: whether it is such a call. */
+/* The arguments of FUNCTION(A, B) as numbers, if the part is just such a call; *is: whether it is. */
 QDOT_MUST_CHECK qdot_status qdot_record_call_of_two(qdot_record *r, const qdot_filled *part,
                                                     const char *function, double *values, bool *is);
 /* The text of a hole in quotes. */
@@ -114,9 +114,9 @@ const char *qdot_record_text(const qdot_filled *part);
 
 /* --- failures ------------------------------------------------------------------------ */
 
-/* Put the place of an error at the begin of the part. */
+/* Set the position of an error to the beginning of the part. */
 void qdot_record_blame(qdot_record *r, const qdot_filled *part);
-/* Fail at the primes of a name that takes none; what: that follows it. */
+/* Fail at the primes of a name that cannot have any; what: what should follow the name. */
 QDOT_MUST_CHECK qdot_status qdot_record_no_prime(qdot_record *r, const qdot_filled *part,
                                                  const char *what);
 /* Fail at the token `at`: "expected WHAT, found ...". */

@@ -25,12 +25,12 @@ typedef struct {
     qdot_status (*run)(qdot_cursor *c); /* of a statement that reads its tokens itself */
 } qdot_statement;
 
-/* The row of a statement, at the begin of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
+/* Define the row of a statement, at the beginning of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
 #define QDOT_STATEMENT(word)                                                             \
     extern const qdot_statement qdot_statement_row_##word;                                   \
     const qdot_statement qdot_statement_row_##word
 
-/* Whether it can be carried out. */
+/* Whether the statement is implemented. */
 static inline bool
 qdot_statement_is_built(const qdot_statement *row)
 {

@@ -1,4 +1,4 @@
-/* usage.c -- what may stand next in a statement, by the usage text of its row. */
+/* usage.c -- compiles the usage text of a statement to an automaton that tells what may come next. */
 #include "lang/syntax/usage.h"
 
 #include <ctype.h>
@@ -40,7 +40,7 @@ add_piece(compiler *c, piece_kind kind, const char *text, size_t length)
     c->piece[c->n++].text[length] = '\0';
 }
 
-/* The end of a hole: NAME, T0..T1, Q', F(ARGUMENTS). */
+/* The end of a hole's name in the text: NAME, T0..T1, Q', F(ARGUMENTS). */
 static const char *
 end_of_hole(const char *at)
 {
@@ -114,7 +114,7 @@ emit(compiler *c, int kind, const char *text)
 
 static void compile(compiler *c, int from, int to);
 
-/* The piece behind the group that opens at i. */
+/* The index of the piece after the bracketed group that opens at i. */
 static int
 behind_group(const compiler *c, int i, int to)
 {
@@ -128,7 +128,7 @@ behind_group(const compiler *c, int i, int to)
     return i;
 }
 
-/* The first piece of that kind and text at depth 0 of [from, to); `to`: none. */
+/* The first piece of that kind and text in [from, to), outside groups; `to` if there is none. */
 static int
 piece_find(const compiler *c, int from, int to, piece_kind kind, const char *text)
 {
@@ -138,7 +138,7 @@ piece_find(const compiler *c, int from, int to, piece_kind kind, const char *tex
     return from < to ? from : to;
 }
 
-/* The jumps TO_END among the nodes [start, last] lead behind all that was compiled. */
+/* Let the jumps TO_END among the nodes [start, last] lead to the node after all compiled ones. */
 static void
 lead_to_end(compiler *c, int start, int last)
 {
@@ -169,7 +169,7 @@ compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separato
     lead_to_end(c, start, last);
 }
 
-/* What may come in any order: options and clauses. */
+/* Options and clauses that may come in any order. */
 enum { MEMBERS = 24 };
 typedef struct {
     struct {
@@ -191,7 +191,7 @@ add_member(compiler *c, members *m, int from, int to, int first)
     m->at[m->n++].first = first;
 }
 
-/* Options [a] [b] [c]; returns what is behind them. */
+/* Collect options [a] [b] [c]; returns the index after them. */
 static int
 gather_options(compiler *c, int i, int to, members *m)
 {
@@ -204,7 +204,7 @@ gather_options(compiler *c, int i, int to, members *m)
     return i;
 }
 
-/* Whether a clause `word HOLE` begins at i, no alternative of it. */
+/* Whether a clause `word HOLE` begins at i that is not an alternative of the statement. */
 static bool
 is_clause(const compiler *c, int i, int to)
 {
@@ -212,7 +212,7 @@ is_clause(const compiler *c, int i, int to)
            strcmp(c->piece[i].text, c->word) != 0;
 }
 
-/* Clauses from i on, with the options among them; i: there are less than two. */
+/* Collect the clauses from i on, with the options among them; returns i if there are less than two. */
 static int
 gather_clauses(compiler *c, int i, int to, members *m)
 {
@@ -236,7 +236,7 @@ gather_clauses(compiler *c, int i, int to, members *m)
     return clauses < 2 ? start : i;
 }
 
-/* Whether one of the options is `word HOLE` as a clause is. */
+/* Whether one of the options has the form `word HOLE`, like a clause. */
 static bool
 holds_clause(const compiler *c, const members *m)
 {
@@ -246,7 +246,7 @@ holds_clause(const compiler *c, const members *m)
     return false;
 }
 
-/* The clauses behind options: `[title TEXT] to "FILE"`. */
+/* Collect clauses that follow options, as in `[title TEXT] to "FILE"`. */
 static int
 gather_clauses_behind(compiler *c, int i, int to, members *m)
 {
@@ -261,7 +261,7 @@ gather_clauses_behind(compiler *c, int i, int to, members *m)
     return i;
 }
 
-/* The alternatives that end the clauses, [a|b|c). */
+/* Collect the alternatives [a|b|c) that end the clauses. */
 static void
 gather_tail(compiler *c, members *m)
 {
@@ -276,7 +276,7 @@ gather_tail(compiler *c, members *m)
     c->tail = c->tail_end;
 }
 
-/* The members, each at most once, in any order. */
+/* Compile members that may come in any order, each at most once. */
 static void
 compile_members(compiler *c, const members *m)
 {
@@ -309,7 +309,7 @@ compile_members(compiler *c, const members *m)
     c->failed = c->failed || c->options > 64;
 }
 
-/* The list X, Y, ... of the pieces [from, comma), which end before the last comma. */
+/* Compile the list X, Y, ... of the pieces [from, comma), which end before the last comma. */
 static void
 compile_list(compiler *c, int from, int comma)
 {
@@ -328,7 +328,7 @@ compile_list(compiler *c, int from, int comma)
         c->u->node[fork].forgets |= (uint64_t)1 << k;
 }
 
-/* Words or holes a|b|c at i; returns what is behind them. */
+/* Compile the alternatives a|b|c at i; returns the index after them. */
 static int
 compile_words(compiler *c, int i, int to)
 {
@@ -348,7 +348,7 @@ compile_words(compiler *c, int i, int to)
     return end;
 }
 
-/* Whether a word stands in [i, more) that does not begin an item of a list, as `t` in `Q = A, t = B`. */
+/* Whether [i, more) contains a word that does not begin an item of a list, as `t` in `Q = A, t = B`. */
 static bool
 item_holds_word(const compiler *c, int i, int more)
 {
@@ -359,7 +359,7 @@ item_holds_word(const compiler *c, int i, int more)
     return false;
 }
 
-/* Where the list ends that begins at i: its last comma; i: there is none. */
+/* The last comma of the list that begins at i; i if there is no list. */
 static int
 end_of_list(const compiler *c, int i, int to)
 {
@@ -371,7 +371,7 @@ end_of_list(const compiler *c, int i, int to)
     return more - 1;
 }
 
-/* What is behind the relations and other sides that are read with a hole of that class. */
+/* The index after the relations and sides that are read together with a hole of that class. */
 static int
 behind_relation(const compiler *c, int i, int to, qdot_hole_class class)
 {
@@ -387,7 +387,7 @@ behind_relation(const compiler *c, int i, int to, qdot_hole_class class)
     return i;
 }
 
-/* Whether the option at i is a hole behind the statement's word, which stands before the others: `animate [RUN]`. */
+/* Whether the option at i is a hole directly after the statement's word, which comes first: `animate [RUN]`. */
 static bool
 stands_first(const compiler *c, int i)
 {
@@ -395,7 +395,7 @@ stands_first(const compiler *c, int i)
            c->piece[i + 1].kind == HOLE;
 }
 
-/* Pieces one after the other, without alternatives. */
+/* Compile pieces in sequence, without alternatives. */
 static void
 compile_sequence(compiler *c, int i, int to)
 {
@@ -478,7 +478,7 @@ compile_tail(compiler *c, int from, int to)
     }
 }
 
-/* Alternatives that begin with the statement's word, then the others. */
+/* Compile alternatives: first those that begin with the statement's word. */
 static void
 compile(compiler *c, int from, int to)
 {
@@ -586,7 +586,7 @@ is_connective(const qdot_token *token)
            qdot_token_is_word(token, "not");
 }
 
-/* Whether a token that goes on with an operand, or follows an operator, belongs to the hole. */
+/* Whether the token continues the hole's expression: an operand that continues it, or one after an operator. */
 static bool
 continues(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
@@ -620,7 +620,7 @@ operand_ends_with(const qdot_token *token)
     return strchr("([{)]}'%", token->text[0]) != NULL;
 }
 
-/* Whether the state is before a word or sign that the token is. */
+/* Whether the next node of this state is a word or sign equal to the token. */
 static bool
 is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *token)
 {

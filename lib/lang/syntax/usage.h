@@ -34,7 +34,7 @@
 
 enum { QDOT_USAGE_NODES = 160, QDOT_USAGE_TEXT = 48, QDOT_USAGE_STATES = 96 };
 
-/* A node; `before` is the last word of the usage before it. */
+/* A node of the automaton; `before` is the word that precedes it in the usage. */
 typedef struct {
     enum {
         QDOT_USAGE_WORD,
@@ -52,7 +52,7 @@ typedef struct {
     uint64_t forgets; /* FORK: the options of an item of a list, which begins anew */
 } qdot_usage_node;
 
-/* A place in the automaton: before the node, or (inside) in the hole that it is. */
+/* A state of the automaton: before the node, or (inside) within the hole that the node is. */
 typedef struct {
     int node;
     bool inside;
@@ -71,16 +71,17 @@ typedef struct {
 /* Compile; `word` is the statement's, "" where the usage has none. answers: `to "FILE"` may follow.
  * false: too large, or no usage text; nothing may be asked then. */
 bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers);
-/* Compile without what may follow any statement. */
+/* Compile a usage without `to`, `for` and the end, which may follow any statement. */
 bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage);
 
-/* Go on by the tokens [from, to) of the statement, the first its word. Those within brackets that are closed go with the opening one. */
+/* Advance over the tokens [from, to) of the statement, the first of which is its word. Tokens
+ * inside closed brackets are skipped with the opening one. */
 void qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to);
 
 /* Whether that word of the usage may come next. */
 bool qdot_usage_takes(const qdot_usage *u, const char *word);
 
-/* Whether what was read is a whole statement. */
+/* Whether the tokens read so far are a complete statement. */
 bool qdot_usage_is_whole(const qdot_usage *u);
 
 #endif

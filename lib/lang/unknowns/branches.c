@@ -1,4 +1,4 @@
-/* branches.c -- branches as rows, and in words: where they run, where they are stable. */
+/* branches.c -- prints branches of solutions as rows, and in words: their extent and stability. */
 #include "lang/unknowns/branches.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 /* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
  * words. */
 static const double small = 1e-9, nothing = 1e-20, digits = 5e-7;
-/* Beginnings and ends of branches shorter than that have no words. */
+/* An extent below this, relative to the sizes, is not described. */
 static const double tiny = 1e-5;
 
 static const char *
@@ -118,7 +118,8 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
 
 /* --- JSON ---------------------------------------------------------------------------------- */
 
-/* p and the columns of points y, one behind the other by `stride` numbers: columns [1 + b->n_columns]. */
+/* Set the columns for p and the unknowns of points y, which are `stride` numbers apart: columns [1
+ * + b->n_columns]. */
 static void
 fill_columns(const qdot_branches *b, const double *y, size_t stride, qdot_table_column *columns)
 {
@@ -218,7 +219,8 @@ write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
     qdot_number_text(out, v, digits * fmax(fabs(v), 1e-3 * size));
 }
 
-/* The value of unknown i of points k ... end of a branch that lies furthest beyond those of its ends. */
+/* The value of unknown i at points k ... end of a branch that is farthest outside the range of its
+ * end values. */
 static double
 furthest(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
 {
@@ -238,7 +240,7 @@ furthest(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end
     return at;
 }
 
-/* `0..3.132`; `0..0.577..0` by way of `turn`, beyond both ends; one number where it stays. */
+/* Write a range: `0..3.132`; `0..0.577..0` via `turn` if it lies outside both ends; one number if constant. */
 static void
 write_range(const qdot_branches *b, size_t i, const double *from, const double *to, double turn,
             qdot_text *out)
@@ -274,7 +276,8 @@ turns(const qdot_branches *b, const qdot_branch *branch, size_t k)
     return branch->mark[k] > 0 && (p[m] - p[0]) * (p[0] - *(p - m)) < 0;
 }
 
-/* Whether the points from .. to lie together as far as words go; what lies between two bifurcations does not. */
+/* Whether the points from .. to are too close to be described; not if they lie between two
+ * different bifurcations. */
 static bool
 is_short(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t to)
 {
@@ -365,7 +368,7 @@ add_branch(const qdot_branches *b, size_t i, qdot_table *t)
     }
 }
 
-/* Whether p is the same all the way. */
+/* Whether p is constant along the branch. */
 static bool
 is_upright(const qdot_branches *b, const qdot_branch *branch)
 {
@@ -377,7 +380,7 @@ is_upright(const qdot_branches *b, const qdot_branch *branch)
     return true;
 }
 
-/* Ends that are not those of the range. */
+/* Describe ends of a branch that are not ends of the range of p. */
 static void
 say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 {
@@ -480,7 +483,7 @@ add_bifurcation(const qdot_branches *b, size_t i, qdot_table *t)
     qdot_table_add_written(t, &cell);
 }
 
-/* A table of texts: `first`, p, what is told, `last`. */
+/* Begin a table of texts with the columns `first`, p, the described unknowns, `last`. */
 static qdot_status
 begin_words(const qdot_branches *b, const char *first, const char *last, qdot_table *t)
 {
@@ -550,7 +553,7 @@ say_degenerate(const qdot_branches *b, qdot_text *out)
         qdot_text_add(out, "other branches that begin at a degenerate point are not followed\n");
 }
 
-/* Places at rest from which no branch is followed. */
+/* List equilibria from which no branch is followed. */
 static void
 say_left(const qdot_branches *b, qdot_text *out)
 {

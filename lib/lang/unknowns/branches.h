@@ -14,7 +14,7 @@
 #include "lang/session/session.h"
 #include "sim/branches/continuation.h"
 
-/* What was followed. */
+/* The branches found by `continue`, with the names of their unknowns. */
 typedef struct {
     const qdot_continuation *found;
     const char *const *names; /* [found->width] of the unknowns, p, and what stands behind it */
@@ -23,13 +23,13 @@ typedef struct {
     bool orbits;
 } qdot_branches;
 
-/* Columns of the table of branches before and behind these: branch, p; stable, bifurcation. */
+/* Columns of the table of branches before these (branch, p) and after them (stable, bifurcation). */
 enum { QDOT_BRANCH_BEFORE = 2, QDOT_BRANCH_BEHIND = 2 };
 
-/* Keep both tables: `name`, and `marks`. */
+/* Keep both tables: of branches under `name`, of bifurcations under `marks`. */
 QDOT_MUST_CHECK qdot_status qdot_branches_keep(qdot_session *session, const qdot_branches *b,
                                                const char *name, const char *marks);
-/* Tell what was found. */
+/* Print the branches that were found. */
 QDOT_MUST_CHECK qdot_status qdot_branches_answer(qdot_session *session, const qdot_branches *b);
 
 #endif

@@ -1,4 +1,4 @@
-/* continue-orbit.c -- branches of periodic orbits, from the latest run that is one. */
+/* continue-orbit.c -- branches of periodic orbits, starting from the latest run that is one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 enum { NAME_ROOM = 120 };
 
-/* Relative: periods that are one. */
+/* Periods that differ by less than this, relatively, are equal. */
 static const double same = 1e-9;
 
 typedef struct {
@@ -54,7 +54,7 @@ orbit_read_start(job *j, qdot_run *run)
     return QDOT_OK;
 }
 
-/* Values with the parameter free; its own. */
+/* Parameter values of the family; the continued parameter keeps its symbol, its number is stored apart. */
 static qdot_status
 read_values(job *j, const qdot_conditions *conditions)
 {
@@ -105,7 +105,7 @@ find_first(job *j)
 
 /* --- rows ---------------------------------------------------------------------------------------- */
 
-/* Whether there is more than one period. */
+/* Whether the period differs between points of the branches. */
 static bool
 period_changes(const job *j)
 {
@@ -161,7 +161,7 @@ name_columns(job *j, qdot_branches *b)
     return QDOT_OK;
 }
 
-/* Ctrl-C is heard: what is known so far is told, for which names are made. */
+/* After Ctrl-C: clear the interruption, so that the results so far can be printed. */
 static qdot_status
 hear(qdot_session *session)
 {

@@ -19,9 +19,9 @@ typedef struct {
     char *own;
 } qdot_continue_wish;
 
-/* Follow the latest run that ends where it began. */
+/* Follow the latest run that is a periodic orbit. */
 QDOT_MUST_CHECK qdot_status qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w);
-/* Keep and tell what was found, as far as it goes. */
+/* Keep and print what was found, even if it is incomplete. */
 QDOT_MUST_CHECK qdot_status qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w,
                                                    const qdot_branches *b, qdot_status status);
 

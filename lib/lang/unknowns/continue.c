@@ -1,4 +1,4 @@
-/* continue.c -- the statement `continue`: what it reads, and branches of equilibria. */
+/* continue.c -- the statement `continue`: reads its operands; branches of equilibria. */
 #include <math.h>
 #include <string.h>
 
@@ -47,7 +47,7 @@ parameter_find(qdot_record *r, qdot_continue_wish *w)
     return qdot_set_find_symbol(r, part, &w->parameter);
 }
 
-/* The range lies within the parameter's domain; its ends may be ends of that, too. */
+/* Check that the range lies within the parameter's domain; it may reach the ends of that. */
 static qdot_status
 check_range(qdot_cursor *c, const qdot_continue_wish *w)
 {
@@ -148,7 +148,8 @@ qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const
     return status;
 }
 
-/* Rests at the corner of a potential: `equilibria` lists them, no curve follows them. */
+/* Notice of equilibria at a corner of the potential: `equilibria` lists them, but no curve can be
+ * followed from them. */
 static qdot_status
 tell_corners(qdot_session *session, qdot_equilibrium_curve *curve)
 {
@@ -211,7 +212,7 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
     return status;
 }
 
-/* The parameter stands for itself, so that values made of it follow. */
+/* Set the parameter to its own symbol, so that values depending on it vary with it. */
 static void
 free_parameter(qdot_session *session, qdot_expr parameter)
 {

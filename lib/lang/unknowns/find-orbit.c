@@ -1,4 +1,4 @@
-/* find-orbit.c -- the guess of a periodic orbit, moved to it by multiple shooting. */
+/* find-orbit.c -- improves the guess of a periodic orbit by multiple shooting. */
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/symbol.h"

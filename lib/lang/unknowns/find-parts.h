@@ -31,10 +31,10 @@ typedef struct {
     qdot_expr latest_from, latest_to;
 } qdot_find;
 
-/* Search, and tell what was found. */
+/* Search for a solution, and print it. */
 QDOT_MUST_CHECK qdot_status qdot_find_carry_out(qdot_find *f);
 
-/* How many numbers must vanish. */
+/* The number of residuals that must vanish. */
 size_t qdot_find_count(const qdot_find *f);
 /* The limits of the run for unknowns that are in force; they may hold unknowns. QDOT_EINVAL: nothing says how
  * long it is. */
@@ -44,7 +44,7 @@ QDOT_MUST_CHECK qdot_status qdot_find_limits(const qdot_find *f, qdot_expr *from
  * (sim/study/shooting.h); as it was where these do not, where it does not lead to one, or where more than a return
  * is asked for. */
 QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r);
-/* What must vanish [qdot_find_count], of the latest run. */
+/* The residuals [qdot_find_count] as expressions of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
                                                 qdot_expr *e);
 
@@ -52,14 +52,14 @@ QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr fr
  * large a coordinate or velocity becomes. */
 QDOT_MUST_CHECK qdot_status qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *size);
 
-/* What the runs of a search have cost, from {0}. */
+/* The cost of the runs made by a search so far. Starts as {0}. */
 typedef struct {
     double first, length, spent; /* work and length of the first one; of all */
 } qdot_find_budget;
 
-/* QDOT_EFAILED: a run of that length is too much. */
+/* QDOT_EFAILED if a further run of that length would exceed the budget. */
 QDOT_MUST_CHECK qdot_status qdot_find_spend(qdot_find_budget *b, double length);
-/* As many runs were made as that one. */
+/* Record the cost of that many runs like this one. */
 void qdot_find_spent(qdot_find_budget *b, qdot_run *run, size_t runs);
 
 #endif

@@ -1,4 +1,4 @@
-/* find-read.c -- the statement `find`: its unknowns, its conditions, the run that they are of. */
+/* find-read.c -- the statement `find`: reads its unknowns, its conditions and its run. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -47,7 +47,7 @@ find_free(qdot_find *f)
 
 /* --- unknowns ---------------------------------------------------------------------------- */
 
-/* Whether the name stands behind `such`. */
+/* Whether the name occurs after `such`. */
 static bool
 such_names(const qdot_record *r, const char *name)
 {
@@ -59,7 +59,7 @@ such_names(const qdot_record *r, const char *name)
     return false;
 }
 
-/* A name that is declared nowhere, and used by the conditions: bound to a symbol of its own. */
+/* An undeclared name that the conditions use as an unknown: bind it to a new symbol. */
 static qdot_status
 own_find(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_name *x)
 {
@@ -101,7 +101,7 @@ bound_find(qdot_find *f, const qdot_compiled *program, double *value)
                             : qdot_fail(QDOT_EDOMAIN, "a guess is a finite number");
 }
 
-/* `A..B`, or `GUESS`. */
+/* Read the bounds `A..B`, or the `GUESS`. */
 static qdot_status
 guess_find(qdot_find *f, const qdot_filled *part)
 {
@@ -143,7 +143,7 @@ unknowns_find(qdot_find *f)
 
 /* --- conditions ---------------------------------------------------------------------------- */
 
-/* Those of one hole, joined by `and`. */
+/* Read the conditions of one hole, joined by `and`. */
 static qdot_status
 conditions_of(qdot_find *f, const qdot_filled *part)
 {
@@ -174,7 +174,7 @@ conditions_find(qdot_find *f)
     return QDOT_OK;
 }
 
-/* The run of the conditions is the latest, where that is of this scene. */
+/* Use the latest run for the conditions, if it belongs to this scene. */
 static qdot_status
 latest_find(qdot_find *f)
 {
@@ -200,7 +200,7 @@ latest_find(qdot_find *f)
     return QDOT_OK;
 }
 
-/* Behind the conditions: `run T0..T1 [options]`, `as NAME`. */
+/* Take `run T0..T1 [options]` and `as NAME`, after the conditions. */
 static qdot_status
 run_find(qdot_find *f)
 {
@@ -219,14 +219,15 @@ run_find(qdot_find *f)
 
 /* --- limits ---------------------------------------------------------------------------------- */
 
-/* T of `returns after T`. */
+/* The period T of `returns after T`. */
 static qdot_status
 period_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
 {
     return qdot_compiled_scalar(f->c, x->side[0], T);
 }
 
-/* A period that is an unknown by itself stays above a quarter of its guess: after no time all returns. */
+/* Bound a period that is itself an unknown by a quarter of its guess from below: with T = 0
+ * everything returns. */
 static qdot_status
 bound_period(qdot_find *f)
 {
@@ -338,7 +339,7 @@ qdot_find_count(const qdot_find *f)
     return n;
 }
 
-/* q and q' after T less what they were. */
+/* The residuals: q and q' after T minus their initial values. */
 static qdot_status
 return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr from,
                  qdot_expr *e)
@@ -375,7 +376,8 @@ equation_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *e)
             return qdot_fail(QDOT_ETYPE, "a condition is between numbers");
         QDOT_TRY(qdot_trial_at_end(session, &side[i]));
     }
-    /* the zero of u^9 is known to no more than the ninth root of a rounding, and u^1001 underflows beside it */
+    /* replace u^9 by u: its zero would be known only to the ninth root of a rounding error, and
+     * u^1001 underflows near it */
     *e = qdot_sub(session->pool, side[0], side[1]);
     touching = qdot_touching_zeros(session->pool, *e);
     *e = qdot_simple_zeros(session->pool, touching != QDOT_NIL ? touching : *e);

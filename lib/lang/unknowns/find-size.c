@@ -1,4 +1,4 @@
-/* find-size.c -- what the conditions of `find` are differences of, and what its runs may cost. */
+/* find-size.c -- the scales of the residuals of `find`, and the cost allowed for its runs. */
 #include <math.h>
 
 #include "expr/node.h"
@@ -7,7 +7,7 @@
 #include "lang/unknowns/find-parts.h"
 #include "sim/study/sizes.h"
 
-/* The sum of the sizes of its terms. */
+/* The sum of the magnitudes of the terms of e. */
 static qdot_status
 size_of_terms(qdot_session *session, qdot_expr e, double *size)
 {
@@ -52,7 +52,7 @@ qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *s
     return QDOT_OK;
 }
 
-/* A search may cost so many times its first run, and at least this (ode/meter.h). */
+/* A search may cost this many times its first run, and at least this much (ns, ode/meter.h). */
 static const double most_runs = 1500, least_budget = 4e9;
 /* What an event or a switch costs beside the steps that the meter counts: that it is searched for, carried out and
  * kept, in the run and the second ones. Runs with bounces without number cost little else. */

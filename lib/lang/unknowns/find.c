@@ -1,4 +1,4 @@
-/* find.c -- the search of `find`: unknowns for which conditions on a run hold. */
+/* find.c -- the search of `find`: values of unknowns for which conditions on a run hold. */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 
-/* A motion of a family that goes less far than so much of the guess's is none. */
+/* A motion whose extent is below this part of the guess's counts as shrunk to rest. */
 static const double shrunk = 0.1;
 
 /* Constraints have moved a value of the start by more than rounding. */
@@ -80,7 +80,8 @@ open_start(const qdot_find *f, bool velocities)
     return QDOT_OK;
 }
 
-/* Those values as the run of the solution has them hold, too, from now on: numbers [start_open.n]. */
+/* The values of open start variables in the solution's run, which are kept after `find`: numbers
+ * [start_open.n]. */
 static qdot_status
 find_read_start(const hunt *h, double *numbers)
 {
@@ -157,7 +158,7 @@ find_length(const hunt *h, double *length)
     return QDOT_OK;
 }
 
-/* If no free initial value can satisfy the constraints, all of them move: the run is not that of the unknowns. */
+/* Fail if the constraints moved the unknowns: no free start value could satisfy them. */
 static qdot_status
 check_start(const hunt *h)
 {
@@ -178,7 +179,7 @@ check_start(const hunt *h)
     return QDOT_OK;
 }
 
-/* Open the trial at u and read what must vanish. */
+/* Make the run for the unknowns u, and evaluate the residuals. */
 static qdot_status
 open_at(hunt *h, const double *u)
 {
@@ -250,7 +251,7 @@ has_shrunk(const hunt *h, double reach, size_t rank)
     return reach <= shrunk * h->reach && rank < h->f->unknowns.n && h->rank < h->f->unknowns.n;
 }
 
-/* An orbit, if one was looked for: a motion that rests returns after any time. */
+/* Whether the solution is a periodic orbit if one was wanted; a motion at rest also returns after any time. */
 static qdot_status
 is_orbit(const double *u, size_t rank, bool *is, void *user)
 {
@@ -298,7 +299,7 @@ hint_at_more(const hunt *h)
                            name);
 }
 
-/* Which unknown has the largest error beside its value. */
+/* The unknown with the largest relative error. */
 static size_t
 least_known(const hunt *h, const qdot_zero_result *r)
 {
@@ -310,7 +311,7 @@ least_known(const hunt *h, const qdot_zero_result *r)
     return worst;
 }
 
-/* Why there is no answer, as an error at the conditions. */
+/* Report why no solution was found, as an error at the conditions. */
 static qdot_status
 find_refuse(const hunt *h, const qdot_zero_result *r)
 {
@@ -363,7 +364,7 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
     return qdot_last_error()->status;
 }
 
-/* The solution is one of many, or may be one of several between bounds: a notice. */
+/* Notice that the solution is one of a family, or that others may exist between the bounds. */
 static qdot_status
 tell_others(const hunt *h, const qdot_zero_result *r)
 {
@@ -392,7 +393,7 @@ write_time(qdot_session *session, qdot_expr time, qdot_text *out)
     return QDOT_OK;
 }
 
-/* What `run` would have to say. */
+/* Write the operands with which `run` would repeat the run. */
 static qdot_status
 write_run(const qdot_find *f, qdot_expr from, qdot_expr to, qdot_text *out)
 {
@@ -408,7 +409,7 @@ write_run(const qdot_find *f, qdot_expr from, qdot_expr to, qdot_text *out)
 
 /* --- afterwards ------------------------------------------------------------------------------ */
 
-/* Keep the run of the solution as the latest one. */
+/* Keep the run of the solution as the latest run. */
 static qdot_status
 keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
 {
@@ -435,7 +436,7 @@ keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
     return status;
 }
 
-/* A run without length returns whatever its start is. */
+/* Refuse a run of duration 0, which returns to any start. */
 static qdot_status
 check_length(const hunt *h)
 {
@@ -448,7 +449,7 @@ check_length(const hunt *h)
     return qdot_fail(QDOT_EFAILED, "no orbit found: the time until the return went to 0");
 }
 
-/* An orbit's run ends where it returns, whatever end was said: a notice. */
+/* Notice if the run of an orbit ends at its period, not at the end that was given. */
 static qdot_status
 tell_end(const hunt *h)
 {
@@ -478,7 +479,7 @@ refuse_shrunk(const hunt *h, const qdot_zero_result *r)
     return qdot_hint("another guess, or other values of the start that stay as they are");
 }
 
-/* The values found hold from now on, of names that are declared; the run is the latest. */
+/* Set declared unknowns to the values found; the solution's run becomes the latest run. */
 static qdot_status
 conclude(hunt *h, const qdot_zero_result *r)
 {
@@ -569,7 +570,8 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
     return QDOT_OK;
 }
 
-/* The search that came to nothing, once more from where the guess comes to. r is as it was where that does not help. */
+/* After a failed search try again from the time at which the guess returns most closely; r is
+ * unchanged if that does not help. */
 static qdot_status
 search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
 {

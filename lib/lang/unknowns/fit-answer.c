@@ -11,10 +11,10 @@
 #include "lang/answer/table-answer.h"
 #include "lang/unknowns/fit-parts.h"
 
-/* Of a standard error, the numerical error that is no longer small beside it. */
+/* A numerical error counts as large if it exceeds this part of a standard error. */
 static const double small = 0.1;
 
-/* The probability of a chi2 below which it is told. */
+/* A probability of chi^2 below this is mentioned. */
 static const double improbable = 1e-3;
 
 /* --- numbers ------------------------------------------------------------------------------------ */
@@ -42,7 +42,7 @@ write_value(double value, double error, qdot_text *out)
     qdot_text_double(out, error, 2);
 }
 
-/* What 95 % of intervals hold the truth within, in standard errors. */
+/* The half width of a 95 % confidence interval in standard errors. */
 static double
 interval(const qdot_fit *f)
 {

@@ -1,4 +1,4 @@
-/* fit-data.c -- the rows of a file as times, values, standard errors. */
+/* fit-data.c -- reads the rows of a file as times, values and standard errors. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "lang/session/bind.h"
 #include "lang/unknowns/fit-parts.h"
 
-/* A row's time, and the row: in order of both. */
+/* The time of a row and its number, for sorting. */
 typedef struct {
     double t;
     size_t row;
@@ -36,14 +36,14 @@ check_columns(qdot_cursor *c, const qdot_fit *f, const qdot_csv *csv)
                : qdot_hint("one expression for each column of the file");
 }
 
-/* Whether it is the time, a coordinate or a velocity. */
+/* Whether the name is the time, a coordinate or a velocity of the scene. */
 static bool
 is_of_motion(const qdot_fit *f, const char *name)
 {
     const qdot_scene *s = f->session->scene;
 
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        /* by no symbol of the velocity: after Ctrl-C there is none */
+        /* compare names, not symbols of velocities, which cannot be made after Ctrl-C */
         const char *own = qdot_expr_symbol(s->pool, s->coordinates.at[i])->name;
         const size_t n = strlen(own);
 
@@ -53,7 +53,7 @@ is_of_motion(const qdot_fit *f, const char *name)
     return strcmp(name, "t") == 0;
 }
 
-/* No column that the file calls by a name of the motion is taken for another of these. */
+/* Refuse a column that the file names as one variable of the motion if it is to be read as another. */
 static qdot_status
 check_names(const qdot_fit *f, const qdot_csv *csv)
 {
@@ -72,7 +72,7 @@ check_names(const qdot_fit *f, const qdot_csv *csv)
     return QDOT_OK;
 }
 
-/* The time, values and standard errors of a row. */
+/* Read the time, values and standard errors of a row. */
 static qdot_status
 take_row(qdot_fit *f, const qdot_csv *csv, size_t row, size_t to)
 {
@@ -102,7 +102,7 @@ take_row(qdot_fit *f, const qdot_csv *csv, size_t row, size_t to)
     return QDOT_OK;
 }
 
-/* No time lies before the start. */
+/* Check that no time lies before the start of the run. */
 static qdot_status
 check_times(const qdot_fit *f, const qdot_csv *csv)
 {

@@ -17,7 +17,7 @@
  * its error: that with slopes goes another way. */
 static const double apart = 1e-6;
 
-/* Members of a direction that is not determined. */
+/* Parameters with a smaller share of an undetermined direction are not listed. */
 static const double least_part = 1e-3;
 
 typedef struct {
@@ -79,7 +79,7 @@ make_request(model *x)
 
 /* --- the search ------------------------------------------------------------------------------- */
 
-/* Numbers and slopes over their standard errors. A parameter keeps its declared domain. */
+/* Residuals and derivatives in units of the standard errors. Parameters must stay in their declared domains. */
 static qdot_status
 fit_evaluate(const double *u, double *out, double *J, void *user)
 {
@@ -124,7 +124,7 @@ fit_search(model *x)
 
 /* --- what is not found ----------------------------------------------------------------------- */
 
-/* "m by 1 % with k by -2 %": a step along what is not determined. */
+/* Write an undetermined direction: "m by 1 % with k by -2 %". */
 static void
 say_direction(const qdot_fit *f, qdot_text *text)
 {
@@ -204,7 +204,7 @@ check_converged(const qdot_fit *f)
 
 /* --- what is known of it ---------------------------------------------------------------------- */
 
-/* QDOT_EFAILED where a time lies beyond the horizon of the run: it has no digits there. */
+/* QDOT_EFAILED if a data point lies beyond the time up to which the run is known. */
 static qdot_status
 check_horizon(const qdot_fit *f, const qdot_run *run)
 {
@@ -222,7 +222,7 @@ check_horizon(const qdot_fit *f, const qdot_run *run)
     return qdot_hint("leave out the rows with t > %.6g", report->horizon);
 }
 
-/* The numbers along an ordinary run at u, with their errors [rows x m]. */
+/* The values along an ordinary run with the parameters u, with their errors [rows x m]. */
 static qdot_status
 run_at_end(model *x, double *errors)
 {
@@ -260,7 +260,8 @@ run_at_end(model *x, double *errors)
     return status;
 }
 
-/* du = C J^T df: its bound from errors of the numbers; and that both runs are one. */
+/* Bound the numerical error of the parameters, du = C J^T df; check that the variational and the
+ * ordinary run agree. */
 static qdot_status
 fit_compare_runs(qdot_fit *f, const double *at, const double *errors)
 {

@@ -16,7 +16,7 @@
 #include "num/least-squares.h"
 #include "table/csv-read.h"
 
-/* What a column of the file is. */
+/* The meaning of a column of the file. */
 typedef enum { QDOT_FIT_TIME, QDOT_FIT_VALUE, QDOT_FIT_SIGMA, QDOT_FIT_SKIP } qdot_fit_kind;
 
 typedef struct {
@@ -41,7 +41,7 @@ typedef struct {
     const char *method, *name; /* name: of the residuals */
     const qdot_token *method_at;
 
-    /* the data, sorted by time */
+    /* the data, sorted by time: */
     size_t rows;
     double *t, *y, *sigma; /* [rows], [rows x m] */
 
@@ -64,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_fit_read_data(qdot_cursor *c, qdot_fit *f);
  * unknown. */
 QDOT_MUST_CHECK qdot_status qdot_fit_find(qdot_fit *f);
 
-/* Take u as the session's values: decimals that are as near as 1/1000 of their errors. */
+/* Set the session's parameters to u, rounded to 1/1000 of their errors. */
 QDOT_MUST_CHECK qdot_status qdot_fit_set(qdot_fit *f);
 
 /* The answers; the residuals as a table of the session. */

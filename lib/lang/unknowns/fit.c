@@ -47,7 +47,7 @@ fit_free(qdot_fit *f)
 
 /* --- columns ------------------------------------------------------------------------------- */
 
-/* Whether the column is that word alone. */
+/* Whether the column is just that word. */
 static bool
 is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
 {
@@ -124,7 +124,7 @@ column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_colum
     return QDOT_OK;
 }
 
-/* The holes behind the colon. */
+/* Read the columns after the colon. */
 static qdot_status
 columns_find(qdot_record *r, qdot_fit *f)
 {
@@ -161,7 +161,7 @@ value_column(const qdot_fit *f, size_t k)
     return NULL;
 }
 
-/* `sigma S`, or one for each value. */
+/* Read `sigma S`, or one value for each column. */
 static qdot_status
 sigma_find(qdot_record *r, qdot_fit *f)
 {
@@ -259,7 +259,7 @@ fit_find_all(qdot_record *r, qdot_fit *f)
 
 /* --- what is set ------------------------------------------------------------------------------------ */
 
-/* x as a decimal, to 1/1000 of its error. */
+/* x as a decimal, rounded to 1/1000 of its error. */
 static qdot_expr
 decimal(qdot_pool *pool, double x, double error)
 {

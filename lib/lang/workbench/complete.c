@@ -1,4 +1,4 @@
-/* complete.c -- completions at a place of a text. */
+/* complete.c -- completions of the word at a position of a text. */
 #include "lang/workbench/complete.h"
 
 #include <stdlib.h>
@@ -25,7 +25,7 @@ typedef struct {
 
 /* --- words of a kind ------------------------------------------------------------------ */
 
-/* Kinds of words, as bits. */
+/* Kinds of words to offer, as bits. */
 enum {
     COORDINATES = 1 << 0,
     PARAMETERS = 1 << 1,
@@ -82,7 +82,7 @@ offer(completion *c, const char *word)
         offer_n(c, word, strlen(word));
 }
 
-/* A family by its name and the bracket. */
+/* Offer a family once, by its name and the opening bracket. */
 static void
 offer_member(completion *c, const char *name)
 {
@@ -133,7 +133,7 @@ offer_labels(completion *c, unsigned kinds)
 #undef OFFER
 }
 
-/* Words of the tables. */
+/* Offer the words of the built-in tables. */
 static void
 offer_tables(completion *c, unsigned kinds)
 {
@@ -176,7 +176,7 @@ offer_kinds(completion *c, unsigned kinds)
 
 /* --- within brackets ------------------------------------------------------------------- */
 
-/* The members of the family: what stands in their brackets, up to a comma. */
+/* Offer the indices of the members of a family, up to a comma. */
 static bool
 offer_indices(completion *c, const char *family)
 {
@@ -192,7 +192,7 @@ offer_indices(completion *c, const char *family)
     return found;
 }
 
-/* Behind `NAME[` or `NAME(...)[`: what the entries go by. */
+/* After `NAME[` or `NAME(...)[`: offer what indexes the entries. */
 static void
 complete_index(completion *c, const qdot_token *first, const qdot_token *open)
 {
@@ -227,7 +227,7 @@ complete_index(completion *c, const qdot_token *first, const qdot_token *open)
         offer_kinds(c, COORDINATES);
 }
 
-/* Behind `NAME(`: labels where the function takes one. */
+/* After `NAME(`: offer labels if the function takes one. */
 static void
 complete_argument(completion *c, const qdot_token *first, const qdot_token *open,
                   const qdot_token *end)
@@ -245,14 +245,14 @@ complete_argument(completion *c, const qdot_token *first, const qdot_token *open
 
 /* --- within a statement ---------------------------------------------------------------- */
 
-/* What the holes of usage texts take. */
+/* The kinds of words that fit each hole of the usages. */
 #define HOLE(statement, before, text, class, expected, kinds) kinds,
 static const unsigned hole_kinds[] = {
 #include "lang/syntax/holes.def"
 };
 #undef HOLE
 
-/* What the usage says may stand at the end of what was read. */
+/* Offer what may come next according to the usage. */
 static void
 offer_usage(completion *c, const qdot_usage *u)
 {
@@ -271,7 +271,7 @@ offer_usage(completion *c, const qdot_usage *u)
     offer_kinds(c, kinds);
 }
 
-/* Behind the tokens [first, end) of a statement, none of which opens a bracket that stays open. */
+/* Complete after the tokens [first, end) of a statement without open brackets. */
 static void
 complete_statement(completion *c, const qdot_token *first, const qdot_token *end)
 {
@@ -297,7 +297,7 @@ complete_statement(completion *c, const qdot_token *first, const qdot_token *end
     }
 }
 
-/* Whether a word may not begin directly behind the token: it needs a blank. */
+/* Whether a blank is needed between the token and a word. */
 static bool
 needs_blank(const qdot_token *token)
 {
@@ -305,7 +305,7 @@ needs_blank(const qdot_token *token)
            (token->kind != QDOT_TOKEN_OPERATOR || strchr(")]'%", token->text[0]) != NULL);
 }
 
-/* Behind the tokens [first, end), in which the bracket at `open` is not closed; NULL: none. */
+/* Complete after the tokens [first, end); the bracket at `open` is not closed, NULL: there is none. */
 static void
 complete_at(completion *c, const qdot_token *first, const qdot_token *open,
             const qdot_token *end)
@@ -320,7 +320,7 @@ complete_at(completion *c, const qdot_token *first, const qdot_token *open,
         complete_argument(c, first, open, end);
 }
 
-/* Find the statement that the last of the tokens belongs to, and its innermost open bracket. */
+/* Find the statement that contains the last token, and its innermost open bracket. */
 static void
 complete_tokens(completion *c, const qdot_token *tokens, size_t n)
 {
@@ -395,7 +395,7 @@ spell_prefix(const char *prefix, qdot_text *out)
     return any;
 }
 
-/* The words of a spelled prefix [spelled] begin as it was typed. */
+/* Let the words begin as the prefix was typed, not as it is spelled in ASCII [spelled]. */
 static void
 respell(completion *c, size_t spelled, const char *typed)
 {
@@ -424,7 +424,7 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
     qdot_source *source;
     size_t at;
 
-    /* a bracket left open is an error, all of whose tokens are there */
+    /* an open bracket is an error, but all tokens are available */
     c.status = qdot_text_status(&spelled);
     source = NULL;
     if (c.status == QDOT_OK)
@@ -465,7 +465,7 @@ qdot_complete_greek(const char *prefix, bool letter, char ***words, size_t *n)
         offer(&c, word);
     }
     if (only != 0 && c.status == QDOT_OK) {
-        /* a code point below U+0800 */
+        /* UTF-8 of a code point below U+0800 */
         const char sign[] = {(char)(0xC0 | only >> 6), (char)(0x80 | (only & 0x3F)),
                              '\0'};
 

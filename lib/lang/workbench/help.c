@@ -27,14 +27,14 @@ QDOT_STATEMENT(help) = {
 
 enum { OFF_TERMINAL = 86 }; /* columns of running lines there */
 
-/* A word and what follows it, in two columns. */
+/* Append a line of two columns: a word and its summary. */
 static void
 entry(qdot_text *text, const char *word, const char *summary)
 {
     qdot_text_format(text, "  %-14s %s\n", word, summary);
 }
 
-/* Running lines of words. */
+/* State for words that are written line by line up to a width. */
 typedef struct {
     size_t width, column;
 } running;
@@ -52,7 +52,7 @@ flow(qdot_text *text, const char *word, running *line)
     line->column += n;
 }
 
-/* What is not built yet has no example. */
+/* Whether a quantity is implemented; those that are not have no example. */
 static bool
 is_built(const qdot_quantity *row)
 {
@@ -94,7 +94,7 @@ explain(qdot_text *text, const char *usage, const char *summary, const char *exa
         qdot_text_format(text, "    example: %s\n", example);
 }
 
-/* Every statement of which the word is an option. */
+/* List every statement that has the word as an option. */
 static void
 look_up_option(qdot_text *text, const char *word)
 {
@@ -110,7 +110,7 @@ look_up_option(qdot_text *text, const char *word)
         }
 }
 
-/* What it is; of an option the statements that take it. */
+/* Explain a topic; for an option also list the statements that have it. */
 static void
 explain_topic(qdot_text *text, const qdot_topic *topic)
 {
@@ -124,7 +124,7 @@ explain_topic(qdot_text *text, const qdot_topic *topic)
     qdot_text_add(text, n > 0 ? "\n" : "");
 }
 
-/* Append what the word is: statement, function, value; false: none of these. */
+/* Append the explanation of a statement, function or quantity of that name; false if there is none. */
 static bool
 look_up(qdot_text *text, const char *word)
 {
@@ -162,7 +162,7 @@ look_up(qdot_text *text, const char *word)
     return text->n > 0;
 }
 
-/* `search WORD ...`, `search "TEXT"` */
+/* `help search WORD ...` or `help search "TEXT"`. */
 static qdot_status
 help_search(qdot_record *r)
 {
@@ -181,7 +181,7 @@ help_search(qdot_record *r)
     return qdot_answer_written(r->cursor.session, "help", status, &text);
 }
 
-/* The statement, function or value whose word is nearest; NULL if none is near. */
+/* The statement, function or quantity whose name is nearest; NULL if none is near. */
 static const char *
 nearest_word(qdot_session *session, const char *word)
 {

@@ -1,4 +1,4 @@
-/* highlight.c -- what each byte of a text that is being typed is. */
+/* highlight.c -- classifies each byte of a text that is being typed, for colours. */
 #include "lang/workbench/highlight.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ is_operand(const qdot_token *name)
     return qdot_quantity_find(name->text) != NULL;
 }
 
-/* The row of the statement that begins there; NULL: an expression or a definition. */
+/* The row of the statement that begins here; NULL: an expression or a definition. */
 static const qdot_statement *
 row_of(const qdot_token *first)
 {
@@ -34,7 +34,7 @@ row_of(const qdot_token *first)
                : NULL;
 }
 
-/* Whether the name stands where the statement has such a word: an option. */
+/* Whether the name is an option word that the statement has at this place. */
 static bool
 is_option(const qdot_statement *row, const qdot_token *first, const qdot_token *name)
 {
@@ -47,7 +47,7 @@ is_option(const qdot_statement *row, const qdot_token *first, const qdot_token *
     return qdot_usage_takes(&u, name->text);
 }
 
-/* `for k = ...`, `to "FILE"`, which may end any statement. */
+/* Whether `for k = ...` or `to "FILE"` begins here, which may end any statement. */
 static bool
 ends_statement(const qdot_token *name)
 {
@@ -94,7 +94,7 @@ mark_comments(const char *text, size_t from, size_t to, uint8_t *kinds)
                 kinds[i] = QDOT_HIGHLIGHT_COMMENT;
 }
 
-/* The tokens of `text` [length]; *end: how far they reach. */
+/* Classify the tokens of the text; *end: how far they reach. */
 static void
 mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kinds,
             size_t *end)
@@ -155,7 +155,7 @@ qdot_highlight_text(const qdot_session *session, const char *text, size_t length
 
         if (source == NULL)
             return status;
-        /* the lexer ends a list of tokens with an END, but not one that it gave up */
+        /* the lexer ends a list of tokens with END, except one on which it failed */
         if (status != QDOT_OK)
             status = qdot_vec_push(&source->tokens,
                                    ((qdot_token){.text = "", .start = (uint32_t)at}));

@@ -1,4 +1,4 @@
-/* include.c -- `include`: another script, carried out. */
+/* include.c -- the statement `include`: carries out another script. */
 #include "lang/syntax/record.h"
 #include "lang/workbench/script.h"
 

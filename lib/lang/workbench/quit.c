@@ -1,4 +1,4 @@
-/* quit.c -- `quit`: no statement is carried out any more. */
+/* quit.c -- the statement `quit`: ends the script or the session. */
 #include "lang/syntax/record.h"
 
 static qdot_status

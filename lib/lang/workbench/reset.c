@@ -17,13 +17,13 @@ QDOT_STATEMENT(reset) = {
     .handler = reset_carry_out,
 };
 
-/* What `reset scene` forgets. */
+/* Classes of symbols that belong to a scene. */
 enum {
     SCENE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |
             QDOT_HAS_MULTIPLIER | QDOT_HAS_DELTA | QDOT_HAS_DIFFERENTIAL
 };
 
-/* Whether a name outlives `reset scene`: parameters, and what holds no coordinate. */
+/* Whether a name survives `reset scene`: parameters, and values without symbols of the scene. */
 static bool
 name_is_kept(const qdot_pool *pool, const qdot_name *name)
 {
@@ -31,7 +31,7 @@ name_is_kept(const qdot_pool *pool, const qdot_name *name)
            (qdot_expr_node(pool, name->value)->holds & SCENE) == 0;
 }
 
-/* A function goes with the names that its body mentions. */
+/* Whether a function survives: its body mentions only names that survive. */
 static bool
 is_function_kept(const qdot_session *session, const qdot_name *function)
 {
@@ -99,7 +99,7 @@ session_keep(const qdot_session *old, qdot_session *fresh)
     return qdot_pool_check(fresh->pool);
 }
 
-/* Forget the scene, or everything. */
+/* Clear the scene, or everything. */
 static qdot_status
 reset(qdot_session *session, bool everything)
 {

@@ -1,4 +1,4 @@
-/* script-file.c -- scripts from files, and the exit status that they leave. */
+/* script-file.c -- runs scripts from files, with their exit status. */
 #include <string.h>
 #include <sys/stat.h>
 

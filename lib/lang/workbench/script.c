@@ -51,7 +51,7 @@ typedef struct {
 
 /* --- what a statement is ------------------------------------------------------------ */
 
-/* The statement whose word is nearest in spelling; NULL if none is near. */
+/* The statement whose word is spelled most similarly; NULL if none is near. */
 static const qdot_statement *
 nearest_statement(const qdot_session *session, const char *name)
 {
@@ -64,7 +64,7 @@ nearest_statement(const qdot_session *session, const char *name)
     return near != NULL ? qdot_statement_find(near) : NULL;
 }
 
-/* `partcle bob mass m`: two names side by side, the first of them unknown. */
+/* `partcle bob mass m`: report the unknown first word, followed by another name. */
 static qdot_status
 unknown_word(qdot_cursor *c)
 {
@@ -92,7 +92,7 @@ is_unknown_word(const qdot_session *session, const qdot_token *name)
            !qdot_token_is_word(name, "not") && !qdot_cursor_knows(session, name->text);
 }
 
-/* The compiled usage of the row; NULL: there is no memory. */
+/* The compiled usage of the row; NULL if out of memory. */
 static const qdot_usage *
 find_usage(engine *x, const qdot_statement *row)
 {
@@ -110,7 +110,7 @@ find_usage(engine *x, const qdot_statement *row)
     return usage;
 }
 
-/* The statement at the cursor, read by its usage. */
+/* Carry out the statement at the cursor, read by its usage. */
 static qdot_status
 carry_out_record(engine *x, qdot_cursor *c, const qdot_statement *row)
 {
@@ -188,7 +188,7 @@ asks(const qdot_session *session, const qdot_token *first)
            strcmp(row->word, "export") == 0;
 }
 
-/* One pass of a loop that may hold parameters and coordinates. */
+/* Carry out one iteration of a loop, with the parameters and coordinates that it sets. */
 static qdot_status
 dispatch_held(engine *x, qdot_cursor *c)
 {
@@ -207,7 +207,7 @@ dispatch_held(engine *x, qdot_cursor *c)
     return status;
 }
 
-/* The `to FILE` that ends the statement, where its own handler does not read it. */
+/* The `to FILE` that ends the statement, unless the statement reads it itself. */
 static const qdot_token *
 find_to(const qdot_session *session, const qdot_token *first)
 {
@@ -222,7 +222,7 @@ find_to(const qdot_session *session, const qdot_token *first)
     return qdot_redirect_find(row, first);
 }
 
-/* The statement with its answers in a file; `to` is an end to it for the while. */
+/* Carry out the statement with its answers going to a file; the statement ends before `to` meanwhile. */
 static qdot_status
 dispatch_to(engine *x, qdot_cursor *c, size_t to)
 {
@@ -327,7 +327,7 @@ statement_end(const engine *x, size_t i)
     }
 }
 
-/* Index of the END at or behind i. */
+/* The index of the first END token at or after i. */
 static size_t
 find_end(const engine *x, size_t i)
 {
@@ -336,7 +336,7 @@ find_end(const engine *x, size_t i)
     return i;
 }
 
-/* Say in which pass it failed, where there is room for a hint. */
+/* Add to the error in which iteration it occurred, unless there is another hint. */
 static void
 tell_pass(const engine *x, const qdot_loop *loop)
 {
@@ -435,7 +435,7 @@ row_with_example(const engine *x, size_t i, size_t end)
     return broken_off || strncmp(error->message, "expected an expression", 22) != 0 ? row : NULL;
 }
 
-/* The statement [i, end) failed: the hint of its form, if that is known. */
+/* After the statement [i, end) failed: add a hint for its form, if one is known. */
 static qdot_status
 lead(engine *x, size_t i, size_t end, qdot_status status)
 {
@@ -461,7 +461,7 @@ lead(engine *x, size_t i, size_t end, qdot_status status)
     return status;
 }
 
-/* A notice, if the statement [i, end) that was carried out is seldom meant so. */
+/* Notice if the statement [i, end) is rarely what is meant, after it was carried out. */
 static qdot_status
 tell_seldom_meant(engine *x, size_t i, size_t end)
 {
@@ -475,7 +475,7 @@ tell_seldom_meant(engine *x, size_t i, size_t end)
     return status;
 }
 
-/* The simple statement at i, each pass of its `for`; *next: the token behind it. */
+/* Carry out the simple statement at i, for all values of its `for`; *next: the token after it. */
 static qdot_status
 simple(engine *x, size_t i, size_t *next)
 {
@@ -503,7 +503,7 @@ simple(engine *x, size_t i, size_t *next)
 
 /* --- blocks ------------------------------------------------------------------------- */
 
-/* The `}` of every `{`. */
+/* Find the `}` of every `{`. */
 static qdot_status
 match_blocks(engine *x)
 {
@@ -523,7 +523,7 @@ match_blocks(engine *x)
     return status;
 }
 
-/* Enter the block that opens at i, or step over it. */
+/* Enter the block that opens at i, or step over it if its loop has no values. */
 static qdot_status
 enter(engine *x, size_t i, size_t *next)
 {
@@ -581,7 +581,7 @@ round_again(engine *x, size_t *next)
     return status;
 }
 
-/* One step from *i. */
+/* Carry out one step from *i. */
 static qdot_status
 advance(engine *x, size_t *i)
 {
@@ -595,7 +595,7 @@ advance(engine *x, size_t *i)
     return QDOT_OK;
 }
 
-/* The statement or block at *i, to its end. */
+/* Carry out the statement or block at *i to its end. */
 static qdot_status
 whole(engine *x, size_t *i)
 {

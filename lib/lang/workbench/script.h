@@ -12,7 +12,7 @@
  * statement failed or a check was refuted, 2 a syntax error. */
 int qdot_script_run_text(qdot_session *session, const char *name, const char *text,
                          size_t length);
-/* The same from a file ("-": standard input); unreadable, a directory, not UTF-8: an error. */
+/* The same for a file ("-": standard input); an error if it is unreadable, a directory, or not UTF-8. */
 int qdot_script_run_file(qdot_session *session, const char *path);
 
 /* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
@@ -22,7 +22,7 @@ bool qdot_script_is_incomplete(const char *text, size_t length);
  * see as they come. */
 bool qdot_script_takes_long(const char *text, size_t length);
 
-/* The place of an error that an included file has already reported. */
+/* The error position that means: an included file has already reported the error. */
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 
 /* Lex and carry out a text, reporting the first error. */

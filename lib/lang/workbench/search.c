@@ -1,4 +1,4 @@
-/* search.c -- the words of the language whose name, summary or example holds a text. */
+/* search.c -- finds the words of the language whose name, summary or example contains a text. */
 #include "lang/workbench/search.h"
 
 #include <stdint.h>
@@ -36,7 +36,7 @@ holds_word(const char *where, const char *word, size_t n)
     return false;
 }
 
-/* Whether every word of `text` is in one of the n texts `where`. */
+/* Whether every word of `text` occurs in at least one of the n texts `where`. */
 static bool
 texts_hold_words(size_t n, const char *const *where, const char *text)
 {

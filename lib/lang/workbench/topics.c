@@ -1,4 +1,4 @@
-/* topics.c -- words that are no statement, value, function or method. */
+/* topics.c -- help topics: words that are no statement, quantity, function or method. */
 #include "lang/workbench/topics.h"
 
 static const qdot_topic rows[] = {
