@@ -1,4 +1,4 @@
-/* decimal.c -- constants by their digits, alone and beside symbols. */
+/* decimal.c -- decimals for constants, by themselves and in expressions with symbols. */
 #include "normal/calculus/decimal.h"
 
 #include <float.h>
@@ -19,7 +19,7 @@ enum { LEAST_EXPONENT = -100000, PASSES = 4 };
 
 /* --- a constant ---------------------------------------------------------------------- */
 
-/* e, a constant, in x; 0 where that is proved. */
+/* The value of a constant e in x; exactly 0 where that is proved. */
 static qdot_status
 real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
 {
@@ -41,7 +41,7 @@ real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
     return status;
 }
 
-/* A bound of |x - text|; x itself may be off by |x| 2^(3 - its precision). */
+/* A bound of |x - text|, allowing an error of |x| 2^(3 - precision) of x itself. */
 static double
 text_distance(mpfr_srcptr x, const char *text)
 {
@@ -62,7 +62,7 @@ text_distance(mpfr_srcptr x, const char *text)
     return error;
 }
 
-/* x to so many digits, an exact number, and what that is off by. */
+/* Round x to that many digits: *value is the exact decimal, *error its distance from x. */
 static qdot_status
 round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *error)
 {
@@ -143,7 +143,7 @@ written(const writer *w, qdot_expr e, qdot_expr *value)
     return qdot_decimal(w->pool, e, w->digits, value, &error);
 }
 
-/* c e, e a product or none: what is constant of it as one number. */
+/* The product c e with all its constant factors merged into one number. */
 static qdot_status
 product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
 {
@@ -204,7 +204,7 @@ node(const writer *w, qdot_expr e, qdot_expr *value)
     }
 }
 
-/* e with decimals for all that is constant of it. */
+/* e with every constant subexpression replaced by a decimal. */
 static qdot_status
 with_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
 {
@@ -230,7 +230,7 @@ qdot_status
 qdot_decimals_beside_symbols(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
 {
     *value = e;
-    /* again while that makes constants anew: sqrt(2.5*m) is written sqrt(2.5)*sqrt(m) */
+    /* repeat if this made new constants: sqrt(2.5*m) becomes sqrt(2.5)*sqrt(m) */
     for (int pass = 0; pass < PASSES; pass++) {
         qdot_expr before = *value;
 

@@ -27,7 +27,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* Orders up to which a leading coefficient is looked for; nested parts that are taken apart. */
+/* MOST_LEADING: orders searched for a leading coefficient. MOST_DEPTH: nesting that is expanded. */
 enum { MOST_LEADING = 64, MOST_DEPTH = 100 };
 
 typedef struct {
@@ -40,7 +40,7 @@ typedef struct {
     int depth;
 } course;
 
-/* sum c[i] ray^(least + i) */
+/* A truncated Laurent series: sum c[i] ray^(least + i). */
 typedef struct {
     long least;
     qdot_vec(qdot_expr) c;
@@ -50,7 +50,7 @@ static qdot_status laurent_of(course *x, qdot_expr e, long most, laurent *s);
 
 /* --- answers ------------------------------------------------------------------------ */
 
-/* Whether the term is a product in which a sum holds one of the steps. */
+/* Whether the term is a product with a sum that contains one of the expansion variables. */
 static bool
 is_nested(const course *x, qdot_expr term)
 {
@@ -66,7 +66,7 @@ is_nested(const course *x, qdot_expr term)
     return false;
 }
 
-/* Of one degree, its products of sums in u multiplied out. */
+/* The terms of one degree, with products of sums multiplied out. */
 static qdot_expr
 multiplied_out(const course *x, qdot_expr scalar)
 {
@@ -157,7 +157,7 @@ trim(course *x, laurent *s)
     s->least += (long)zeros;
 }
 
-/* s <- s b up to ray^most. */
+/* s <- s b, truncated after ray^most. */
 static qdot_status
 multiply(course *x, laurent *s, const laurent *b, long most)
 {
@@ -181,7 +181,7 @@ multiply(course *x, laurent *s, const laurent *b, long most)
     return status;
 }
 
-/* b^q, b begins with what does not vanish; Miller: k b_0 a_k = sum_j (q j - k + j) b_j a_{k-j}. */
+/* b^q for a series b with b_0 != 0, by Miller's recurrence: k b_0 a_k = sum_j (q j - k + j) b_j a_{k-j}. */
 static qdot_status
 laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
 {
@@ -211,7 +211,7 @@ laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, l
 
 /* --- taken apart -------------------------------------------------------------------- */
 
-/* Whether 0^a stands in e, whose value depends on a. */
+/* Whether e contains 0^a, whose value depends on a. */
 static bool
 holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
 {
@@ -229,7 +229,7 @@ holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
     return found;
 }
 
-/* Coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN: one of them does not exist. */
+/* The coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN if one of them does not exist. */
 static qdot_status
 derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, laurent *s)
 {
@@ -301,7 +301,7 @@ sum_of(course *x, qdot_expr e, long most, laurent *s)
     return status;
 }
 
-/* base^q up to ray^most; base begins at ray^first. */
+/* base^q up to ray^most, where base begins with ray^first. */
 static qdot_status
 power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
 {
@@ -363,7 +363,7 @@ product_of(course *x, qdot_expr e, long most, laurent *s)
             continue;
         if (first[i] != 0 && qdot_expr_to_int(pool, q, &times))
             own = times * first[i];
-        /* to the order that the others leave for it */
+        /* only to the order that is still needed after multiplying with the other factors */
         status = power_of(x, base, q, first[i], most - (total - own), &part);
         if (status == QDOT_OK)
             status = multiply(x, s, &part, most - total + s->least + own);
@@ -373,7 +373,7 @@ product_of(course *x, qdot_expr e, long most, laurent *s)
     return status;
 }
 
-/* tan, cot, sec, csc as quotients of sine and cosine; e itself if it is none. */
+/* tan, cot, sec, csc as quotients of sine and cosine; other functions unchanged. */
 static qdot_expr
 as_quotient(qdot_pool *pool, qdot_expr e)
 {
@@ -443,7 +443,7 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
-/* e up to ray^most. */
+/* The series of e up to ray^most. */
 static qdot_status
 laurent_of(course *x, qdot_expr e, long most, laurent *s)
 {
@@ -472,7 +472,7 @@ laurent_of(course *x, qdot_expr e, long most, laurent *s)
 
 /* --- the sum ------------------------------------------------------------------------ */
 
-/* Whether the bases that hold `step` have powers 1, 2, ... */
+/* Whether all factors that contain `step` have positive integer exponents. */
 static bool
 has_whole_powers(qdot_pool *pool, qdot_expr product, qdot_expr step)
 {
@@ -511,7 +511,7 @@ typedef struct {
     long most;
 } degree;
 
-/* A scalar's series, in u. */
+/* The series of a scalar, along the ray u. */
 static qdot_expr
 sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
 {
@@ -543,7 +543,7 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
     return status == QDOT_OK ? sum : qdot_pool_fail(pool);
 }
 
-/* Fill places, steps and moves for the point `at`. */
+/* Prepare the substitutions for an expansion about the point `at`. */
 static qdot_status
 series_set_ways(course *x, const qdot_expr *at)
 {

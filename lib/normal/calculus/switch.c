@@ -1,4 +1,4 @@
-/* switch.c -- what switches at a point. */
+/* switch.c -- finds functions that switch (jump or have a kink) at a point. */
 #include "normal/calculus/switch.h"
 
 #include "base/memory.h"
@@ -27,7 +27,7 @@ vanishes(const place *x, qdot_expr e)
     return qdot_is_zero(x->pool, there, x->facts);
 }
 
-/* Whether two of the arguments, that depend on ray, are equal at the point. */
+/* Whether two of the arguments, which depend on ray, are equal at the point. */
 static bool
 meet(const place *x, qdot_expr e)
 {
@@ -54,7 +54,7 @@ qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there, const qdot_fact
     return id == QDOT_FLOOR && is_whole(pool, there);
 }
 
-/* Whether e, a whole number at the point, jumps there. */
+/* Whether floor(e) jumps at the point because e is an integer there. */
 static bool
 jumps(const place *x, qdot_expr e)
 {

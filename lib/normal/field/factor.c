@@ -48,7 +48,7 @@ factors_reserve(qdot_field *f, qdot_factors *out, slong n)
     return QDOT_OK;
 }
 
-/* The integer and the generators that divide p, then the rest. */
+/* Split off the integer content and the generators that divide p, then the rest. */
 static qdot_status
 by_monomials(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
 {
@@ -138,7 +138,7 @@ common_power(qdot_field *f, const fmpz_mpoly_t p)
     return g;
 }
 
-/* The square root of a term with even exponents; false if its coefficient has none. */
+/* The square root of a term with even exponents; false if its coefficient is no square. */
 static bool
 root_of_term(qdot_field *f, fmpz_mpoly_t root, const fmpz_mpoly_t p, slong i)
 {
@@ -330,7 +330,7 @@ group_find_slot(const index_of *index, const qdot_groups *out, slong gens, const
             return k;
 }
 
-/* Room for one more. */
+/* Make room for one more entry. */
 static qdot_status
 grow_index(index_of *index, const qdot_groups *out, slong gens)
 {
@@ -388,7 +388,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
                 memcpy(out->key + at * gens, key, (size_t)gens * sizeof *key);
             fmpz_mpoly_init(out->poly + at, f->ctx);
         }
-        /* within a group the order of the terms is that of p */
+        /* within a group the terms keep the order that they have in p */
         fmpz_mpoly_push_term_fmpz_ui(out->poly + at, c, rest, f->ctx);
     }
     fmpz_clear(c);

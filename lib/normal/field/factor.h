@@ -15,7 +15,7 @@ typedef struct {
     bool complete; /* every poly irreducible */
 } qdot_factors;
 
-/* Factor p, not zero; past the bounds only monomials and integers come out. */
+/* Factor p, not zero; if that exceeds the bounds only integers and generators are split off. */
 QDOT_MUST_CHECK qdot_status qdot_factor(qdot_field *f, qdot_factors *out,
                                         const fmpz_mpoly_t p);
 /* Multiply factors with equal exponents if the product has no more terms than one of them:

@@ -1,4 +1,4 @@
-/* field.c -- finds the generators of some expressions and sets up the field over them. */
+/* field.c -- finds the generators of expressions and sets up the field that they generate. */
 #include "normal/field/field.h"
 
 #include <stdlib.h>
@@ -78,7 +78,7 @@ add_root(struct found *g, qdot_expr base, ulong q)
     return QDOT_OK;
 }
 
-/* The primes of an integer, each a base of its own; a large one stays whole. */
+/* Add the prime factors of an integer as bases of roots; a large integer is not factored. */
 static qdot_status
 add_number_root(qdot_pool *pool, struct found *g, qdot_expr base, ulong q)
 {
@@ -203,7 +203,7 @@ ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* How many terms and factors are looked at for e: its own, or those of an angle. */
+/* The number of terms and factors of e, or of the argument of a function e. */
 static slong
 node_length(const qdot_pool *pool, qdot_expr e)
 {
@@ -216,7 +216,7 @@ node_length(const qdot_pool *pool, qdot_expr e)
                : 0;
 }
 
-/* All nodes that the values are made through, children first. */
+/* Collect all nodes on which the values depend, children first. */
 static qdot_status
 field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
 {
@@ -252,7 +252,7 @@ field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr 
 
 /* --- their order, the rules of the trigonometric ones ------------------------------ */
 
-/* Hyperbolic functions beside exponentials are written by these. */
+/* Write hyperbolic functions in terms of exponentials if both occur. */
 static qdot_status
 merge_hyperbolic(qdot_field *f)
 {

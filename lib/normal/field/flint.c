@@ -1,4 +1,4 @@
-/* flint.c -- the one file that knows how FLINT and GMP allocate, and the only longjmp. */
+/* flint.c -- gives FLINT and GMP our memory functions; contains the only longjmp. */
 #include "normal/field/flint.h"
 
 #include <pthread.h>
@@ -14,12 +14,12 @@
 #include "base/memory.h"
 #include "base/scope.h"
 
-/* FLINT's caches of a thread are given up beyond this many bytes. */
+/* If FLINT's caches of a thread exceed this many bytes, the thread is ended. */
 #define KEPT ((size_t)64 << 20)
-/* FLINT recurses over variables; the address space is not used until it is. */
+/* Stack size: FLINT recurses over variables; unused address space costs nothing. */
 #define STACK ((size_t)64 << 20)
 
-/* Of a thread that computes guarded. */
+/* State of a thread whose computation can be abandoned. */
 static _Thread_local struct {
     bool on;
     qdot_status why;
@@ -38,7 +38,7 @@ flint_leave(qdot_status why)
     longjmp(guard.out, 1);
 }
 
-/* Leave the computation if it was interrupted or `size` bytes more exceed its bound. */
+/* Abandon the computation if it was interrupted, or if `size` further bytes exceed its limit. */
 static void
 flint_check_budget(size_t size)
 {
@@ -52,7 +52,7 @@ flint_check_budget(size_t size)
                               QDOT_FLINT_MEMORY >> 20));
 }
 
-/* The allocated block. NULL: leave the computation; a thread without one aborts. */
+/* Return the allocated block; NULL abandons the computation, or aborts a thread without one. */
 static void *
 given(void *block)
 {
@@ -115,7 +115,7 @@ give_back(void *block)
     qdot_scope_now = &guard.own;
 }
 
-/* GMP's, which knows the sizes. */
+/* realloc for GMP, which also passes the old size. */
 static void *
 enlarge_limbs(void *block, size_t old, size_t size)
 {
@@ -140,7 +140,7 @@ gave_up(void)
 
 #if __FLINT_RELEASE >= 30000
 
-/* The word before the aligned block holds the address of the block that was allocated. */
+/* Allocate aligned memory; the word before it holds the address of the whole block. */
 static void *
 take_aligned(size_t alignment, size_t size)
 {
@@ -219,7 +219,7 @@ uninstall(void)
 
 /* --- the thread that computes ------------------------------------------------------------ */
 
-/* The lock is held by who computes, so that who asked goes on when it is done. */
+/* A thread for computations. The lock is held while it computes, so that the caller waits for the end. */
 typedef struct {
     pthread_t thread;
     pthread_mutex_t lock;
@@ -237,7 +237,7 @@ static _Thread_local worker *mine;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static pthread_key_t key;
 
-/* One computation. False: it was left, and FLINT's caches of this thread are to go. */
+/* Carry out one computation. False: it was abandoned, so this thread must end with FLINT's caches. */
 static bool
 compute(worker *w)
 {
@@ -299,7 +299,7 @@ worker_stop(worker *w)
     qdot_free(w);
 }
 
-/* A copy of the process has the memory of this thread's worker and not its thread. */
+/* After fork: the child process has a copy of the worker's memory, but not its thread. */
 static void
 worker_forget(void)
 {
@@ -324,7 +324,7 @@ make_key(void)
     (void)pthread_atfork(NULL, NULL, worker_forget);
 }
 
-/* The thread of who asks; signals are for the others. NULL: refused. */
+/* Start the thread that computes for the calling one; it blocks all signals. NULL: refused. */
 static worker *
 worker_start_thread(void)
 {

@@ -24,7 +24,7 @@
 
 #include "expr/id.h"
 
-/* The most memory of one computation, in bytes. */
+/* The most memory that one computation may use, in bytes. */
 #define QDOT_FLINT_MEMORY ((size_t)2 << 30)
 
 /* Run work(user), guarded; inside another guarded computation simply run it. QDOT_OK: it

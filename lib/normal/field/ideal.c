@@ -23,7 +23,7 @@ never_zero(qdot_field *f, const fmpz_mpoly_t p, bool generic)
            (generic && !(node->holds & ~(uint32_t)QDOT_HAS_PARAM));
 }
 
-/* p without factors that never vanish and without powers; nothing left: p as it is. */
+/* p without powers and without factors that never vanish; if nothing is left p stays. */
 static qdot_status
 polynomial_strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
 {
@@ -149,7 +149,7 @@ s_polynomial(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, const fmpz_mpo
     return common;
 }
 
-/* Close under S-polynomials as far as the budget goes. */
+/* Add S-polynomials (Buchberger) as long as the budget lasts. */
 static qdot_status
 ideal_complete(qdot_ideal *ideal, qdot_field *f)
 {

@@ -74,7 +74,7 @@ unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
     return qdot_mul(pool, inverse, e);
 }
 
-/* c times a sum, or times one term: 2*(x + y) is 2*x + 2*y. */
+/* Parse an argument as c times a sum, or c times a term: 2*(x + y) is 2*x + 2*y. */
 static qdot_status
 parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
       bool offsets)
@@ -222,7 +222,8 @@ sort_terms(qdot_lattice_row *row)
         }
 }
 
-/* Multiples of pi do not count beside symbols: x and x + pi/5 belong together. */
+/* Whether directions are independent; multiples of pi are ignored beside symbols: x and x + pi/5
+ * belong together. */
 static bool
 independent(const qdot_lattice *l, size_t n, const struct direction *d)
 {

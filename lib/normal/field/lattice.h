@@ -43,7 +43,7 @@ typedef struct {
  * *row: its number. Errors: QDOT_ENOMEM, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_add(qdot_lattice *l, qdot_pool *pool,
                                              qdot_expr arg, bool offsets, uint32_t *row);
-/* The number of an argument that was added. False: it was not. */
+/* The index of an argument that was added. False: it was not added. */
 bool qdot_lattice_find(const qdot_lattice *l, qdot_expr arg, uint32_t *row);
 /* Find the bases and all coordinates. QDOT_ELIMIT: a coordinate beyond +-200. */
 QDOT_MUST_CHECK qdot_status qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool);

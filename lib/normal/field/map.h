@@ -16,7 +16,7 @@ typedef struct {
 
 /* Set key -> value. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_map_set(qdot_map *m, qdot_expr key, uint32_t value);
-/* Whether key is there; *value (may be NULL). */
+/* Whether the key is in the map; *value (may be NULL) is its value. */
 bool qdot_map_get(const qdot_map *m, qdot_expr key, uint32_t *value);
 void qdot_map_clear(qdot_map *m);
 

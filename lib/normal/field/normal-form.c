@@ -1,4 +1,5 @@
-/* normal-form.c -- a quotient in the field of its generators, cancelled, written out. */
+/* normal-form.c -- writes an expression as a cancelled quotient of polynomials in the generators of
+ * its field. */
 #include "normal/field/normal-form.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* polynomials.c -- polynomials found by value, in an open-addressing hash table. */
+/* polynomials.c -- a set of polynomials as an open-addressing hash table. */
 #include "normal/field/polynomials.h"
 
 #include "base/memory.h"
@@ -23,7 +23,7 @@ hash_of(const qdot_field *f, const fmpz_mpoly_t p, uint64_t *hash)
     return true;
 }
 
-/* Where p is, or the free place for it; the table has one. */
+/* The slot of p, or the free slot where it belongs; the table has one. */
 static size_t
 polynomial_find_place(const qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p, uint64_t hash)
 {
@@ -49,7 +49,7 @@ qdot_polynomials_find(qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly
     return (slong)t->place[polynomial_find_place(f, t, p, hash)] - 1;
 }
 
-/* Room for one more, half of the places free. */
+/* Make room for one more polynomial, with half of the slots free. */
 static qdot_status
 polynomials_make_room(const qdot_field *f, qdot_polynomials *t)
 {

@@ -1,4 +1,4 @@
-/* polynomials.h -- a table of polynomials of one field, found by value. */
+/* polynomials.h -- a set of polynomials of one field, found by value in a hash table. */
 #ifndef QDOT_NORMAL_POLYNOMIALS_H
 #define QDOT_NORMAL_POLYNOMIALS_H
 
@@ -12,9 +12,9 @@ typedef struct {
     size_t n, places, at_capacity, hash_capacity;
 } qdot_polynomials;
 
-/* The index of p; -1 if it is not there. */
+/* The index of p in the set; -1 if it is not there. */
 slong qdot_polynomials_find(qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p);
-/* Add p, which is not there, at index t->n. Errors: QDOT_ENOMEM. */
+/* Add p, which must not be in the set, at index t->n. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_polynomials_add(qdot_field *f, qdot_polynomials *t,
                                                  const fmpz_mpoly_t p);
 void qdot_polynomials_clear(qdot_field *f, qdot_polynomials *t);

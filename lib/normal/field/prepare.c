@@ -1,4 +1,5 @@
-/* prepare.c -- one pass, children first: arguments made normal, inverse functions resolved. */
+/* prepare.c -- normalises arguments and evaluates functions of inverse functions, in one pass,
+ * children first. */
 #include "normal/field/prepare.h"
 
 #include "base/memory.h"
@@ -94,7 +95,7 @@ term_by_term(qdot_field *f, const fmpz_mpoly_t p, qdot_expr c)
     return sum;
 }
 
-/* n/d as q + r/d, no term of r divided by the leading one of d; d without a factor. */
+/* n/d as q + r/d, where no term of r is divisible by the leading term of d; d is irreducible. */
 static qdot_expr
 whole_and_rest(qdot_field *f, const qdot_ratio *x)
 {
@@ -125,7 +126,7 @@ whole_and_rest(qdot_field *f, const qdot_ratio *x)
     return sum;
 }
 
-/* An angle as a sum of terms: a polynomial and what is left over the denominator. */
+/* An angle as a sum of terms: a polynomial, and the remainder over the denominator. */
 static qdot_expr
 flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
 {
@@ -230,7 +231,7 @@ halve_angle(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr 
                : qdot_div(pool, *s, qdot_mul(pool, qdot_expr_int(pool, 2), *c));
 }
 
-/* s, c of n/d times an inverse function, d a power of 2; false: it is none. */
+/* Sine s and cosine c of n/d times an inverse function, d a power of 2; false for other arguments. */
 static bool
 part_of_inverse(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular, long *n,
                 qdot_expr *s, qdot_expr *c)
@@ -255,7 +256,7 @@ part_of_inverse(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular,
     return true;
 }
 
-/* tan of half of atan2(y, x): y/(x + r), where the tangent is defined. Nil: it is not that. */
+/* tan(atan2(y, x)/2) as y/(x + r), valid where the tangent is defined. Nil for other arguments. */
 static qdot_expr
 tangent_of_half(qdot_pool *pool, qdot_expr arg)
 {
@@ -439,7 +440,7 @@ remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
     remember(pool, origins, bases, b);
 }
 
-/* Powers with fractional exponents split, others with normal base and exponent. */
+/* Split powers with fractional exponents; normalise base and exponent of other powers. */
 static qdot_expr
 prepare_product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
 {

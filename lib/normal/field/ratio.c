@@ -6,7 +6,8 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 
-/* Past these a gcd is not asked for: the quotient stays uncancelled, which is correct. */
+/* A gcd that would cost more than this is not computed; the quotient then stays uncancelled, which
+ * is correct. */
 #define GCD_COST 60000
 #define GCD_VARIABLES 40
 
@@ -211,7 +212,7 @@ poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, slong n)
         fmpz_mpoly_set(r, a, f->ctx);
         return;
     }
-    /* 2^n has n bits, which the engine bounds for numbers alone */
+    /* 2^n has n bits: the budget counts terms, so numbers are limited here */
     if (n > 100000) {
         if (f->state == QDOT_FIELD_GOES && !fmpz_mpoly_is_one(a, f->ctx))
             f->state = QDOT_FIELD_OVER;

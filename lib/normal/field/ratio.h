@@ -31,7 +31,7 @@ typedef struct {
     uint32_t pair;  /* SIN <-> COS, SINH <-> COSH: the other one's variable */
 } qdot_gen;
 
-/* n/d, d not zero. */
+/* A quotient n/d of polynomials, d not zero. */
 typedef struct {
     fmpz_mpoly_t n, d;
 } qdot_ratio;
@@ -70,25 +70,25 @@ typedef struct {
 
 bool qdot_field_goes(const qdot_field *f);
 
-/* The variable of a generator expression; -1 if there is none. */
+/* The variable of the field that stands for this generator; -1 if there is none. */
 slong qdot_field_var(const qdot_field *f, qdot_expr e);
 
-/* The rule that has a power of that variable; NULL if there is none. */
+/* The rewriting rule for a power of that variable; NULL if there is none. */
 qdot_rule *qdot_field_rule(const qdot_field *f, slong v);
 
-/* p = c primitive, p not 0; positive: the leading coefficient of `primitive`, which may be p, is. */
+/* p = c primitive, p not 0; positive: make the leading coefficient of `primitive`, which may be p, positive. */
 void qdot_field_primitive(qdot_field *f, fmpz_t c, fmpz_mpoly_t primitive, const fmpz_mpoly_t p,
                           bool positive);
 
-/* Charge `a` x `b` to the budget; false when it stops. */
+/* Charge the cost of multiplying a terms by b terms to the budget; false if that is exhausted. */
 bool qdot_field_charge(qdot_field *f, slong a, slong b);
 
-/* p modulo the rules. */
+/* Reduce p modulo the rules of the field. */
 void qdot_field_reduce(qdot_field *f, fmpz_mpoly_t p);
-/* a = b c, reduced. */
+/* a = b c, reduced by the rules. */
 void qdot_field_mul(qdot_field *f, fmpz_mpoly_t a, const fmpz_mpoly_t b,
                     const fmpz_mpoly_t c);
-/* g = gcd(a, b), 1 where that would cost too much. */
+/* g = gcd(a, b), or 1 if that would cost too much. */
 void qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a,
                     const fmpz_mpoly_t b);
 
@@ -108,10 +108,11 @@ void qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n);
 void qdot_ratio_scale(qdot_field *f, qdot_ratio *r, const fmpq_t c);
 /* Common factors out, the denominator's leading coefficient positive. */
 void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);
-/* r = k r', both sides of r' primitive, the leading coefficient below positive; r becomes r'. */
+/* r = k r', with primitive numerator and denominator of r' and a positive leading coefficient
+ * below; r becomes r'. */
 void qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r);
 
-/* p as an expression, expanded. */
+/* The polynomial p as an expanded expression; a quotient likewise. */
 qdot_expr qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p);
 qdot_expr qdot_field_ratio_expr(qdot_field *f, const qdot_ratio *r);
 

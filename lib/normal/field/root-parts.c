@@ -1,4 +1,4 @@
-/* root-parts.c -- gathers the terms of an expression by the product of roots they hold. */
+/* root-parts.c -- groups the terms of an expression by the product of roots that they contain. */
 #include "normal/field/root-parts.h"
 
 #include <stdlib.h>
@@ -68,7 +68,7 @@ term_roots(qdot_pool *pool, qdot_expr term)
     return roots;
 }
 
-/* A term of column j and the row of its roots. */
+/* A term of expression j, with the row for its product of roots. */
 struct placed {
     size_t row, j;
     qdot_expr term;
@@ -81,7 +81,7 @@ typedef struct {
     qdot_vec(struct placed) placed;
 } division;
 
-/* Note `term` of column j for the row of its roots. */
+/* Record `term` of expression j in the row of its product of roots. */
 static qdot_status
 division_place_term(division *d, size_t j, qdot_expr term)
 {
@@ -132,7 +132,7 @@ by_entry(const void *left, const void *right)
                             : (a->j > b->j) - (a->j < b->j);
 }
 
-/* The terms of each entry, added at once: one at a time every partial sum would be a node. */
+/* Add the terms of each entry at once; adding them one by one would make a node for every partial sum. */
 static qdot_status
 division_add_terms(division *d)
 {

@@ -16,16 +16,16 @@
 #include "base/memory.h"
 #include "expr/id.h"
 
-/* A matrix by rows of n entries, roots included, and the R_k of each row. */
+/* A matrix by rows of n coefficients, and the product of roots R_k that belongs to each row. */
 typedef struct {
     size_t n;
     qdot_vec(qdot_expr) entries, roots;
 } qdot_root_parts;
 
-/* Expressions with at least so many roots of different sums are split. */
+/* Expressions with at least this many roots of different sums are split. */
 enum { QDOT_ROOTS_MANY = 3 };
 
-/* Whether e contains that many. */
+/* Whether e contains at least QDOT_ROOTS_MANY such roots. */
 bool qdot_root_parts_many(qdot_pool *pool, qdot_expr e);
 
 /* Add the rows into which E [n] splits: itself if it has one part. Two forms of one base count as

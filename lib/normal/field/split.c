@@ -1,4 +1,4 @@
-/* split.c -- splits b = c prod f^m into positive factors, squares and a rest that stays together. */
+/* split.c -- splits b = c prod f^m into positive factors, squares, and a rest that is kept as one base. */
 #include "normal/field/split.h"
 
 #include <flint/fmpz.h>
@@ -211,7 +211,7 @@ qdot_split_abs(qdot_pool *pool, qdot_expr b)
     return e;
 }
 
-/* log of an integer: by its primes. */
+/* log of an integer as a sum over its prime factors. */
 static qdot_expr
 log_of_integer(qdot_pool *pool, const fmpz_t n)
 {

@@ -49,7 +49,7 @@ arguments_gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr
     return QDOT_OK;
 }
 
-/* The arguments as values of one field; false: that stopped. */
+/* Compute all arguments as values of one field; false if the budget was exhausted. */
 static bool
 flatten(struct arguments *a, qdot_pool *pool)
 {

@@ -26,7 +26,7 @@ value_of_generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* --- sums -------------------------------------------------------------------------- */
 
-/* Add up p[n] pairwise, so that the work is n log n; the sum is p[0]. */
+/* Add p[n] pairwise, at the cost n log n; the sum is p[0]. */
 static void
 polynomials_add_up(qdot_field *f, slong n, fmpz_mpoly_struct *p)
 {
@@ -56,7 +56,7 @@ node_value(qdot_field *f, qdot_expr e)
     return qdot_map_get(&f->nodes, e, &i) ? &f->value[i] : NULL;
 }
 
-/* The terms with constant denominators: one common denominator. */
+/* Add the terms with constant denominators over one common denominator. */
 static qdot_status
 whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
 {
@@ -169,7 +169,7 @@ find_root_generator(qdot_field *f, qdot_expr base)
     return -1;
 }
 
-/* r = base^(p/q), of an integer by its primes. */
+/* r = base^(p/q); an integer base is split into primes. */
 static void
 fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
 {
@@ -238,7 +238,7 @@ value_of_product(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* --- functions of angles ----------------------------------------------------------- */
 
-/* c = T_n(x), s = y U_{n-1}(x), n >= 0: cos n b and sin n b, or the hyperbolic ones. */
+/* c = T_n(x), s = y U_{n-1}(x), n >= 0: cos(n b) and sin(n b), or the hyperbolic functions. */
 static void
 multiple(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slong n)
 {
@@ -356,7 +356,7 @@ four_cos(qdot_field *f, fmpz_mpoly_t p, slong k)
         fmpz_mpoly_neg(p, p, f->ctx);
 }
 
-/* Add the multiple of pi of a row to (s, c), which get the denominator 4. */
+/* Add the multiple of pi of an angle to its (s, c), which get the denominator 4. */
 static void
 offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
 {
@@ -498,7 +498,7 @@ value_of_function(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* --- all --------------------------------------------------------------------------- */
 
-/* The rule of every root and absolute value of which e is the base; 1/e in it: none. */
+/* Complete the rule of every root and absolute value whose base is e; none if the base contains 1/e. */
 static void
 complete_rules(qdot_field *f, qdot_expr e, const qdot_ratio *value)
 {

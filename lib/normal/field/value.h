@@ -1,4 +1,4 @@
-/* value.h -- the values of a field's nodes: one pass, children first. */
+/* value.h -- computes the values of nodes in a field, in one pass, children first. */
 #ifndef QDOT_NORMAL_VALUE_H
 #define QDOT_NORMAL_VALUE_H
 

@@ -137,7 +137,7 @@ all_moving(qdot_field *f, const qdot_groups *groups)
     return true;
 }
 
-/* exp(c*t/m) stands before kinetic and potential part alike. */
+/* Whether the factor depends on time, as exp(c*t/m) in front of both kinetic and potential energy. */
 static bool
 factor_holds_time(const qdot_form *form, const fmpz_mpoly_t g)
 {
@@ -201,7 +201,7 @@ goes_out_whole(qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *groups)
     return !fmpz_mpoly_is_fmpz(g, f->ctx) && is_one_thing(form, g, groups);
 }
 
-/* The same of factors: a bare generator that stands in another factor as well. */
+/* Whether a factor is a single generator that also occurs in another factor. */
 static bool
 comes_apart(qdot_field *f, const qdot_factors *factors)
 {
@@ -251,7 +251,7 @@ say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     return e;
 }
 
-/* What moves and what does not, each by itself: m*(x*y' - y*x') + 1/2*q*B*(x^2 + y^2). */
+/* The terms with and without velocities written separately: m*(x*y' - y*x') + 1/2*q*B*(x^2 + y^2). */
 static qdot_expr
 say_apart(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
 {
@@ -342,7 +342,7 @@ say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
     return parts > 1 ? sum : QDOT_NIL;
 }
 
-/* By what stands in front of coordinates and velocities: m1*(x1*y1' - y1*x1') + m2*(x2*y2' - y2*x2'). */
+/* The terms grouped by their parameters: m1*(x1*y1' - y1*x1') + m2*(x2*y2' - y2*x2'). */
 static qdot_expr
 say_by_parameters(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
 {

@@ -28,7 +28,7 @@ exponent_in(const qdot_pool *pool, qdot_expr term, qdot_expr b)
     return QDOT_NIL;
 }
 
-/* In how many terms b stands, and whether with the exponent x each time. */
+/* The number of terms that contain b; *alike: always with the exponent x. */
 static uint32_t
 count_of(const qdot_pool *pool, qdot_expr sum, qdot_expr b, qdot_expr x, bool *alike)
 {
@@ -44,7 +44,7 @@ count_of(const qdot_pool *pool, qdot_expr sum, qdot_expr b, qdot_expr x, bool *a
     return count;
 }
 
-/* |c| where all coefficients are c or -c; 1 where all are integers; else 0. */
+/* |c| if all coefficients are c or -c; 1 if all are integers; else 0. */
 static qdot_expr
 shared_number(qdot_pool *pool, qdot_expr sum)
 {
@@ -109,7 +109,7 @@ of_sum(qdot_pool *pool, qdot_expr sum)
     return qdot_mul(pool, c, rest);
 }
 
-/* The factor of a product that is a sum by itself; 0: there is none, or another. */
+/* The index of the only factor of a product that is a sum to the first power; 0 if there is none or several. */
 static uint32_t
 sole_sum(const qdot_pool *pool, qdot_expr product)
 {

@@ -40,7 +40,7 @@ weight(const qdot_field *f, const qdot_ratio *r)
            fmpz_mpoly_total_degree_si(r->d, f->ctx);
 }
 
-/* Cancelled, with c^2 = 1 - s^2 of one angle where that cancels more. */
+/* Cancel a quotient, also with c^2 = 1 - s^2 for one angle if that cancels more. */
 static void
 cancel(qdot_field *f, qdot_ratio *r)
 {
@@ -60,7 +60,7 @@ cancel(qdot_field *f, qdot_ratio *r)
             qdot_factor_flip(f, x.d, from.d, v) == QDOT_OK && qdot_field_goes(f) &&
             !fmpz_mpoly_is_zero(x.d, f->ctx)) {
             qdot_ratio_cancel(f, &x);
-            /* by cosines again, so that equal denominators are seen */
+            /* reduce to cosines again, so that equal denominators are recognised */
             qdot_field_reduce(f, x.n);
             qdot_field_reduce(f, x.d);
             if (weight(f, &x) < weight(f, r))
@@ -71,7 +71,7 @@ cancel(qdot_field *f, qdot_ratio *r)
     qdot_ratio_clear(f, &from);
 }
 
-/* The coefficients, each cancelled; false where there are too few or too many. */
+/* Compute the coefficients, each cancelled; false if there are too few or too many. */
 static bool
 fractions_begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
 {
@@ -145,7 +145,7 @@ say_below(struct parts *p, const fmpz_mpoly_t d)
     return qdot_mul(f->pool, shared, best == e ? e : qdot_neg(f->pool, best));
 }
 
-/* cot(a) for cos(a)/sin(a) where that is shorter. */
+/* Replace cos(a)/sin(a) by cot(a) where that is shorter. */
 static qdot_expr
 with_tangents(qdot_pool *pool, qdot_expr e)
 {
@@ -153,7 +153,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
     return e;
 }
 
-/* All parts with the denominator of the i-th, as one quotient. */
+/* All fractions with the same denominator as number i, as one quotient. */
 static qdot_expr
 say_group(struct parts *p, slong i)
 {
@@ -214,7 +214,7 @@ say_all(struct parts *p)
     return sum;
 }
 
-/* Which powers of sums are one key: those above the bar, below, or all. */
+/* Which powers of sums form the key of a fraction: those in the numerator, in the denominator, or all. */
 enum which { ABOVE = 1, BELOW = 2 };
 
 static qdot_expr
@@ -247,7 +247,7 @@ say_part(struct parts *p, struct part *one, unsigned which)
     one->said = false;
 }
 
-/* What stands beside the sums of the i-th part, like factors together. */
+/* The factors besides the sums in fraction i, with like terms merged. */
 static qdot_expr
 say_beside(struct parts *p, slong i)
 {
@@ -295,7 +295,7 @@ say_by_sums(struct parts *p, unsigned which)
     return sum;
 }
 
-/* What all share above and below taken out of each; false: there is nothing. */
+/* Take common factors of all numerators and denominators out; false if there are none. */
 static bool
 take_out(struct parts *p)
 {

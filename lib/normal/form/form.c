@@ -137,7 +137,7 @@ best_power(qdot_field *f, const fmpz_mpoly_t p, ulong *power, slong *saved)
     return best;
 }
 
-/* q = the terms of p that v^power divides, divided; r = the others. */
+/* q = the terms of p divisible by v^power, divided by it; r = the other terms. */
 static void
 part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong v,
      ulong power)
@@ -162,7 +162,7 @@ part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong 
     fmpz_mpoly_clear(x, f->ctx);
 }
 
-/* rest with v^power out of what it divides, kept if it is the shortest. */
+/* `rest` with v^power factored out of its terms; kept if it is the shortest form. */
 static void
 keep_collected(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
                qdot_expr factor, qdot_expr plain, qdot_expr *best)
@@ -176,7 +176,7 @@ keep_collected(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
     fmpz_mpoly_init(r, f->ctx);
     part(f, q, r, rest, v, power);
     collected = qdot_form_horner(form, q);
-    /* of two as long the one collected where parameters are: (m1 - m2)*x */
+    /* of two equally short forms prefer the one that collects parameters: (m1 - m2)*x */
     if (collected == QDOT_NIL ||
         (qdot_expr_node(pool, collected)->holds & ~(uint32_t)QDOT_HAS_PARAM) != 0)
         qdot_form_keep(pool, best, plain);
@@ -230,7 +230,7 @@ qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p)
     return best;
 }
 
-/* Content out, then squares. */
+/* Factor out the content, then complete squares. */
 static qdot_expr
 squares(qdot_form *form, const fmpz_mpoly_t p)
 {
@@ -266,7 +266,7 @@ sum_or_squares(qdot_form *form, const fmpz_mpoly_t p)
     return best;
 }
 
-/* The coefficients of roots by themselves: (m1 + m2)*(L1 + L2) - sqrt(...). Nil: there is no root. */
+/* Collect the coefficients of each root: (m1 + m2)*(L1 + L2) - sqrt(...). Nil if there is no root. */
 static qdot_expr
 collect_by_roots(qdot_form *form, const fmpz_mpoly_t p)
 {
@@ -359,7 +359,7 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
 
 /* --- with trigonometric variables: sum of (coefficient) * (trigonometric part) ----- */
 
-/* coefficient * trigonometric part; integers go where they shorten (2 sin a cos a). */
+/* coefficient * trigonometric factor; integers are moved to where they shorten it (2 sin a cos a). */
 static qdot_expr
 say_item(qdot_form *form, const fmpz_mpoly_t coefficient, const fmpz_mpoly_t trig)
 {
@@ -451,7 +451,7 @@ qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p)
     return false;
 }
 
-/* As a sum. */
+/* The polynomial p as a sum. */
 static qdot_expr
 say_sum(qdot_form *form, const fmpz_mpoly_t p)
 {

@@ -9,7 +9,7 @@
 
 #include "normal/field/polynomials.h"
 
-/* Kinds of variables, and the forms found so far. */
+/* The kinds of variables of a field, and the forms of polynomials found so far. */
 typedef struct {
     qdot_field *f;
     bool *fast, *trig; /* [gens] */
@@ -26,7 +26,7 @@ void qdot_form_end(qdot_form *form);
 /* c times a polynomial: collected in velocities and accelerations, or as a product. */
 qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
 
-/* The forms of a quotient: the shortest of them and of *best (quotient.c). */
+/* Compare the forms of a quotient with *best, and keep the shortest (quotient.c). */
 void qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best);
 
 /* c r as coefficients of monomials in velocities and accelerations, each over the rest of the
@@ -38,7 +38,7 @@ void qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c,
 /* The coefficient of a monomial in velocities: no fast variable in p. */
 qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
 
-/* The same without trigonometric variables. */
+/* The shortest form of a polynomial without trigonometric variables. */
 qdot_expr qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p);
 
 bool qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p);
@@ -52,14 +52,14 @@ qdot_expr qdot_form_squares(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t 
 
 qdot_expr qdot_form_integer(qdot_pool *pool, const fmpz_t n);
 
-/* A polynomial in trigonometric variables alone (trig-form.c). */
+/* The shortest form of a polynomial in trigonometric variables only (trig-form.c). */
 qdot_expr qdot_form_trig(qdot_form *form, const fmpz_mpoly_t p);
 
-/* The form of p found before; nil if none. Remember e as the form of p; returns e. */
+/* The form of p found before, nil if none; store e as the form of p and return e. */
 qdot_expr qdot_form_recall(const qdot_form *form, const fmpz_mpoly_t p);
 qdot_expr qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e);
 
-/* Keep the smaller of *best (nil: none yet) and e. */
+/* Replace *best (nil: none yet) by e if e is smaller. */
 void qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e);
 
 /* c * monomial, or a product of factors with exponents. */

@@ -97,7 +97,7 @@ signs_in_front(qdot_pool *pool, qdot_expr e, void *user)
     return result;
 }
 
-/* c (c1 a + ...) with a fraction c as a sum, where that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */
+/* Multiply a fraction c into a sum if that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */
 static qdot_expr
 number_in(qdot_pool *pool, qdot_expr e)
 {
@@ -118,7 +118,7 @@ number_in(qdot_pool *pool, qdot_expr e)
                                                                                     : e;
 }
 
-/* The same of a factor of a product: c (c1 a + ...) x. */
+/* The same if the sum is one factor of a product: c (c1 a + ...) x. */
 static qdot_expr
 number_into(qdot_pool *pool, qdot_expr e, void *user)
 {

@@ -14,7 +14,7 @@ qdot_expr qdot_products_signs(qdot_pool *pool, qdot_expr e);
  * power: 1/2*sin(2*a)*x + sin(a)*y = sin(a)*(cos(a)*x + y). The result may be longer than e. */
 qdot_expr qdot_products_out(qdot_pool *pool, qdot_expr e);
 
-/* Fractions in front of sums into them, where that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */
+/* Multiply fractions into sums wherever that is shorter: v^2/4 + x^2 for (v^2 + 4 x^2)/4. */
 qdot_expr qdot_products_numbers(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* quotient.c -- the forms of one quotient: over its denominator, or as a sum of quotients. */
+/* quotient.c -- forms of a quotient: over one denominator, or as a sum of quotients. */
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/exact.h"
@@ -58,7 +58,7 @@ spread_alike(struct saying *s, const qdot_ratio *r, const fmpq_t c)
             !fmpz_mpoly_divides(below, r->d, g, f->ctx) ||
             !fmpz_mpoly_divides(term, term, g, f->ctx))
             status = QDOT_EFAILED;
-        /* by monomials alone: the numbers of a term stay with it */
+        /* if the denominator is a monomial, numbers stay with the terms */
         if (status == QDOT_OK && fmpz_mpoly_length(below, f->ctx) == 1) {
             fmpz_mpoly_scalar_mul_fmpz(term, term, r->d->coeffs, f->ctx);
             fmpz_mpoly_scalar_divexact_fmpz(term, term, below->coeffs, f->ctx);
@@ -136,7 +136,7 @@ comes_apart(const qdot_form *form, const qdot_ratio *r)
     return apart;
 }
 
-/* The denominator; its sign is free: the shorter of d and -d, what is not negative first. */
+/* The denominator as the shorter one of d and -d; if equal the one without a leading minus. */
 static qdot_expr
 say_below(struct saying *s, qdot_ratio *r, fmpq_t c)
 {

@@ -1,4 +1,4 @@
-/* shortest.c -- makes forms of equal value and keeps the one with the fewest operations. */
+/* shortest.c -- makes equivalent forms of an expression and keeps the one with the fewest operations. */
 #include "normal/form/shortest.h"
 
 #include <math.h>
@@ -65,7 +65,7 @@ cosines_to_sines(qdot_field *f, qdot_ratio *r, const qdot_ratio *from, slong v)
     return qdot_field_goes(f);
 }
 
-/* The quotient with c^2 = 1 - s^2 in one angle, where that cancels. */
+/* Offer the quotient with c^2 = 1 - s^2 inserted for one angle, if something cancels then. */
 static void
 say_turned(struct simplifier *s, const qdot_ratio *from)
 {
@@ -169,7 +169,7 @@ origin(qdot_pool *pool, qdot_expr node, void *user)
                : QDOT_NIL;
 }
 
-/* Powers x of sums in a product, as bits of `with`: of their product's origin, where it has one. */
+/* Combine powers x of sums in a product, selected by bits of `with`, to the root from which they were split. */
 static qdot_expr
 as_one_root(qdot_pool *pool, const qdot_map *map, qdot_expr e, qdot_expr x, uint32_t with)
 {
@@ -188,7 +188,7 @@ as_one_root(qdot_pool *pool, const qdot_map *map, qdot_expr e, qdot_expr x, uint
     return qdot_mul(pool, qdot_div(pool, e, powers), qdot_pow(pool, before, x));
 }
 
-/* Roots of sums that came apart as the roots they were: all of one exponent, or two of them. */
+/* Rejoin roots of sums that were split: all with the same exponent, or two of them. */
 static qdot_expr
 together(qdot_pool *pool, const qdot_map *map, qdot_expr e)
 {
@@ -235,7 +235,7 @@ roots_together(qdot_pool *pool, qdot_expr e, void *user)
 
 /* --- scalars ----------------------------------------------------------------------- */
 
-/* A failure on the way to a candidate is forgotten; memory and Ctrl-C are not. */
+/* Clear a failure that occurred while a candidate was made, except out of memory and Ctrl-C. */
 static void
 forgive(qdot_pool *pool)
 {
@@ -273,7 +273,7 @@ struct request {
     qdot_map simplified; /* what stands inside functions and under roots -> its simplest form */
 };
 
-/* What stands inside functions and under roots is left as it is. */
+/* The shortest form of e; arguments of functions and bases of roots are not changed. */
 static qdot_expr
 outer(qdot_pool *pool, qdot_expr e, struct request *request)
 {
@@ -339,7 +339,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
     return s.best;
 }
 
-/* Whether a power of a sum stands in the terms of a sum. */
+/* Whether a term of a sum contains a power of a sum. */
 static bool
 holds_powers(const qdot_pool *pool, qdot_expr e)
 {
@@ -355,7 +355,7 @@ holds_powers(const qdot_pool *pool, qdot_expr e)
     return false;
 }
 
-/* A sum of three terms and more: a square may be in it. */
+/* Whether e is a sum of at least three terms, which may contain a complete square. */
 static bool
 is_long(const qdot_pool *pool, qdot_expr e)
 {
@@ -370,7 +370,7 @@ is_root(const qdot_pool *pool, qdot_expr exponent)
     return x != NULL && !fmpz_is_one(fmpq_denref(x));
 }
 
-/* outer(e); what was simplified before is looked up: one root stands in many parts of a sum. */
+/* outer(e), looked up if it was simplified before: a root may occur in many terms. */
 static qdot_expr
 outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
 {
@@ -402,7 +402,7 @@ inner_one(qdot_pool *pool, qdot_expr e, struct request *request)
                : e;
 }
 
-/* Long arguments of functions and long bases of roots, inner ones first. */
+/* Simplify long arguments of functions and long bases of roots, inner ones first. */
 static qdot_expr
 inner(qdot_pool *pool, qdot_expr e, struct request *request)
 {
@@ -462,7 +462,7 @@ simplify_by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *w
         if (request->spent) /* one part is past the budget: similar ones would be, too */
             sum = e;
         request->spent |= spent;
-        /* the expanded sum counts only if roots are left in it or it was simplified part by part */
+        /* the expanded sum counts only if it still has roots or was simplified part by part */
         if (sum != QDOT_NIL && (!*whole || qdot_root_parts_many(pool, sum)))
             qdot_form_keep(pool, &sum, e);
     }

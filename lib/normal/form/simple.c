@@ -25,7 +25,7 @@ is_plain_sum(const qdot_pool *pool, qdot_expr e)
     return true;
 }
 
-/* f(x), x a symbol. */
+/* Whether e is f(x) with a symbol x. */
 static bool
 is_plain_function(const qdot_pool *pool, qdot_expr e)
 {
@@ -35,7 +35,8 @@ is_plain_function(const qdot_pool *pool, qdot_expr e)
            qdot_expr_kind(pool, qdot_expr_arg(pool, e, 0)) == QDOT_SYM;
 }
 
-/* Powers of symbols; with positive ones also one function and one sum: nothing cancels. */
+/* Whether e is a product of powers of symbols; if all exponents are positive also with one function
+ * and one sum, as nothing cancels. */
 static bool
 is_simple_product(const qdot_pool *pool, qdot_expr e)
 {
@@ -184,7 +185,7 @@ read_two_angles(const qdot_pool *pool, qdot_expr e, two_angles *t)
     return found == 2;
 }
 
-/* The powers of symbols in the term; false: in the other term there are others. */
+/* The common powers of symbols in two terms, *product; false if the terms contain different ones. */
 static bool
 shared_powers(qdot_pool *pool, qdot_expr term, const two_angles *t, qdot_expr other,
               const two_angles *u, qdot_expr *product)
@@ -212,7 +213,7 @@ shared_powers(qdot_pool *pool, qdot_expr term, const two_angles *t, qdot_expr ot
     }
 }
 
-/* P cos(a) cos(b) + P sin(a) sin(b) is P cos(a - b), and so on; nil: e is no such sum. */
+/* Recognise P cos(a) cos(b) + P sin(a) sin(b) = P cos(a - b) and similar sums; nil if e is none. */
 static qdot_expr
 sum_of_angles(qdot_pool *pool, qdot_expr e)
 {

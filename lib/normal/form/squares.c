@@ -62,7 +62,7 @@ fits_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
     return good;
 }
 
-/* sqrt(c/g) times the root of the monomial over the shared one. */
+/* sqrt(c/g) times the root of the monomial divided by the common monomial. */
 static qdot_expr
 root_of(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
 {
@@ -105,7 +105,7 @@ written_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g,
     return e;
 }
 
-/* One square of terms that are not used yet; nil if there is none. */
+/* Find one complete square among the terms not used yet; nil if there is none. */
 static qdot_expr
 next_square(struct terms *t, ulong *exp)
 {

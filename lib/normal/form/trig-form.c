@@ -16,7 +16,7 @@
 
 enum { MOST_ANGLES = 4, MOST_HARMONICS = 40, MOST_DEGREE = 8, MOST_FLIPS = 3 };
 
-/* Whether a product stands over something. */
+/* Whether a product has a denominator. */
 static bool
 is_over(const qdot_pool *pool, qdot_expr e)
 {
@@ -217,7 +217,7 @@ angles_of(qdot_field *f, const slong *degree, slong *sine, bool *circular)
     return kinds == 3 || total > MOST_DEGREE ? -1 : n;
 }
 
-/* The angle of a harmonic, over `parts`. */
+/* The angle of a harmonic, with denominator `parts`. */
 static qdot_expr
 angle_of(qdot_field *f, const struct harmonic *h, int n, const slong *sine, int parts)
 {
@@ -313,7 +313,7 @@ with_square(qdot_field *f, struct fourier *x, int n, const slong *sine, bool cir
     return best;
 }
 
-/* p by multiple angles; nil if that is too long. */
+/* p in terms of multiple angles; nil if that is too long. */
 static qdot_expr
 by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
 {

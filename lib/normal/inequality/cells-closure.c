@@ -1,4 +1,4 @@
-/* cells-closure.c -- weak conditions whose points are limits of points inside. */
+/* cells-closure.c -- finds weak inequalities whose solutions are limits of points where they hold strictly. */
 #include "normal/inequality/cells-closure.h"
 
 #include "expr/calculus.h"
@@ -28,7 +28,7 @@ is_monotone(qdot_pool *pool, qdot_expr g, qdot_expr x)
     return (sign & QDOT_NE0) != 0 && (sign & (QDOT_GE0 | QDOT_LE0)) != 0;
 }
 
-/* Whether the symbol x stands under a root. */
+/* Whether the symbol x occurs under a root. */
 static bool
 is_under_root(const qdot_field *f, qdot_expr x)
 {

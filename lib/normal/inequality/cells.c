@@ -82,7 +82,7 @@ reasonable(const cells *c, const fmpz_mpoly_t p)
            labs(fmpz_mpoly_max_bits(p)) < MOST_BITS;
 }
 
-/* The level of p: the last symbol in it; -1: none. */
+/* The index of the last symbol in p; -1 if p is constant. */
 static slong
 level_of(const cells *c, const fmpz_mpoly_t p)
 {
@@ -152,7 +152,7 @@ level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
     fmpz_mpoly_factor_clear(factors, c->f.ctx);
 }
 
-/* p <- its norm over roots and absolute values: a polynomial in symbols that vanishes where p does. */
+/* p <- its norm over roots and absolute values: a polynomial in the symbols that vanishes wherever p does. */
 static void
 to_norm(cells *c, fmpz_mpoly_t p)
 {
@@ -170,7 +170,7 @@ to_norm(cells *c, fmpz_mpoly_t p)
     }
 }
 
-/* What bounds the regions where an expression has one sign. */
+/* Add the polynomials that bound the regions in which an expression has one sign. */
 static void
 add_expression(cells *c, qdot_expr e, bool zeros)
 {
@@ -193,7 +193,7 @@ add_expression(cells *c, qdot_expr e, bool zeros)
     fmpz_mpoly_clear(p, c->f.ctx);
 }
 
-/* Leading coefficient, discriminant and resultants of what stands in a level. */
+/* Add leading coefficients, discriminants and resultants of the polynomials of level k. */
 static void
 level_project(cells *c, slong k)
 {
@@ -246,7 +246,7 @@ cells_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* The sign of e with the point put in, exactly. */
+/* The exact sign of e at the chosen point. */
 static qdot_constant_sign
 sign_at_point(cells *c, qdot_expr e)
 {
@@ -268,7 +268,7 @@ cells_vanishes(cells *c, qdot_expr e)
     return sign_at_point(c, e) == QDOT_CONSTANT_ZERO;
 }
 
-/* Whether the weak conditions that are not used hold at the point. */
+/* Whether the weak conditions that were left out hold at the point. */
 static bool
 unused_hold(cells *c)
 {
@@ -282,7 +282,7 @@ unused_hold(cells *c)
     return hold;
 }
 
-/* The sign of one of the expressions where the ball was evaluated; 2: not known. */
+/* The sign of an expression at the point where the ball was evaluated; 2 if not known. */
 static int
 sign_here(const cells *c, qdot_expr e)
 {
@@ -323,7 +323,7 @@ keep_point(cells *c)
     c->point = qdot_list(c->pool, (uint32_t)c->n, row);
 }
 
-/* All symbols are chosen: false where the search ends. */
+/* Test the point, now that all symbols have values; false ends the search. */
 static bool
 look_here(cells *c)
 {
@@ -365,14 +365,14 @@ polynomial_over_points(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p
     qdot_polynomial_over(r, p, k, c->symbol, c->x, c->f.ctx);
 }
 
-/* How precise zeros are: with one symbol expressions are evaluated at them, with more symbols only between them. */
+/* The precision of zeros: with one symbol expressions are evaluated at them, with more only between them. */
 static slong
 bits_needed(const cells *c)
 {
     return c->n == 1 ? 96 : 24;
 }
 
-/* The zeros of what stands in a level, over the points chosen. */
+/* The zeros of the polynomials of level k, for the values of the symbols chosen before. */
 static slong
 zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
 {
@@ -416,7 +416,7 @@ vanishes_with(cells *c, qdot_expr e, const fmpz_mpoly_struct *p)
     return divides;
 }
 
-/* With one symbol: whether one of its values, about `root`, is surely outside. */
+/* With one symbol: whether its value at `root` certainly violates a condition. */
 static bool
 is_outside(cells *c, arb_srcptr root, const fmpz_mpoly_struct *factor)
 {
@@ -434,7 +434,7 @@ is_outside(cells *c, arb_srcptr root, const fmpz_mpoly_struct *factor)
     return outside;
 }
 
-/* With one symbol: which polynomial has this zero; NULL: not known. */
+/* With one symbol: the polynomial that has this zero; NULL if not known. */
 static const fmpz_mpoly_struct *
 owner(cells *c, arb_srcptr root)
 {
@@ -458,7 +458,8 @@ owner(cells *c, arb_srcptr root)
     return n == 1 ? found : NULL;
 }
 
-/* From level k on; k < MOST_SYMBOLS bounds the recursion. False where the search ends. */
+/* Choose values for the symbols from level k on (recursion is bounded by MOST_SYMBOLS). False ends
+ * the search. */
 static bool
 lift(cells *c, slong k)
 {
@@ -482,7 +483,7 @@ lift(cells *c, slong k)
                 continue;
         }
         go = lift(c, k + 1);
-        /* a value by itself, outside to both sides */
+        /* an isolated value whose neighbourhood is excluded on both sides */
         if (c->n == 1 && go && i > 0 && !before && !c->inside)
             c->too_much |= !is_outside(c, zero + i - 1, owner(c, zero + i - 1));
         before = c->inside;
@@ -494,14 +495,14 @@ lift(cells *c, slong k)
 
 /* --- the zeros of e, with one symbol ------------------------------------------------------- */
 
-/* Whether a zero of a factor of the norm of e is in the domain and may be one of e. */
+/* Whether a zero of a factor of the norm of e lies in the domain and may be a zero of e. */
 static bool
 may_be_zero(cells *c, arb_srcptr root, const fmpz_mpoly_t factor)
 {
     return !is_outside(c, root, factor) && sign_here(c, c->all[0]) != 1;
 }
 
-/* e >= 0 is known: whether it is 0 somewhere. */
+/* Find whether e has a zero, if e >= 0 is known. */
 static void
 look_at_zeros(cells *c)
 {
@@ -537,7 +538,7 @@ look_at_zeros(cells *c)
 
 /* --- all ----------------------------------------------------------------------------------- */
 
-/* The symbols: those of low degree are projected first. */
+/* Choose the order of the symbols: those of low degree are projected first. */
 static bool
 choose_symbols(cells *c)
 {
@@ -577,7 +578,7 @@ order_symbols(cells *c)
     }
 }
 
-/* The bases of roots, which are not negative, after the conditions. */
+/* Append conditions that bases of roots are not negative. */
 static bool
 gather_bases(cells *c)
 {
@@ -601,7 +602,7 @@ gather_bases(cells *c)
     return true;
 }
 
-/* Leave out the weak conditions whose points are not all limits of points inside. */
+/* Leave out weak conditions whose solutions are not all limits of interior points. */
 static void
 choose_conditions(cells *c)
 {

@@ -1,4 +1,4 @@
-/* contradiction.c -- tests each condition against those before it. */
+/* contradiction.c -- finds contradictions by testing each condition against those before it. */
 #include "normal/inequality/contradiction.h"
 
 #include "expr/node.h"

@@ -1,4 +1,4 @@
-/* factor-signs.c -- signs of the factors of an expression, by their nodes and the ends of cosines. */
+/* factor-signs.c -- signs of the factors of an expression, from known signs and from the bounds of cosines. */
 #include "normal/inequality/factor-signs.h"
 
 #include "expr/build.h"
@@ -21,7 +21,7 @@ bounds_of_product(uint8_t a, uint8_t b)
     return (uint8_t)(known | (a & b & QDOT_NE0));
 }
 
-/* The sign that holds at both ends, so between them, for what is linear there. */
+/* The sign of a linear function between two ends, if it is the same at both. */
 static uint8_t
 both(uint8_t a, uint8_t b)
 {
@@ -30,7 +30,8 @@ both(uint8_t a, uint8_t b)
 
 static uint8_t poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth);
 
-/* p = A x + B with x in [-1, 1] or [1, oo): from the ends. depth bounds the recursion. */
+/* The sign of p = A x + B with x in [-1, 1] or [1, oo), from its values at the ends. depth bounds
+ * the recursion. */
 static uint8_t
 by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
 {

@@ -8,10 +8,10 @@
 
 #include "expr/id.h"
 
-/* The bits QDOT_GE0, QDOT_LE0, QDOT_NE0 that are known of e; 0: none. */
+/* What is known of the sign of e, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; 0: nothing. */
 uint8_t qdot_sign_by_factors(qdot_pool *pool, qdot_expr e);
 
-/* An expression whose sign is that of e wherever e is defined, without the factors of known sign; e if there are none. */
+/* e without the factors of known sign: it has the sign of e wherever e is defined. */
 qdot_expr qdot_without_signed_factors(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -11,7 +11,7 @@
 #include "normal/field/flint.h"
 #include "normal/refute/ball.h"
 
-/* Bits of the first and the last attempt; of those that must end, a bound against surprises. */
+/* The first and the last precision in bits; SURE bounds loops that must end anyway. */
 enum { FIRST = 128, LAST = 2048, SURE = 1 << 16, MOST_DEGREE = 64 };
 
 typedef struct {
@@ -113,7 +113,7 @@ sides_of(const fmpz_poly_t f, bool squares)
     return s;
 }
 
-/* The zeros of the square-free factor f, which stands `times` in p. */
+/* Count the zeros of the square-free factor f, which occurs `times` in p. */
 static void
 add_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
 {
@@ -206,7 +206,7 @@ enclosed_polynomial(const question *q, const qdot_ball *ball, bool even, arb_pol
     return fine;
 }
 
-/* p(s) = h(s^2): the odd coefficients of p, which are 0 beyond their balls, left out. */
+/* p(s) = h(s^2): drop the odd coefficients of p, which contain 0. */
 static void
 keep_even(arb_poly_t p)
 {
@@ -223,7 +223,7 @@ keep_even(arb_poly_t p)
     arb_poly_truncate(p, n + 1);
 }
 
-/* Whether a zero alone in its ball is real: p is, so its conjugate would be another one. */
+/* Whether a zero isolated in its ball is real: as p is real, its conjugate would be a second zero. */
 static bool
 is_real_zero(acb_srcptr z)
 {

@@ -35,7 +35,7 @@ is_member(const qdot_pool *pool, qdot_expr list, qdot_expr e)
     return false;
 }
 
-/* The declared bounds of all symbols, those in bounds too. */
+/* Add the declared bounds of all symbols, including symbols in those bounds. */
 static void
 declared_bounds(qdot_pool *pool, qdot_question *q)
 {
@@ -104,7 +104,7 @@ question_put(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
     q->too_much |= q->e == QDOT_NIL;
 }
 
-/* Two questions instead of one: a is where the choice falls on the first side. */
+/* Replace a question with a case distinction by two; a: the first case holds. */
 static void
 question_split_choice(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
 {
@@ -131,7 +131,7 @@ question_split_choice(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_
     question_put(pool, b, choice, qdot_expr_arg(pool, choice, 2));
 }
 
-/* Conditions whose symbols have nothing to do with e, not even by others, left out. */
+/* Drop conditions whose symbols are not connected with e, directly or through other conditions. */
 static void
 drop_unconnected(qdot_pool *pool, qdot_question *q)
 {
@@ -163,7 +163,8 @@ drop_unconnected(qdot_pool *pool, qdot_question *q)
 
 /* --- one question ------------------------------------------------------------------------- */
 
-/* e - c m >= 0 for some c > 0 and m > 0 proves e > 0; where it is refuted for a small c it is for every larger one. */
+/* Prove e > 0 from e - c m >= 0 for some c > 0 and m > 0; if refuted for a small c it is for every
+ * larger one. */
 static qdot_status
 with_margin(qdot_pool *pool, const qdot_question *q, bool *proved)
 {
@@ -197,7 +198,7 @@ is_multiple(qdot_pool *pool, qdot_expr e, qdot_expr g)
            fmpq_sgn(qdot_expr_rational(pool, ratio)) > 0;
 }
 
-/* Whether conditions say it as they stand: one of them, or the sum of two. */
+/* Whether a condition, or the sum of two, is literally what is to be proved. */
 static bool
 is_said(qdot_pool *pool, const qdot_question *q, bool strict)
 {
@@ -320,7 +321,7 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
 
 /* --- by slopes ------------------------------------------------------------------------------ */
 
-/* Whether e is defined and smooth wherever its one symbol is in its domain. */
+/* Whether e is defined and smooth on the whole domain of its only symbol. */
 static bool
 is_smooth(qdot_pool *pool, qdot_expr e)
 {
@@ -398,7 +399,7 @@ reaches(qdot_pool *pool, qdot_expr bound, qdot_expr a, bool up, qdot_expr *end,
     return *nothing || sign == QDOT_CONSTANT_POSITIVE;
 }
 
-/* e with one symbol, its slope, and how many slopes of slopes may be asked. */
+/* e as a function of one symbol, its derivative, and how many more derivatives may be used. */
 struct line {
     qdot_pool *pool;
     qdot_expr x, slope;

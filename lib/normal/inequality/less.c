@@ -81,7 +81,7 @@ side(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* A bound without symbols as a double on its safe side. */
+/* A constant bound as a double, rounded to the safe side. */
 static bool
 bound_as_double(qdot_pool *pool, qdot_expr e, bool up, double *x)
 {
@@ -219,7 +219,7 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     return positive_on_box(pool, s);
 }
 
-/* Whether the fact 0 < |u| (gap = |u|) can help to prove 0 < d: |u| stands in d, or d is u times a number. */
+/* Whether the fact 0 < |u| (gap = |u|) can help to prove 0 < d: d contains |u|, or is u times a number. */
 static bool
 is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *facts)
 {
@@ -231,7 +231,7 @@ is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *fac
     return ratio == QDOT_NIL || qdot_expr_rational(pool, ratio) != NULL;
 }
 
-/* Whether e divides by nothing that may be 0 and holds no function with a pole. */
+/* Whether e divides only by expressions that cannot be 0, and contains no function with a pole. */
 static bool
 divides_by_nonzero(qdot_pool *pool, qdot_expr e)
 {
@@ -250,7 +250,7 @@ divides_by_nonzero(qdot_pool *pool, qdot_expr e)
     return good;
 }
 
-/* From a condition u < v: d is a positive multiple of v - u, or not less than it. */
+/* Prove d > 0 from a condition u < v: d is a positive multiple of v - u, or not less than it. */
 static bool
 proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 {
@@ -328,7 +328,7 @@ refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
 }
 
-/* At a point, a LIST of symbol = rational, that was found where right - left is negative (or zero). */
+/* Refute at a point, a LIST of symbol = rational, where right - left was found negative (or zero). */
 static qdot_status
 refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
              const qdot_facts *facts, qdot_expr at, qdot_decision *d)
@@ -408,7 +408,7 @@ less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         d->verdict = QDOT_PROVED;
         return QDOT_OK;
     }
-    /* a division by zero on the way proves nothing */
+    /* a division by zero during the proof proves nothing */
     QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
     QDOT_TRY(refute(pool, left, right, strict, facts, d));
     if (d->verdict == QDOT_UNDECIDED && gap != QDOT_NIL && strict)
@@ -511,7 +511,7 @@ facts_without_choices(qdot_pool *pool, const qdot_facts *facts, qdot_expr *left)
     return rest;
 }
 
-/* u or -u for |u|, 1 or -1 for sign u, where the facts decide the sign of u; nil: they do not. */
+/* Replace |u| by u or -u, sign(u) by 1 or -1, if the facts decide the sign of u; nil if not. */
 static qdot_expr
 known_sign(qdot_pool *pool, qdot_expr node, const qdot_facts *facts)
 {
@@ -529,7 +529,7 @@ known_sign(qdot_pool *pool, qdot_expr node, const qdot_facts *facts)
     return QDOT_NIL;
 }
 
-/* 1: a comparison is proved to hold, -1: that it does not, 0: neither. */
+/* 1: the comparison is proved, -1: it is refuted, 0: neither. */
 static int
 known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 {
@@ -547,7 +547,7 @@ known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return is.verdict == QDOT_PROVED ? 1 : is_not.verdict == QDOT_PROVED ? -1 : 0;
 }
 
-/* The same of the condition of an if: comparisons joined by and, or, not. */
+/* The same for the condition of an if: comparisons joined by and, or, not. */
 static int
 known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 {
@@ -569,7 +569,7 @@ known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return op == QDOT_NOT ? -least : op == QDOT_AND ? least : most;
 }
 
-/* What a node |u|, sign u or if(c, u, v) is under the facts; nil: they do not tell, or it is another node. */
+/* The value of a node |u|, sign(u) or if(c, u, v) under the facts; nil for other nodes or if undecided. */
 static qdot_expr
 known_node(qdot_pool *pool, qdot_expr node, void *user)
 {

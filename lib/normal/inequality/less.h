@@ -1,10 +1,10 @@
-/* less.h -- is one number less than another? Tests: tests/normal/inequality/test_less.c */
+/* less.h -- decides whether one number is less than another. Tests: tests/normal/inequality/test_less.c */
 #ifndef QDOT_NORMAL_LESS_H
 #define QDOT_NORMAL_LESS_H
 
 #include "normal/prove/decide.h"
 
-/* Decide left < right (or <=) from signs and declared domains; else refute by a point. */
+/* Decide left < right (or <=): prove it from signs and declared domains, or refute it by a point. */
 QDOT_MUST_CHECK qdot_status qdot_decide_less(qdot_pool *pool, qdot_expr left,
                                              qdot_expr right, bool strict,
                                              const qdot_facts *facts,

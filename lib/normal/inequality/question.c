@@ -80,7 +80,7 @@ by_sign(substitutes *s, qdot_expr y, uint8_t sign)
         qdot_question_demand(s->q, qdot_neg(s->pool, y), !(sign & QDOT_NE0));
 }
 
-/* pi, a fraction of which rests on the safe side either way. */
+/* pi as an unknown between two close rationals, so that fractions of it are bounded on both sides. */
 static qdot_expr
 pi_itself(substitutes *s)
 {
@@ -115,7 +115,7 @@ plain_function(substitutes *s, qdot_expr e)
     return y;
 }
 
-/* (1 - t^2)/(1 + t^2), 2 t/(1 + t^2) of one half angle; signs of sine and cosine bound t. */
+/* Replace cosine and sine by (1 - t^2)/(1 + t^2), 2 t/(1 + t^2); their known signs bound t. */
 static void
 circle(substitutes *s, const qdot_field *f, slong sine)
 {
@@ -135,7 +135,7 @@ circle(substitutes *s, const qdot_field *f, slong sine)
     stand_for(s, gc->expr, qdot_mul(pool, qdot_sub(pool, QDOT_ONE, square), over));
 }
 
-/* E = exp(u) > 0, and on one side of 1 if u has a sign. */
+/* Replace exp(u) by an unknown E > 0, with E > 1 or E < 1 if u has a sign. */
 static qdot_expr
 exponential(substitutes *s, qdot_expr u)
 {
@@ -171,7 +171,8 @@ standing_for(const substitutes *s, qdot_expr e)
     return e;
 }
 
-/* p with all that has been replaced; not by way of an expression, in which exp(x)^2 is exp(2*x). */
+/* p with all replacements inserted, directly as a polynomial, because as an expression exp(x)^2
+ * becomes exp(2*x). */
 static qdot_expr
 polynomial(substitutes *s, qdot_field *f, const fmpz_mpoly_t p)
 {
@@ -200,7 +201,7 @@ polynomial(substitutes *s, qdot_field *f, const fmpz_mpoly_t p)
     return sum;
 }
 
-/* The value of a node of the field with all that has been replaced. */
+/* The value of a node of the field with all replacements inserted. */
 static qdot_expr
 replaced(substitutes *s, qdot_field *f, qdot_expr e)
 {
@@ -281,7 +282,7 @@ qdot_question_reduce(qdot_pool *pool, qdot_question *q)
         return;
     }
     qdot_field_begin(&f, pool, 1 + n, all, WORK);
-    /* inner roots have larger numbers */
+    /* go from inner roots, which have larger indices, to outer ones */
     for (slong v = f.n - 1; v >= 0 && qdot_field_goes(&f) && !q->too_much; v--)
         generator(&s, &f, v);
     for (size_t i = 0; i < 1 + n && qdot_field_goes(&f) && !q->too_much; i++) {

@@ -14,7 +14,7 @@
 #include "base/memory.h"
 
 enum { MOST_DEGREE = 160 };
-/* Words that one call may change when it shifts polynomials: some seconds. */
+/* The most words that one call may change when it shifts polynomials: a few seconds. */
 #define MOST_WORK 4000000000.0
 
 /* --- intervals that hold one zero ------------------------------------------------------- */
@@ -35,7 +35,7 @@ typedef struct {
     slong found;
 } isolation;
 
-/* The number of sign changes along the coefficients, those that are 0 left out; counting stops at 2. */
+/* The number of sign changes along the non-zero coefficients; counting stops at 2. */
 static int
 sign_changes(const fmpz_poly_t p)
 {
@@ -50,7 +50,7 @@ sign_changes(const fmpz_poly_t p)
     return changes;
 }
 
-/* p(t + 1), at a cost that is counted. */
+/* p <- p(t + 1); its cost is counted. */
 static void
 isolation_shift(isolation *s, fmpz_poly_t p)
 {
@@ -79,7 +79,7 @@ most_zeros(isolation *s, const fmpz_poly_t p)
     return changes;
 }
 
-/* Note one zero between from and from + 1, times 2^(scale - depth); exact: at from itself. */
+/* Record one zero between `from` and from + 1, times 2^(scale - depth); exact: at `from` itself. */
 static void
 isolation_keep(isolation *s, const fmpz_t from, slong depth, bool exact)
 {
@@ -121,7 +121,7 @@ halve_argument(fmpz_poly_t p)
     fmpz_poly_primitive_part(p, p);
 }
 
-/* Put its two halves in place of the last part of the stack, and note a zero where they meet. False: no memory. */
+/* Replace the last interval of the stack by its halves, and record a zero at the middle. False: no memory. */
 static bool
 isolation_split(isolation *s)
 {
@@ -209,7 +209,7 @@ sign_at(const fmpz_poly_t p, const arf_t at)
     return sign;
 }
 
-/* An interval that holds one zero of p, bisected until its width is below 2^-bits times the magnitude of the zero. */
+/* Bisect an interval that contains one zero of p until its width is below 2^-bits times the zero. */
 static void
 bisect(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
 {

@@ -15,7 +15,7 @@
 
 enum { MOST = 12, POINTS = MOST + 3, TRIES = 120, LARGEST = 64 };
 
-/* Columns 0: pi, then the angles; orthogonal ones by Gram and Schmidt. */
+/* Columns: pi, then the angles; `base` are orthogonalised by Gram-Schmidt. */
 struct basis {
     qdot_pool *pool;
     size_t n, points;
@@ -34,7 +34,7 @@ is_angle(const qdot_pool *pool, qdot_expr e)
            qdot_expr_is_function(pool, e, QDOT_LOG);
 }
 
-/* The simpler an angle, the earlier its column. */
+/* Collect the angles, simpler ones in earlier columns. */
 static qdot_status
 basis_gather(struct basis *b, size_t n, const qdot_expr *e)
 {
@@ -100,7 +100,7 @@ dot(const struct basis *b, const double *x, const double *y)
     return sum;
 }
 
-/* The part of column j orthogonal to the columns before; taken twice because of rounding. */
+/* The component of column j orthogonal to the earlier columns; computed twice because of rounding. */
 static void
 basis_project(struct basis *b, size_t j)
 {
@@ -123,7 +123,7 @@ basis_project(struct basis *b, size_t j)
         rest[i] /= b->length[j];
 }
 
-/* The fraction with a small denominator near x; false: there is none. */
+/* A fraction with a small denominator near x; false if there is none. */
 static bool
 small_fraction(double x, long *n, long *d)
 {
@@ -137,7 +137,7 @@ small_fraction(double x, long *n, long *d)
     return false;
 }
 
-/* The dependent column j by those before; nil: its coefficients are no small fractions. */
+/* Guess the dependent column j as a combination of earlier ones; nil if a coefficient is no small fraction. */
 static qdot_expr
 guess(struct basis *b, size_t j)
 {
@@ -163,7 +163,7 @@ guess(struct basis *b, size_t j)
     return sum;
 }
 
-/* Column j, a constant, as c B + q pi, B one constant before it; nil: none is near. */
+/* Guess a constant column j as c B + q pi, with one earlier constant B; nil if none fits. */
 static qdot_expr
 guess_constant(struct basis *b, size_t j)
 {

@@ -27,7 +27,7 @@ is_angle(const qdot_field *f, slong v)
     return op == QDOT_ATAN || op == QDOT_ASIN || op == QDOT_ACOS || op == QDOT_ATAN2;
 }
 
-/* What is known of a sum: its bounds, and Z with its modulus. */
+/* What is known of a sum of angles: its bounds, and a complex number Z with this argument, and |Z|. */
 struct sum {
     qdot_pool *pool;
     qdot_expr lo, hi;
@@ -55,7 +55,7 @@ add_bounds(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_expr hi, bool
     s->hi_open |= k > 0 ? hi_open : lo_open;
 }
 
-/* Of k times the angle e; quarters of a turn, narrowed by what is known of the arguments' signs. */
+/* Add the bounds of k times the angle e, in quarter turns, narrowed by the known signs of its arguments. */
 static void
 bound_angle(struct sum *s, long k, qdot_expr e)
 {
@@ -91,7 +91,7 @@ bound_angle(struct sum *s, long k, qdot_expr e)
     add_bounds(s, k, times_pi(pool, lo, 2), lo_open, times_pi(pool, hi, 2), hi_open);
 }
 
-/* Whether the sum stays between -n pi and n pi, these not reached. */
+/* Whether the sum lies strictly between -n pi and n pi. */
 static bool
 stays_within(const struct sum *s, long n)
 {
@@ -180,7 +180,7 @@ add_turn(struct sum *s, qdot_expr q)
 
 /* --- sums in a polynomial ------------------------------------------------------------------- */
 
-/* The generator that is term i of p times a number; -1: it is anything else. */
+/* The generator if term i of p is a number times one generator; -1 otherwise. */
 static slong
 alone(qdot_field *f, const fmpz_mpoly_t p, slong i, ulong *exp)
 {
@@ -229,7 +229,7 @@ shared_factor(qdot_field *f, const fmpz_mpoly_t p, fmpz_t g, ulong *exp)
     return good;
 }
 
-/* p over g, put together. */
+/* Collect the bounds and the factors of Z of all terms of the sum p/g. */
 static void
 put_together(qdot_field *f, struct sum *s, const fmpz_mpoly_t p, const fmpz_t g,
              ulong *exp)

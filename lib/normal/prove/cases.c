@@ -1,4 +1,4 @@
-/* cases.c -- goes through all orders and signs, each of which is a substitution. */
+/* cases.c -- proves an equation in all cases of orders and signs, each inserted as a substitution. */
 #include "normal/prove/cases.h"
 
 #include "base/memory.h"
@@ -36,7 +36,7 @@ is_told_apart(const qdot_pool *pool, qdot_expr e)
 
 /* --- signs of products ------------------------------------------------------------------ */
 
-/* sign b^x: that of b for odd integers and for roots; its square for even ones. */
+/* sign(b^x): that of b for odd integers and roots; its square for even exponents. */
 static qdot_expr
 sign_of_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
@@ -82,7 +82,7 @@ signs_apart(qdot_pool *pool, qdot_expr e, void *user)
     return result;
 }
 
-/* What has the sign of u, turned by *sign: without its coefficient, without odd functions that grow. */
+/* A simpler expression with the sign of u times *sign: without coefficient and increasing odd functions. */
 static qdot_expr
 sign_key(qdot_pool *pool, qdot_expr u, int *sign)
 {
@@ -115,7 +115,7 @@ struct cases {
     qdot_expr node[NODES],
         to[NODES]; /* the functions, inner ones first, and their values */
     size_t n;
-    /* what is proved to be the one at `place` of `list`, or its negative */
+    /* an expression proved equal to the one at `place` of `list`, or to its negative */
     struct alias {
         const qdot_expr *list;
         qdot_expr e;
@@ -123,7 +123,7 @@ struct cases {
         int turn;
     } alias[NODES];
     size_t n_aliases;
-    /* sign[k] is leaf[i] - leaf[j] */
+    /* sign[k] is the sign of leaf[i] - leaf[j] */
     struct link {
         size_t k, i, j;
     } link[LINKS];
@@ -141,7 +141,7 @@ is_proved(struct cases *c, qdot_expr a, qdot_expr b)
     return equal;
 }
 
-/* The place in a list of what is proved to be e, or (turn not NULL) -e; n: there is none. */
+/* The index in a list of an expression proved equal to e, or (turn not NULL) to -e; n if there is none. */
 static size_t
 leaf_place(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
 {
@@ -184,7 +184,7 @@ add_leaf(struct cases *c, qdot_expr e)
         c->leaf[c->n_leaves++] = e;
 }
 
-/* The place of a key; SIGNS: no room. */
+/* The index of the sign of u, added if new; SIGNS: no room. */
 static size_t
 add_sign(struct cases *c, qdot_expr u, bool zero)
 {
@@ -207,7 +207,7 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
     return k;
 }
 
-/* What the comparisons in the condition of an if ask. */
+/* Add the signs on which the comparisons in the condition of an if depend. */
 static qdot_status
 cases_add_condition(struct cases *c, qdot_expr condition)
 {
@@ -248,7 +248,7 @@ add_node(struct cases *c, qdot_expr e)
     return QDOT_OK;
 }
 
-/* Whether a function that is told apart stands inside e. */
+/* Note too_much if e contains a function that needs cases itself. */
 static qdot_status
 look_inside(struct cases *c, qdot_expr e)
 {
@@ -261,7 +261,7 @@ look_inside(struct cases *c, qdot_expr e)
     return QDOT_OK;
 }
 
-/* Signs of differences of leaves: an order knows them. */
+/* Find the signs that are differences of leaves: the order of the leaves determines them. */
 static void
 link_signs(struct cases *c)
 {
@@ -343,7 +343,7 @@ sign_in(struct cases *c, qdot_expr u, const int *sign)
     return turned * again * sign[k];
 }
 
-/* Whether a condition holds in a case; a loop over its parts, 1 false, 2 true. */
+/* Evaluate a condition in a case, over its nodes: 1 false, 2 true. */
 static bool
 holds_in(struct cases *c, qdot_expr condition, const int *sign)
 {
@@ -384,7 +384,7 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
     return value == 2;
 }
 
-/* The argument that max or min chooses. */
+/* The argument that max or min selects in this case. */
 static qdot_expr
 chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
 {
@@ -435,7 +435,7 @@ cases_put_in(struct cases *c, const size_t *order, const int *sign)
     }
 }
 
-/* Whether all of e counts: a branch that is not taken may be undefined. */
+/* Whether everything in e is evaluated: a branch not taken may be undefined. */
 static bool
 has_no_branches(const struct cases *c)
 {
@@ -450,7 +450,7 @@ has_no_branches(const struct cases *c)
     return none;
 }
 
-/* At the zero of a sign a side that divides by it has no value, and nothing is claimed there. */
+/* In a case with a zero, a side that divides by that has no value: then nothing is claimed. */
 static bool
 no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
 {
@@ -461,7 +461,7 @@ no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
     return status == QDOT_EDOMAIN && at_zero && has_no_branches(c);
 }
 
-/* key = c x + rest = 0 put into e by x = -rest/c; e itself where there is no such x. */
+/* e with key = c x + rest = 0 solved for x and inserted; e itself if key has no such x. */
 static qdot_expr
 at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
 {
@@ -484,7 +484,7 @@ at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
     return e;
 }
 
-/* Whether what must have a value has none at the zeros of this case. */
+/* Whether an expression that must be defined is undefined at the zeros of this case. */
 static bool
 nothing_is_claimed(struct cases *c, const int *sign, const qdot_facts *facts)
 {
@@ -498,7 +498,7 @@ nothing_is_claimed(struct cases *c, const int *sign, const qdot_facts *facts)
     return qdot_pool_check(c->pool) == QDOT_EDOMAIN;
 }
 
-/* What is known in a case: what is known anyway, orders, signs and zeros. */
+/* Collect what is known in a case: the facts, and its order, signs and zeros. */
 static void
 learn(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
       qdot_facts *known, qdot_expr *relation, qdot_expr *condition)
@@ -568,7 +568,7 @@ cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_fa
     return status;
 }
 
-/* The next order, as a number with its digits counts up; false: that was the last. */
+/* The next permutation in lexicographic order; false after the last. */
 static bool
 next_order(size_t *order, size_t n)
 {

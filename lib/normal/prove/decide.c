@@ -34,9 +34,9 @@ struct look {
 static const struct look quick = {2, 24, {96, 0}, false};
 static const struct look closer = {2, 24, {512, 0}, false};
 static const struct look thorough = {16, 240, {128, 512, 2048, 0}, false};
-/* under conditions, which may hold in a small region only */
+/* under conditions, which may hold only in a small region: look longer */
 static const struct look patient = {60, 720, {128, 0}, false};
-/* at special values of one symbol */
+/* at special values of one symbol: */
 static const struct look edges = {MOST_EDGES, MOST_EDGES, {128, 512, 0}, true};
 
 static double
@@ -45,7 +45,7 @@ to_double(arb_srcptr x)
     return arf_get_d(arb_midref(x), ARF_RND_NEAR);
 }
 
-/* The digits to which the sides agree: the ball of the difference holds zero. */
+/* The number of digits to which the sides agree: the ball of the difference contains zero. */
 static int
 digits_of(const arb_t difference, arb_srcptr left)
 {
@@ -58,7 +58,7 @@ digits_of(const arb_t difference, arb_srcptr left)
     return radius > 0 ? 0 : (int)fmin(-radius * 0.30103, 9999);
 }
 
-/* What is compared: where all of `defined` (a LIST) have values. */
+/* What is compared, at points where all of `defined` (a LIST) have values. */
 struct sides {
     qdot_expr left, right, defined;
 };
@@ -72,7 +72,7 @@ all_defined(const qdot_sample *s, qdot_expr list)
     return true;
 }
 
-/* Compare at one point. 1: the sides differ there; 0: they agree so far; -1: no point. */
+/* Compare at one point. 1: the sides differ; 0: they agree so far; -1: no point was found. */
 static int
 compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *look,
                  qdot_decision *d, int *digits)
@@ -107,7 +107,7 @@ compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *l
     return result;
 }
 
-/* Of the values of a point those that the sides hold, and those that what is assumed ties to them. */
+/* The values of a point for symbols in the two sides, and for those related to them by assumptions. */
 static qdot_expr
 concerning(qdot_pool *pool, qdot_expr point, const qdot_expr *sides,
            const qdot_facts *facts)
@@ -241,7 +241,7 @@ need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return QDOT_OK;
 }
 
-/* Two LISTs one after the other. */
+/* Two LISTs joined. */
 static qdot_expr
 joined(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -264,7 +264,7 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
                 qdot_decision *d)
 {
     static const qdot_unify_way way = {qdot_prove_harder, qdot_prove_cases, true};
-    /* the arguments themselves stay as they are, except for what is inside them */
+    /* only what is inside of the arguments changes */
     qdot_expr e[3] = {left, right, QDOT_NIL}, both[2];
     bool any = false, changed = true;
     struct sides sides;
@@ -286,7 +286,7 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     return look_at_sides(pool, &sides, facts, &thorough, d);
 }
 
-/* With the relations of parts of inverse functions; not without such. */
+/* Prove with the relations between multiples of inverse functions; do nothing if there are none. */
 static qdot_status
 prove_parts(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
             bool *equal)

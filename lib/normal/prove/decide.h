@@ -35,7 +35,7 @@ QDOT_MUST_CHECK qdot_status qdot_decide_equal(qdot_pool *pool, qdot_expr left,
                                               qdot_expr right, const qdot_facts *facts,
                                               qdot_decision *decision);
 
-/* Whether e is proved to be zero. False also when it fails; the pool keeps the failure. */
+/* Whether e is proved to be zero. Also false on failure, which the pool keeps. */
 bool qdot_is_zero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 #endif

@@ -1,4 +1,4 @@
-/* defined.c -- finds the nodes that are always evaluated and the conditions on their arguments. */
+/* defined.c -- finds the nodes that are always evaluated, and the conditions under which they are defined. */
 #include "normal/prove/defined.h"
 
 #include "expr/build.h"
@@ -19,7 +19,7 @@ struct job {
 
 /* --- a gap taken apart ----------------------------------------------------------------- */
 
-/* g = c (a^2 - x^2), c > 0, a >= 0 (a a number or of known sign): two gaps. */
+/* Split g = c (a^2 - x^2), c > 0, a >= 0 (a number or of known sign), into two linear conditions. */
 static qdot_status
 between_roots(struct job *j, qdot_expr g, bool weak, bool *done)
 {
@@ -84,7 +84,7 @@ unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_expr *produ
 
         if (even)
             sign = (uint8_t)(QDOT_GE0 | (sign & QDOT_NE0));
-        /* where it is 0 nothing is known of the others, unless the product is not 0 */
+        /* where it is 0 the other factors are unknown, unless the product is not 0 */
         if (weak && !(sign & QDOT_NE0))
             *product = qdot_mul(pool, *product,
                                 qdot_pow_int(pool, b, (long)factors.exp[i]));
@@ -160,7 +160,7 @@ function_is_defined(struct job *j, qdot_expr e)
     }
 }
 
-/* Whether b^x could have come out of a root beside it as something that may be zero. */
+/* Whether b^x may have been taken out of a root beside it, and may be zero. */
 static bool
 may_have_come_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {

@@ -1,4 +1,4 @@
-/* domain.c -- puts conditions and bounds into the symbols, one after another. */
+/* domain.c -- eliminates conditions and bounds by replacing symbols, one after another. */
 #include "normal/prove/domain.h"
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ typedef struct {
     bool changed, empty;
 } job;
 
-/* A symbol y with lo < y (or <=), y < hi, the only one of these bounds in place of x. */
+/* A new symbol y for x with the given bounds, and no others. */
 static qdot_expr
 fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
       bool hi_open)
@@ -39,7 +39,7 @@ fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
     return y;
 }
 
-/* x -> to, everywhere. */
+/* Replace x by `to` in all expressions and conditions. */
 static void
 domain_replace(job *j, qdot_expr x, qdot_expr to)
 {
@@ -134,7 +134,7 @@ count_terms(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_SUM ? (qdot_expr_count(pool, e) - 1) / 2 : 1;
 }
 
-/* Whether the i-th term of g is c x, x a symbol that is not in the other terms. */
+/* Whether term i of g is c x, with a symbol x that no other term contains. */
 static bool
 linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x,
             qdot_expr *rest)
@@ -156,7 +156,7 @@ linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x
     return *rest != QDOT_NIL && !qdot_expr_contains(pool, *rest, *x);
 }
 
-/* A constant bound of x from c x + rest > 0; the bounds of x with it. */
+/* Tighten the bounds of x by c x + rest > 0, if that gives a constant bound. */
 static void
 tighten(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
 {
@@ -185,7 +185,7 @@ tighten(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
     domain_move_bounds(j, x, s);
 }
 
-/* Solve the gap for a symbol whose declared sign shows in what stands for it. */
+/* Solve a condition for a symbol such that its declared sign is visible in its replacement. */
 static bool
 solve_gap(job *j, qdot_expr gap, bool weak)
 {
@@ -233,7 +233,7 @@ solvable(qdot_pool *pool, qdot_expr r, qdot_expr x, qdot_expr *to)
     return *to != QDOT_NIL && !qdot_expr_contains(pool, *to, x);
 }
 
-/* What was declared of x holds of what stands for it. */
+/* Keep the declared bounds of x as conditions on its replacement. */
 static qdot_status
 keep_bounds(job *j, qdot_expr x)
 {
@@ -285,7 +285,7 @@ domain_add_gap(void *user, qdot_expr gap, bool weak)
     return add_gap(j, gap, weak);
 }
 
-/* What holds wherever the sides have values, and what conditions say once taken apart. */
+/* Add the conditions under which the sides are defined, and those that follow from conditions by splitting. */
 static qdot_status
 gather_implied(job *j, const qdot_facts *facts)
 {
@@ -298,7 +298,7 @@ gather_implied(job *j, const qdot_facts *facts)
     return qdot_defined(j->pool, 2, j->e, domain_add_gap, j);
 }
 
-/* The gaps of the conditions, and of declared bounds that hold symbols. */
+/* Collect the conditions, and the declared bounds that contain symbols. */
 static qdot_status
 domain_gather(job *j, const qdot_facts *facts, qdot_expr atoms)
 {

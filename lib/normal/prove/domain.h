@@ -17,13 +17,13 @@
 
 typedef qdot_vec(qdot_expr) qdot_exprs;
 
-/* The conditions that remain. */
+/* The conditions that could not be eliminated. */
 typedef struct {
     qdot_exprs positive; /* gaps > 0 that were not solved; owned by the caller */
     bool empty; /* conditions and declared signs contradict each other, no point is left */
 } qdot_domain_rest;
 
-/* Rewrite e[n] in place; the last nr of them are relations, 0 once solved. */
+/* Rewrite e[n] in place; the last nr of them are relations, replaced by 0 once solved. */
 QDOT_MUST_CHECK qdot_status qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts,
                                                size_t n, qdot_expr *e, size_t nr,
                                                bool implied, qdot_domain_rest *rest);

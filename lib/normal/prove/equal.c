@@ -1,4 +1,4 @@
-/* equal.c -- proves a difference zero in one field, or root by root where there are many roots. */
+/* equal.c -- proves a difference to be zero in one field, or split by its roots if there are many. */
 #include "normal/prove/equal.h"
 
 #include "expr/build.h"

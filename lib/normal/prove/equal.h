@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "normal/field/facts.h"
 
-/* A way to prove left = right: *equal. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
+/* A procedure that proves left = right: *equal. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
 typedef qdot_status (*qdot_prover)(qdot_pool *pool, qdot_expr left, qdot_expr right,
                                    const qdot_facts *facts, bool *equal);
 
@@ -25,7 +25,8 @@ QDOT_MUST_CHECK qdot_status qdot_prove_given(qdot_pool *pool, qdot_expr left,
 
 /* --- the steps of a proof, for prove.c --------------------------------------------------- */
 
-/* e: left, right, nr relations, np that are positive; `conditional`: some of these by conditions. */
+/* e: left, right, then nr relations, then np positive expressions; `conditional`: some of these
+ * come from conditions. */
 typedef struct {
     qdot_pool *pool;
     size_t nr, np;
@@ -39,12 +40,12 @@ qdot_problem_count(const qdot_problem *p)
     return 2 + p->nr + p->np;
 }
 
-/* Always finish a problem that was begun: finish returns the status of the proof. */
+/* Call finish after every begin: it returns the status of the proof. */
 QDOT_MUST_CHECK qdot_status qdot_problem_begin(qdot_problem *p, qdot_pool *pool, qdot_expr left,
                                                qdot_expr right, const qdot_facts *facts);
 QDOT_MUST_CHECK qdot_status qdot_problem_finish(qdot_problem *p, qdot_status status);
 
-/* Find bases of roots that are obviously positive; after expansion that is hard to see. */
+/* Record bases of roots that are obviously positive; after expansion that is hard to see. */
 QDOT_MUST_CHECK qdot_status qdot_problem_note_positive(qdot_problem *p);
 
 /* Prepare all expressions; QDOT_EFAILED if one is undefined (a zero denominator). */

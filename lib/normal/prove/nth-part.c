@@ -1,4 +1,5 @@
-/* nth-part.c -- terms c f(u) of arguments, c with an odd factor below the bar. */
+/* nth-part.c -- relations between terms c f(u) with inverse functions f whose coefficients c have
+ * odd denominators. */
 #include "normal/prove/nth-part.h"
 
 #include "expr/build.h"

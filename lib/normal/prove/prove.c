@@ -11,7 +11,8 @@
 
 #define ROUNDS 3 /* functions within functions, whose values are their own */
 
-/* Conditions and bounds put into the symbols; what cannot be, after the relations. */
+/* Replace symbols so that conditions and bounds hold; conditions that cannot be eliminated follow
+ * the relations. */
 static qdot_status
 unfold(qdot_problem *p, const qdot_facts *facts, bool implied, bool *empty)
 {

@@ -1,4 +1,4 @@
-/* range.c -- signs of generators and of polynomials in them. */
+/* range.c -- signs of generators of a field, and of polynomials in them. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -95,7 +95,7 @@ not_negative(qdot_pool *pool, qdot_expr e, bool *open)
     return sign == QDOT_CONSTANT_POSITIVE || sign == QDOT_CONSTANT_ZERO;
 }
 
-/* Of sin x for x in a range: between k pi and (k + 1) pi it is that of (-1)^k. */
+/* The sign of sin(x) for x in a range: between k pi and (k + 1) pi it is (-1)^k. */
 static uint8_t
 sign_of_sine(qdot_pool *pool, struct range r)
 {
@@ -164,7 +164,7 @@ monomial(const qdot_zero *z, const fmpz_mpoly_t p, slong i, ulong *exp)
     return sign;
 }
 
-/* The sign of a sum whose terms have one sign. */
+/* The sign of a sum if all terms have the same sign. */
 static uint8_t
 by_terms(const qdot_zero *z, const fmpz_mpoly_t p)
 {
@@ -184,7 +184,7 @@ by_terms(const qdot_zero *z, const fmpz_mpoly_t p)
     return all == 0 ? 0 : all | any;
 }
 
-/* p is c times something known to be positive, or that times a sign. */
+/* The sign of p if it is c times an expression known to be positive, perhaps times one of known sign. */
 static uint8_t
 by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
 {
@@ -211,7 +211,7 @@ by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
     return sign & EITHER ? sign : 0;
 }
 
-/* p is c times the value of a node whose sign is known: of cosh(x + y), say. */
+/* The sign of p if it is c times a node of known sign, as cosh(x + y). */
 static uint8_t
 by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
 {
@@ -236,7 +236,7 @@ by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
     return sign;
 }
 
-/* With c^2 = 1 - s^2 in one angle the terms may have one sign. */
+/* The sign of p after c^2 = 1 - s^2 for one angle, if all terms then have the same sign. */
 static uint8_t
 by_turning(const qdot_zero *z, const fmpz_mpoly_t p)
 {

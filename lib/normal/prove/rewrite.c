@@ -1,4 +1,4 @@
-/* rewrite.c -- one pass, children first. */
+/* rewrite.c -- replaces functions by their definitions in terms of others, in one pass, children first. */
 #include "normal/prove/rewrite.h"
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@ half(qdot_pool *pool, qdot_expr e)
     return qdot_mul(pool, QDOT_HALF, e);
 }
 
-/* log(v + sqrt(v^2 + c)) */
+/* log(v + sqrt(v^2 + c)), an inverse hyperbolic function. */
 static qdot_expr
 area(qdot_pool *pool, qdot_expr v, qdot_expr c)
 {
@@ -70,7 +70,7 @@ modulo(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_sub(pool, a, qdot_mul(pool, b, whole));
 }
 
-/* u^c for c log u, c a number; nil if it is anything else. */
+/* u^c for an argument c log(u), c a number; nil for other arguments. */
 static qdot_expr
 power_of_log(qdot_pool *pool, qdot_expr arg)
 {

@@ -1,4 +1,5 @@
-/* unify.c -- one pass, children first; candidates are found by their values at a few points. */
+/* unify.c -- makes equal arguments of functions identical, children first; candidates have equal
+ * values at a few points. */
 #include "normal/prove/unify.h"
 
 #include <math.h>
@@ -21,17 +22,17 @@ enum {
     POINTS = 3
 };
 
-/* Arguments of one class are compared with one another. */
+/* Classes of arguments; only arguments of the same class are compared. */
 typedef enum { NONE, ANGLE, ABSOLUTE, BASE, LOGARITHM, OTHER } class;
 
-/* Where an argument stands. */
+/* The position of an argument: in which function or power. */
 struct place {
     class class;
     uint32_t op; /* OTHER: in this function */
     qdot_kind kind;
 };
 
-/* An argument that stands for all that are multiples of it. */
+/* An argument that represents all multiples of it. */
 struct seen {
     struct place place;
     qdot_expr arg; /* as it is now */
@@ -91,7 +92,7 @@ unify_evaluate(job *j, size_t n, const qdot_expr *e)
     return QDOT_OK;
 }
 
-/* The fraction with a small denominator near x; false if there is none. */
+/* A fraction with a small denominator near x; false if there is none. */
 static bool
 small_fraction(fmpq_t c, double x)
 {
@@ -131,14 +132,14 @@ proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
 
 /* --- arguments --------------------------------------------------------------------- */
 
-/* Plain arguments are normal as they are, but others may be equal to them. */
+/* Whether an argument is compared: a plain one is normal, but others may equal it. */
 static bool
 worth_a_look(const qdot_pool *pool, qdot_expr arg)
 {
     return qdot_expr_is_scalar(pool, arg) && qdot_expr_kind(pool, arg) != QDOT_NUM;
 }
 
-/* *with: what stands for `arg` (whose old node has the index `at`), times *c. */
+/* *with: the representative of `arg` (whose old node has the index `at`), with arg = *c times it. */
 static qdot_status
 unify_find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
 {
@@ -196,7 +197,7 @@ argument_index(const job *j, qdot_expr old, uint32_t i)
     return qdot_walk_index(&j->walk, qdot_expr_arg(j->pool, old, i));
 }
 
-/* now: a function made of `old`, its arguments unified already inside. */
+/* Unify the arguments of a function; *now is made of `old`, with unified arguments inside. */
 static qdot_status
 unify_function(job *j, qdot_expr old, qdot_expr *now)
 {
@@ -277,7 +278,7 @@ unify_undefined(job *j, qdot_expr old, qdot_expr *now)
     return status;
 }
 
-/* Powers with exponents that are not integers. */
+/* Unify the bases of powers with non-integer exponents. */
 static qdot_status
 unify_product(job *j, qdot_expr old, qdot_expr *now)
 {

@@ -13,7 +13,7 @@
 
 #include "normal/prove/equal.h"
 
-/* How arguments are proved equal. */
+/* The procedures that prove arguments equal. */
 typedef struct {
     qdot_prover prove;   /* a bounded number of times */
     qdot_prover harder;  /* tried if `prove` fails; NULL: none */

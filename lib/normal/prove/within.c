@@ -56,7 +56,7 @@ lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
            bounded_by_quarters(pool, s->hi, to, false);
 }
 
-/* The angle of which y = p sin(x), x = p cos(x), p > 0; nil: none. */
+/* The angle phi with y = p sin(phi), x = p cos(phi), p > 0; nil if there is none. */
 static qdot_expr
 angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
 {

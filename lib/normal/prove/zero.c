@@ -68,7 +68,7 @@ has_constants(const qdot_field *f, const fmpz_mpoly_t p)
     return false;
 }
 
-/* Take out of p the terms over one monomial whose constant coefficient is zero. */
+/* Remove the terms of p over one monomial whose constant coefficient is zero. */
 static qdot_status
 drop_constants(qdot_field *f, fmpz_mpoly_t p)
 {
@@ -160,7 +160,7 @@ next_root(const qdot_zero *z, const fmpz_mpoly_t p, slong after)
     return z->ideal == NULL || after >= 0 ? -1 : constant;
 }
 
-/* False where p is not of this form. */
+/* Split p by the root v; false if p does not have that form. */
 static bool
 split_at(qdot_field *f, struct split *s, const fmpz_mpoly_t p, slong v)
 {
@@ -254,7 +254,7 @@ is_in_interval(const qdot_pool *pool, qdot_expr x)
            (s->hi == QDOT_NIL || qdot_is_constant(pool, s->hi));
 }
 
-/* Analytic where its arguments are. */
+/* Whether a function is analytic wherever its arguments are. */
 static bool
 analytic_function(const qdot_pool *pool, qdot_expr e)
 {
@@ -285,7 +285,7 @@ analytic_product(const qdot_pool *pool, qdot_expr e)
     return true;
 }
 
-/* Whether e is analytic on the whole declared domain, and that connected. */
+/* Whether e is analytic on its whole declared domain, which must be connected. */
 static bool
 is_analytic(const qdot_pool *pool, qdot_expr e)
 {
@@ -385,7 +385,7 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 
 static qdot_status zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero);
 
-/* Whether p is 0 if its norm is, by a root that the split takes out. */
+/* Whether p vanishes if its norm over the root v does. */
 static bool
 follows_from_norm(qdot_zero *z, const fmpz_mpoly_t p, struct split *s, slong v)
 {
@@ -393,7 +393,7 @@ follows_from_norm(qdot_zero *z, const fmpz_mpoly_t p, struct split *s, slong v)
            (s->order % 2 != 0 || opposite_signs(z, s) || only_this_branch(z, p, s));
 }
 
-/* One irreducible factor: by the outermost root of which enough is known. */
+/* Prove that an irreducible factor is zero, by the outermost root about which enough is known. */
 static qdot_status
 prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 {

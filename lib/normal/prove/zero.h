@@ -35,12 +35,12 @@ typedef struct {
     const qdot_expr *positive; /* expressions in the field that are > 0 */
     bool sure;                 /* they are so on the whole declared domain */
     uint8_t *sign;             /* [f->n] of generators */
-    /* Of prepared sides that are simpler than p: whether they are equal; set by the caller. */
+    /* Proves that two prepared sides, simpler than p, are equal; set by the caller. */
     qdot_status (*prove)(qdot_pool *pool, qdot_expr left, qdot_expr right, size_t n_positive,
                          const qdot_expr *positive, bool sure, bool *equal);
 } qdot_zero;
 
-/* Look at the signs of the generators. Errors: QDOT_ENOMEM. */
+/* Determine the signs of the generators. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_zero_begin(qdot_zero *z, qdot_field *f,
                                             const qdot_ideal *ideal, size_t n_positive,
                                             const qdot_expr *positive, bool sure);
@@ -50,15 +50,15 @@ void qdot_zero_end(qdot_zero *z);
 QDOT_MUST_CHECK qdot_status qdot_zero_prove(qdot_zero *z, const fmpz_mpoly_t p,
                                             bool *zero);
 
-/* The step of logarithms (logarithm.c). */
+/* Try to prove p = 0 by relations of logarithms (logarithm.c). */
 QDOT_MUST_CHECK qdot_status qdot_zero_logarithms(qdot_zero *z, const fmpz_mpoly_t p,
                                                  bool *zero);
 
-/* The step of angles (angle-sum.c). */
+/* Try to prove p = 0 by relations of angles (angle-sum.c). */
 QDOT_MUST_CHECK qdot_status qdot_zero_angles(qdot_zero *z, const fmpz_mpoly_t p,
                                              bool *zero);
 
-/* The known sign of p (range.c): a set of QDOT_GE0 ... */
+/* What is known of the sign of p (range.c), as bits QDOT_GE0 ... */
 uint8_t qdot_zero_sign(qdot_zero *z, const fmpz_mpoly_t p);
 
 /* The signs of a generator from declared domains (range.c). */

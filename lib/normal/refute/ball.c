@@ -1,4 +1,4 @@
-/* ball.c -- functions in ball arithmetic, and one pass over the nodes. */
+/* ball.c -- evaluates expressions in ball arithmetic, in one pass over their nodes. */
 #include "normal/refute/ball.h"
 
 #include "base/memory.h"

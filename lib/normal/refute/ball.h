@@ -7,7 +7,7 @@
 #include "expr/walk.h"
 #include "num/arb.h"
 
-/* One pass over some expressions; begun once, evaluated at many points. */
+/* Evaluates some expressions in balls; begun once, used at many points. */
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;
@@ -16,7 +16,7 @@ typedef struct {
         *known; /* [walk.n] scalars: 1 finite; relations: 1 true, 2 false; 0 not known */
 } qdot_ball;
 
-/* Errors: QDOT_ENOMEM, QDOT_EINTR; then there is nothing to end. */
+/* Begin; errors: QDOT_ENOMEM, QDOT_EINTR, after which _end must not be called. */
 QDOT_MUST_CHECK qdot_status qdot_ball_begin(qdot_ball *b, qdot_pool *pool, size_t n,
                                             const qdot_expr *e);
 void qdot_ball_end(qdot_ball *b);
@@ -27,14 +27,14 @@ void qdot_ball_eval(qdot_ball *b, slong prec,
                     bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                     void *user);
 
-/* The value of one of the e, NULL where it is undefined or not known so far. */
+/* The value of one of the expressions; NULL if undefined or not known. */
 arb_srcptr qdot_ball_get(const qdot_ball *b, qdot_expr e);
-/* The middle of the value of e alone; false: it has none. `of` as in qdot_ball_eval. */
+/* The midpoint of the value of a single expression; false if it has none. `of` as in qdot_ball_eval. */
 bool qdot_ball_double(qdot_pool *pool, qdot_expr e,
                       bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                       void *user, double *x);
 
-/* Of a relation or a logical expression: 1 true, 2 false, 0 not known. */
+/* The truth of a relation or logical expression: 1 true, 2 false, 0 not known. */
 int qdot_ball_truth(const qdot_ball *b, qdot_expr e);
 
 #endif

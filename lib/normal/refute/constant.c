@@ -89,14 +89,14 @@ size_of_number(const fmpq *x)
     return (size){n, fmpz_is_one(fmpq_denref(x)) ? 0 : log2_of(fmpq_denref(x))};
 }
 
-/* (U L^(k-1))^(1/k) / L; the other way, over (U^(k-1) L)^(1/k), fails where U is 0. */
+/* Size of the k-th root: (U L^(k-1))^(1/k) / L. The alternative U / (U^(k-1) L)^(1/k) fails for U = 0. */
 static size
 size_of_root(size a, double k)
 {
     return (size){up((a.u + (k - 1) * a.l) / k), a.l};
 }
 
-/* Roots of one base: the least common order. */
+/* Record a root; roots of the same base get the least common order. */
 static qdot_status
 note_root(bound *b, qdot_expr base, ulong order)
 {
@@ -144,7 +144,7 @@ size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
     return QDOT_OK;
 }
 
-/* c of c*pi. */
+/* The rational c if e is c*pi. */
 static bool
 multiple_of_pi(const qdot_pool *pool, qdot_expr e, fmpq_t c)
 {
@@ -228,7 +228,7 @@ degree(const bound *b)
     return d;
 }
 
-/* log2 of the bound below which e is zero, as a positive number; QDOT_EFAILED: none. */
+/* A constant with |e| below 2^-bits must be zero: *bits; QDOT_EFAILED if no such bound is known. */
 static qdot_status
 separation(bound *b, qdot_expr e, double *bits)
 {

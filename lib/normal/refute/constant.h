@@ -23,7 +23,7 @@
 
 #include "expr/id.h"
 
-/* The sign of a constant. */
+/* The sign of a constant, as far as it is proved. */
 typedef enum {
     QDOT_CONSTANT_UNKNOWN, /* undefined, not algebraic, or past the precision allowed */
     QDOT_CONSTANT_ZERO,

@@ -1,4 +1,4 @@
-/* enclosure.c -- one pass over the nodes in intervals, with slopes. */
+/* enclosure.c -- evaluates expressions and their derivatives in interval arithmetic, in one pass. */
 #include "normal/refute/enclosure.h"
 
 #include <float.h>
@@ -11,7 +11,7 @@
 #include "expr/walk.h"
 #include "num/arb.h"
 
-/* A node: what it is, where its operands are. */
+/* A node: its operation, and the indices of its operands. */
 typedef struct {
     qdot_kind kind;
     uint32_t op;
@@ -33,7 +33,7 @@ struct qdot_enclosure {
 
 /* --- functions of one variable --------------------------------------------------------------- */
 
-/* f(a), f'(a), and where it is defined. */
+/* f(a), f'(a), and whether f is defined on a. */
 typedef struct {
     qdot_interval y, slope;
     qdot_enclosure_state state;
@@ -93,7 +93,7 @@ holds_zero(qdot_interval a)
     return a.lo <= 0 && a.hi >= 0;
 }
 
-/* The state of a function with the domain least ... most; its ends belong to it if `ends`. */
+/* Where a lies relative to the domain least ... most of a function; `ends`: the ends belong to it. */
 static qdot_enclosure_state
 inside(qdot_interval a, double least, double most, bool ends)
 {
@@ -299,7 +299,7 @@ eval_sum(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
     }
 }
 
-/* v^p and its slope by v. */
+/* v^p and its derivative by v. */
 static image
 image_power(qdot_interval a, qdot_interval p, bool integer)
 {
@@ -324,7 +324,7 @@ image_power(qdot_interval a, qdot_interval p, bool integer)
     return f;
 }
 
-/* v^p for an exponent that is an expression: exp(p log v). */
+/* v^p if the exponent is an expression: exp(p log v). */
 static image
 general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
               const qdot_enclosure_value *p, qdot_enclosure_value *to)
@@ -412,7 +412,7 @@ eval_if(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
             : QDOT_ENCLOSURE_PARTLY;
 }
 
-/* atan2 and mod. */
+/* Evaluate atan2 or mod. */
 static void
 eval_two(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
@@ -459,7 +459,7 @@ eval_function(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
     enclosure_add_slopes(s, to, f.slope, v);
 }
 
-/* 1 true, 0 false, 0..1 not known. */
+/* Evaluate a relation or logical operation: 1 true, 0 false, 0..1 not known. */
 static void
 eval_truth(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 {
@@ -546,7 +546,7 @@ qdot_enclosure_count(const qdot_enclosure *s)
 
 /* --- translation ---------------------------------------------------------------------------------- */
 
-/* The doubles around a rational. */
+/* The smallest interval of doubles that contains a rational. */
 static qdot_interval
 around_rational(const fmpq *x)
 {
@@ -574,7 +574,7 @@ enclosure_put(qdot_enclosure *s, uint32_t at, uint32_t arg, const fmpq *number)
     s->integer[at] = number != NULL && fmpz_is_one(fmpq_denref(number));
 }
 
-/* Operands of a sum or product; the constant stands behind them. */
+/* List the operands of a sum or product; its constant comes last. */
 static void
 put_pairs(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, qdot_expr e,
           node *k, uint32_t *used)

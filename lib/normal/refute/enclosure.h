@@ -48,7 +48,7 @@ void qdot_enclosure_free(qdot_enclosure *s);
 /* Evaluate over X [n]; with slopes if wanted. */
 void qdot_enclosure_eval(qdot_enclosure *s, const qdot_interval *X, bool slopes);
 
-/* How many nodes one evaluation passes. */
+/* The number of nodes in one evaluation. */
 size_t qdot_enclosure_size(const qdot_enclosure *s);
 
 size_t qdot_enclosure_count(const qdot_enclosure *s); /* m, of qdot_enclosure_new */

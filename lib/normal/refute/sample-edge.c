@@ -4,7 +4,7 @@
 #include "expr/symbol.h"
 #include "normal/refute/sample.h"
 
-/* x = c or c pi of a constant that is one of these. */
+/* The rational x of a constant x or x pi; *turn: it is x pi. */
 static bool
 number_or_turn(const qdot_pool *pool, qdot_expr e, fmpq_t x, bool *turn)
 {
@@ -23,7 +23,7 @@ number_or_turn(const qdot_pool *pool, qdot_expr e, fmpq_t x, bool *turn)
     return c != NULL;
 }
 
-/* The i-th edge of an atom by itself, put into x; false: it has no such edge. */
+/* The i-th special value of an atom, into x; false if there is none. */
 static bool
 at_edge(const qdot_pool *pool, qdot_sample_atom *a, int i, fmpq_t x)
 {

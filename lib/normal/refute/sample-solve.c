@@ -64,7 +64,7 @@ fitness(const qdot_pool *pool, const qdot_gen *gen)
     }
 }
 
-/* Whether gen v stands inside another generator that p holds. */
+/* Whether generator v occurs inside another generator that p contains. */
 static bool
 inside_another(qdot_field *f, const fmpz_mpoly_t p, slong v)
 {
@@ -116,7 +116,7 @@ solve_for_variable(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, q
     return x;
 }
 
-/* Whether a function in e may jump where all its arguments have values. */
+/* Whether a function in e may jump although its arguments are defined. */
 static bool
 may_jump(const qdot_pool *pool, qdot_expr e)
 {
@@ -136,7 +136,7 @@ may_jump(const qdot_pool *pool, qdot_expr e)
     return may;
 }
 
-/* The atom for which a relation is solved at each point: a symbol, which may stand inside functions. */
+/* The atom for which a relation is solved numerically at each point; it may occur inside functions. */
 static qdot_expr
 implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n,
               const qdot_sample_solution *solved)
@@ -211,7 +211,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
 
 enum { PLACES = 24, HALVINGS = 60, SECANTS = 24, LEAST = 64 };
 
-/* Nodes evaluated on the way to all values of a sample, more where they are more precise. */
+/* The budget of evaluated nodes for all values of a sample; a node counts more at higher precision. */
 #define ROOT_WORK 1000000
 
 /* Evaluate the relation at a->value; its sign, 0 where that is not sure. f: its value, if there is
@@ -240,7 +240,7 @@ sign_at(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong prec, arf_t f)
     return sign_here(s, a, prec, f);
 }
 
-/* left < right, at which the signs differ; halved until they are not sure any more. */
+/* Bracket a root between left < right, where the signs differ, by bisection while signs are certain. */
 static bool
 bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
 {
@@ -274,7 +274,7 @@ bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
     return arf_cmp(left, right) < 0 && before != 0;
 }
 
-/* Whether there is surely a zero within 2^-bits of x; then a->value is that ball. */
+/* Whether a zero certainly lies within 2^-bits of x; then a->value becomes that ball. */
 static bool
 encloses(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong prec)
 {

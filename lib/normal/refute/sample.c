@@ -1,4 +1,4 @@
-/* sample.c -- solves relations one after another, chooses points and checks them. */
+/* sample.c -- chooses points that satisfy relations and conditions, to refute claims at them. */
 #include "normal/refute/sample.h"
 
 #include <math.h>
@@ -116,7 +116,7 @@ bounds_of(qdot_pool *pool, qdot_expr atoms)
     return all;
 }
 
-/* Atoms whose bounds hold other atoms come after these. */
+/* 1 for atoms whose bounds contain other atoms: they come last. */
 static int
 bound_rank(const qdot_pool *pool, qdot_expr atom)
 {
@@ -184,7 +184,7 @@ solve_relations(qdot_sample *s, qdot_sample_solution *solved, qdot_expr *put, si
         put[k] = solved[k].solution;
 }
 
-/* The free atoms, those with bounds that hold others last, then the solved ones. */
+/* Add the free atoms, those with bounds that contain others last, then the solved ones. */
 static void
 add_atoms(qdot_sample *s, qdot_expr atoms, size_t n, qdot_sample_solution *solved)
 {
@@ -332,7 +332,7 @@ rational_between(fmpq_t x, double lo, double hi, double where, double about)
 /* Ranges tried in turn: functions with narrow domains need small arguments. */
 static const double reach[] = {3, 1, 7, 0.5, 20, 2, 0.9, 0.1};
 
-/* The range narrowed by conditions, as far as the other atoms in them are chosen. */
+/* The range of an atom narrowed by conditions, as far as the other atoms in them have values. */
 static void
 sample_narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
 {
@@ -442,7 +442,7 @@ qdot_sample_point(qdot_sample *s, int k)
             sample_choose(s, &s->atom[i]);
 }
 
-/* A solved value must surely lie in its domain. */
+/* Whether a solved value certainly lies in its domain. */
 static bool
 in_domain(qdot_sample *s, const qdot_sample_atom *a)
 {
@@ -470,7 +470,7 @@ in_domain(qdot_sample *s, const qdot_sample_atom *a)
     return true;
 }
 
-/* Whether two applications of one function might have the same arguments. */
+/* Whether two applications of the same function may have equal arguments. */
 static bool
 arguments_meet(const qdot_sample *s)
 {

@@ -27,7 +27,7 @@ typedef struct {
     arb_t value;
 } qdot_sample_atom;
 
-/* What a condition that is linear in an atom says of it: below (or above) `bound`. */
+/* A condition linear in an atom: the atom lies below (or above) `bound`. */
 typedef struct {
     qdot_expr atom, bound;
     bool below;
@@ -55,7 +55,7 @@ QDOT_MUST_CHECK qdot_status qdot_sample_begin(qdot_sample *s, qdot_pool *pool, s
                                               const qdot_facts *facts);
 void qdot_sample_end(qdot_sample *s);
 
-/* Choose the k-th point. */
+/* Choose the k-th sample point. */
 void qdot_sample_point(qdot_sample *s, int k);
 /* The k-th special point, at which sides may differ though they agree around it: one atom is 0,
  * 1, -1, a quarter turn, a declared bound that belongs to it, another atom's value or its
@@ -78,7 +78,7 @@ void qdot_sample_set(qdot_sample_atom *a, slong prec);
 void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
 /* For qdot_ball_eval. */
 bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
-/* atom = solution, or (implicit) the solution is a relation that is 0 at the atom's value. */
+/* atom = solution; or (implicit) the solution is a relation that vanishes at the atom's value. */
 typedef struct {
     qdot_expr atom, solution;
     bool implicit;

@@ -1,4 +1,4 @@
-/* kinks.c -- kinks of |u|, max and min that cancel. */
+/* kinks.c -- removes kinks of |u|, max and min that cancel each other. */
 #include "normal/simplify/kinks.h"
 
 #include "base/memory.h"
@@ -10,10 +10,10 @@
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"
 
-/* Larger expressions are left as they are. */
+/* Expressions with more operations than this are not changed. */
 enum { MOST_OPERATIONS = 1000 };
 
-/* The kinks of an expression, as they are found. */
+/* The kinks found in an expression. */
 typedef struct {
     qdot_vec(qdot_expr) absolute; /* each |u| that is left */
     size_t decided;               /* those whose u has one sign */
@@ -22,7 +22,7 @@ typedef struct {
 
 /* --- the sign of u with one absolute value in it ------------------------------------------------ */
 
-/* Whether u = c w, c a number or a parameter of known sign: the sign of c. */
+/* Whether u = c w with a number c, or a parameter of known sign; *sign: that of c. */
 static bool
 sign_of_multiple(qdot_pool *pool, qdot_expr u, qdot_expr w, int *sign)
 {
@@ -32,7 +32,8 @@ sign_of_multiple(qdot_pool *pool, qdot_expr u, qdot_expr w, int *sign)
     return known & (QDOT_GE0 | QDOT_LE0);
 }
 
-/* 1: u >= 0, -1: u <= 0 everywhere, by its form or because it is a multiple of w on both sides of |w|; 0: unknown. */
+/* 1: u >= 0, -1: u <= 0 everywhere, from its form, or because it is a multiple of w for both signs
+ * of w in |w|; 0: unknown. */
 static int
 sign_everywhere(qdot_pool *pool, qdot_expr u)
 {

@@ -14,7 +14,7 @@
 
 #include "expr/id.h"
 
-/* e without the kinks that cancel; e itself where none does. Nil on failure. */
+/* e without kinks that cancel; e itself if none does. Nil on failure. */
 qdot_expr qdot_kinks_cancel(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,5 @@
-/* positive.c -- drops the factors of known sign, or those that are known not to be 0. */
+/* positive.c -- simplifies the condition e > 0 or e != 0: drops factors of known sign, or known not
+ * to vanish. */
 #include "normal/simplify/positive.h"
 
 #include "base/memory.h"
@@ -15,7 +16,8 @@
 
 enum { WORK = 1000000, PRODUCT_WORK = 100000, POINTS = 24 };
 
-/* What is asked of e: to be positive where no even power is 0; to be positive, or its zeros and sign; not to be 0. */
+/* The condition on e: positive where no even power vanishes; positive, with sign and zeros
+ * preserved; or not 0. */
 typedef enum { POSITIVE_GENERIC, POSITIVE_EXACT, POSITIVE_NONZERO } question;
 
 typedef struct {
@@ -81,7 +83,7 @@ sign_of_constant(job *j, qdot_expr e)
     return sign;
 }
 
-/* Whether e is above 0 at some points, below 0 at others: then no sign is to be proved. */
+/* Whether e is found positive at some sample points and negative at others: then no sign can be proved. */
 static void
 sample_signs(job *j, qdot_expr e, bool *above, bool *below)
 {
@@ -113,7 +115,7 @@ is_known_positive(const job *j, qdot_expr b)
     return false;
 }
 
-/* Whether e is a product of powers, or of powers of products, of what is known to be positive. */
+/* Whether e is a product of powers of factors known to be positive. */
 static bool
 is_of_known(const job *j, qdot_expr e)
 {
@@ -135,7 +137,7 @@ is_of_known(const job *j, qdot_expr e)
     return true;
 }
 
-/* 1, -1: proved; 0: not known. */
+/* The sign of e if it is proved, 1 or -1; 0 if not known. */
 static int
 proved_sign(job *j, qdot_expr e)
 {
@@ -167,7 +169,7 @@ proved_sign(job *j, qdot_expr e)
     return 0;
 }
 
-/* The factors of one polynomial, below or above the line, on which the answer depends. */
+/* Keep the factors of a polynomial in numerator or denominator that matter for the condition. */
 static qdot_status
 keep_factors(job *j, const fmpz_mpoly_t p, bool below)
 {
@@ -222,7 +224,7 @@ qdot_positive_without_minus(qdot_pool *pool, qdot_expr e)
     return qdot_rel(pool, QDOT_LT, left, right);
 }
 
-/* Leave out a factor |v| beside v: it is never negative, and 0 where v is. */
+/* Drop a factor |v| beside v: it is never negative, and 0 only where v is. */
 static void
 leave_out_magnitudes(job *j)
 {

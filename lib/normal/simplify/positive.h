@@ -24,10 +24,10 @@ qdot_expr qdot_positive_exact(qdot_pool *pool, qdot_expr e, const qdot_facts *fa
  * those factors of its numerator, each once, that may be 0. */
 qdot_expr qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
-/* 0 < e, terms with a minus sign on the other side. */
+/* The relation 0 < e, with negative terms moved to the other side. */
 qdot_expr qdot_positive_without_minus(qdot_pool *pool, qdot_expr e);
 
-/* e - b for a relation b < e or b <= e: what it says is positive. */
+/* e - b for a relation b < e or b <= e: the expression that the relation states to be positive. */
 qdot_expr qdot_positive_of(qdot_pool *pool, qdot_expr relation);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "normal/field/facts.h"
 
-/* e, a scalar, simplified; with rational denominators where that is no longer. */
+/* The scalar e simplified, with rational denominators if that is not longer. */
 qdot_expr qdot_rationalize(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 #endif

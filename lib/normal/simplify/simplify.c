@@ -1,4 +1,4 @@
-/* simplify.c -- known signs, then the shortest form. */
+/* simplify.c -- inserts known signs, then finds the shortest form. */
 #include "normal/simplify/simplify.h"
 
 #include "expr/build.h"

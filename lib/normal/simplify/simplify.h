@@ -8,7 +8,8 @@
 
 qdot_expr qdot_simplify(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
-/* The sign of v/u as far as its simplified form shows it: bits QDOT_GE0, QDOT_LE0, QDOT_NE0; 0: nothing is known. */
+/* The sign of v/u as far as its simplified form shows it: bits QDOT_GE0, QDOT_LE0, QDOT_NE0; 0:
+ * nothing is known. */
 uint8_t qdot_ratio_sign(qdot_pool *pool, qdot_expr v, qdot_expr u);
 
 #endif

@@ -1,4 +1,4 @@
-/* antiderivative.c -- a table of integrals, parts and substitutions. */
+/* antiderivative.c -- integrates by a table, by parts and by substitution. */
 #include "normal/solve/antiderivative.h"
 
 #include "expr/build.h"
@@ -11,7 +11,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* Substitutions and parts nest this deep; what people write needs two. */
+/* The deepest nesting of substitutions and integrations by parts; common integrals need two. */
 enum { MOST_DEPTH = 4 };
 
 typedef struct {
@@ -21,7 +21,7 @@ typedef struct {
 
 static qdot_expr integrate(const table *t, qdot_expr e, qdot_expr x, int depth);
 
-/* The factors of a term that hold x, and the product of the others. */
+/* A term split into its factors with x, and the product of the others. */
 typedef struct {
     qdot_expr rest;
     qdot_expr base[4], exponent[4];
@@ -89,7 +89,7 @@ function(qdot_pool *pool, qdot_fun_id id, qdot_expr u)
     }
 }
 
-/* One factor: a power of something linear, or a function of it. */
+/* Integrate a single factor: a power of a linear function of x, or a function of one. */
 static qdot_expr
 one_factor(const table *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
 {
@@ -133,7 +133,7 @@ by_parts(const table *t, const factors *f, qdot_expr x, int depth)
     return QDOT_NIL;
 }
 
-/* With u for a part of the term: int f(u) u' dx = int f(u) du. */
+/* Substitute u for a subexpression of the term: int f(u) u' dx = int f(u) du. */
 static qdot_expr
 substitute(const table *t, qdot_expr term, qdot_expr u, qdot_expr x, int depth)
 {

@@ -1,4 +1,4 @@
-/* assumptions.c -- values of parameters and domains of unknowns, from what `assume` states. */
+/* assumptions.c -- parameter values and domains of unknowns that follow from the statement `assume`. */
 #include "normal/solve/assumptions.h"
 
 #include "expr/calculus.h"
@@ -22,7 +22,7 @@ qdot_assumptions_put(qdot_pool *pool, const qdot_assumptions *a, qdot_expr e)
     return e == QDOT_NIL || a->from.n == 0 ? e : qdot_subs(pool, e, a->from.n, a->from.at, a->to.at);
 }
 
-/* Note parameter = value, and put the value into those noted before. */
+/* Record parameter = value, and insert the value into those recorded before. */
 static qdot_status
 add_value(qdot_pool *pool, qdot_assumptions *a, qdot_expr parameter, qdot_expr value)
 {
@@ -33,7 +33,7 @@ add_value(qdot_pool *pool, qdot_assumptions *a, qdot_expr parameter, qdot_expr v
     return qdot_vec_push(&a->to, value);
 }
 
-/* Note the value of a parameter at which `zero` is 0, if that is one value. */
+/* Record the parameter value at which `zero` vanishes, if there is just one. */
 static qdot_status
 add_relation(qdot_pool *pool, qdot_assumptions *a, qdot_expr zero)
 {

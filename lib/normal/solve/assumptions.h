@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_assumptions_read(qdot_pool *pool, const qdot_fa
                                                   qdot_assumptions *a);
 void qdot_assumptions_clear(qdot_assumptions *a);
 
-/* e (nil stays nil) with the values put in. */
+/* e with the recorded values inserted (nil stays nil). */
 qdot_expr qdot_assumptions_put(qdot_pool *pool, const qdot_assumptions *a, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* condition-forms.c -- simpler forms of conditions 0 < g and 0 <= g whose g holds |v| or square roots. */
+/* condition-forms.c -- simpler forms of conditions 0 < g and 0 <= g if g contains |v| or square roots. */
 #include "normal/solve/condition-forms.h"
 
 #include "expr/build.h"
@@ -8,7 +8,8 @@
 #include "expr/node.h"
 #include "expr/walk.h"
 
-/* So many nodes |u| and the like are replaced by what they may be; larger expressions are not examined. */
+/* MOST_CHOICES: nodes such as |u| that are replaced by their possible values; LARGEST: operations
+ * of an examined expression. */
 enum { MOST_CHOICES = 4, LARGEST = 80 };
 
 /* A node |u|, sign u, max(u, v) or min(u, v) of e, and what its value may be, other [2]: u or -u, 1 or -1, u or v. Nil:
@@ -40,7 +41,8 @@ find_choice(qdot_pool *pool, qdot_expr e, qdot_expr *other)
     return found;
 }
 
-/* Whether e is 0 identically for some choice of the values of all such nodes, `depth` of which are chosen already. */
+/* Whether e vanishes identically for some choice of the values of all such nodes; `depth` of them
+ * are chosen already. */
 static bool
 vanishes_by_choice(qdot_pool *pool, qdot_expr e, int depth)
 {

@@ -1,4 +1,4 @@
-/* conditions.c -- relations under which a solution exists. */
+/* conditions.c -- sets of relations under which a solution exists. */
 #include "normal/solve/conditions.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ enum { MOST_COMPARED = 6, LARGEST_COMPARED = 24 };
 
 /* --- one relation --------------------------------------------------------------------- */
 
-/* The relation `strict`, 0 < rest, with <= in place of < where it is weak. */
+/* The strict relation 0 < rest with <= instead of <. */
 static qdot_expr
 weaken(qdot_pool *pool, qdot_expr strict)
 {
@@ -71,7 +71,7 @@ number_apart(qdot_pool *pool, qdot_expr relation)
     return qdot_rel(pool, QDOT_LT, qdot_neg(pool, c), qdot_sub(pool, right, c));
 }
 
-/* The function whose inverse is h, monotone; QDOT_FUNCTION_KINDS: h is none such. */
+/* The monotonic function whose inverse is h; QDOT_FUNCTION_KINDS if there is none. */
 static qdot_fun_id
 inverse_of(qdot_fun_id h)
 {
@@ -136,7 +136,7 @@ qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     return (facts == NULL || !facts->exact) && qdot_is_generic(pool, e) && !qdot_vanishes_in_regions(pool, e);
 }
 
-/* u, where the gap is |u|: 0 < |u| says that u is not 0. Else nil. */
+/* u if the condition is 0 < |u|, which means u != 0; else nil. */
 static qdot_expr
 magnitude_of(const qdot_pool *pool, qdot_expr gap)
 {
@@ -145,7 +145,7 @@ magnitude_of(const qdot_pool *pool, qdot_expr gap)
                : QDOT_NIL;
 }
 
-/* v - h^{-1}(0) for u = h(v), h monotone: 0 where u is; else u. */
+/* v - h^{-1}(0) for u = h(v) with monotonic h, which has the same zeros as u; otherwise u. */
 static qdot_expr
 argument_at_zero(qdot_pool *pool, qdot_expr u)
 {
@@ -164,7 +164,7 @@ argument_at_zero(qdot_pool *pool, qdot_expr u)
                : u;
 }
 
-/* 0 < gap or 0 <= gap in its shortest form. What holds coordinates is not factored. */
+/* 0 < gap or 0 <= gap in its shortest form. Expressions with coordinates are not factored. */
 static qdot_expr
 condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
@@ -174,7 +174,7 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
     if (strict && u != QDOT_NIL && !generic)
         return qdot_is_generic(pool, u) ? qdot_nonzero(pool, argument_at_zero(pool, u), facts)
                                         : qdot_rel(pool, QDOT_LT, QDOT_ZERO, gap);
-    /* a factor that may be 0 at some place is not left out */
+    /* do not drop a factor that may vanish for some values */
     shortest = generic                      ? qdot_positive(pool, gap, facts, 0, NULL)
                : qdot_is_generic(pool, gap) ? qdot_positive_exact(pool, gap, facts)
                                             : number_apart(pool, qdot_positive_without_minus(pool, gap));
@@ -210,7 +210,7 @@ condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *
     generic = qdot_is_taken_generic(pool, gap, facts);
     if (is_proved(pool, QDOT_ZERO, gap, strict && !generic, facts))
         return QDOT_TRUE;
-    /* generic parameters are at no end */
+    /* generic parameters do not take the limiting value */
     if (is_proved(pool, gap, QDOT_ZERO, !strict && !(generic && !qdot_holds_root(pool, gap)), facts) ||
         qdot_pool_failed(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
@@ -299,7 +299,7 @@ qdot_conditions_and_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u)
                                qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, u)));
 }
 
-/* The set with `to` in the place of its i-th relation; TRUE: without it. */
+/* The set with relation i replaced by `to`, or removed if `to` is TRUE. */
 static qdot_expr
 conditions_replace(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr to)
 {
@@ -329,7 +329,7 @@ set_follows(qdot_pool *pool, qdot_expr from, qdot_expr set, const qdot_facts *fa
     return all;
 }
 
-/* The only relation of `set` that is not in `other`; nil: there are none or several. */
+/* The only relation of `set` that is not in `other`; nil if there are none or several. */
 static qdot_expr
 only_beside(qdot_pool *pool, qdot_expr set, qdot_expr other)
 {
@@ -344,7 +344,8 @@ only_beside(qdot_pool *pool, qdot_expr set, qdot_expr other)
     return count == 1 ? only : QDOT_NIL;
 }
 
-/* Both sets but for one relation each, u > 0 or u >= 0 and the opposite of it: *set gets u != 0 or nothing in its place. */
+/* If the sets differ in one relation, u > 0 (or u >= 0) and its opposite: replace it in *set by u
+ * != 0, or remove it. */
 static bool
 join_opposites(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts)
 {
@@ -440,7 +441,7 @@ qdot_facts_and(const qdot_pool *pool, const qdot_facts *facts, qdot_expr set, qd
     return all;
 }
 
-/* One relation with values put in: decided under the facts. */
+/* A relation with values inserted, decided by the facts if possible. */
 static qdot_expr
 relation_at(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *from,
             const qdot_expr *to, const qdot_facts *facts)
@@ -514,7 +515,7 @@ qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *fr
     return left;
 }
 
-/* Whether a relation follows from the others of a set, without the i-th. */
+/* Whether a relation follows from the relations of a set other than number i. */
 static bool
 follows(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr relation, bool with_itself,
         const qdot_facts *facts)
@@ -530,7 +531,7 @@ follows(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr relation, bool wit
                      qdot_expr_node(pool, relation)->op == QDOT_LT, &known);
 }
 
-/* Whether the relations of a set are few and small enough to be compared with each other. */
+/* Whether the set has few and small enough relations to compare them with each other. */
 static bool
 is_small(const qdot_pool *pool, qdot_expr set)
 {
@@ -553,7 +554,7 @@ holds_all(qdot_pool *pool, qdot_expr set, qdot_expr some)
     return all;
 }
 
-/* 0 <= g beside u != 0 for all factors u of g: 0 < g alone. */
+/* Join 0 <= g and u != 0 for all factors u of g to 0 < g. */
 static qdot_expr
 conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 {
@@ -581,7 +582,8 @@ conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
     return set;
 }
 
-/* Whether the i-th relation of the set follows from the others, and `domain`, that its sides are defined, too. */
+/* Whether relation i follows from the others, and so do the conditions `domain` under which its
+ * sides are defined. */
 static bool
 is_follower(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const qdot_facts *facts)
 {
@@ -627,7 +629,8 @@ qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
         if (follows(pool, set, i, strict, true, facts))
             set = conditions_replace(pool, set, i, strict);
     }
-    /* those with roots first: they imply that the roots are defined, and simpler relations would be left out for that */
+    /* first those with roots: they imply that the roots are defined, and simpler relations might be
+     * dropped because of that */
     return conditions_without_followers(pool, conditions_without_followers(pool, set, true, facts), false, facts);
 }
 

@@ -11,7 +11,7 @@
 
 #include "normal/field/facts.h"
 
-/* Whether only parameters, momenta and functions of them occur in e: what is generic. */
+/* Whether e contains only parameters, momenta and functions of them, which have generic values. */
 bool qdot_is_generic(const qdot_pool *pool, qdot_expr e);
 
 /* Whether the zeros of e do not count: it holds parameters alone, which are generic. They do count if facts->exact is
@@ -23,18 +23,18 @@ bool qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts
  * failure. */
 qdot_expr qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts);
 
-/* The set and one more relation; the set and another set. */
+/* The set with one more relation; the union of two sets. */
 qdot_expr qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation);
 qdot_expr qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other);
-/* The set and u != 0, said as 0 < |u|. */
+/* The set with u != 0, written as 0 < |u|. */
 qdot_expr qdot_conditions_and_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u);
 
-/* Two sets under either of which something holds, as one, *set; false: they are no one set. */
+/* Join two alternative sets of conditions to one, *set; false if no single set is equivalent. */
 bool qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts);
 
-/* The set with a < b for a <= b between parameters, which are generic. */
+/* The set with a < b for a <= b between parameters, as these are generic. */
 qdot_expr qdot_conditions_generic(qdot_pool *pool, qdot_expr set);
-/* The set without those relations that follow from the others; a < b for a <= b where a != b follows. */
+/* The set without relations that follow from the others, and a < b for a <= b if a != b follows. */
 qdot_expr qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts);
 
 /* The set with values put in for the symbols from [n], decided anew; a relation that is not defined there does
@@ -50,9 +50,9 @@ qdot_expr qdot_conditions_of_function(qdot_pool *pool, qdot_expr function);
 /* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0.
  * (definedness.c) */
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
-/* u, where the relation is 0 < |u|; else nil. */
+/* u if the relation is 0 < |u|; else nil. */
 qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
-/* A relation whose sides are those of u != 0, terms with a minus sign on the other side. */
+/* A relation with the two sides of u != 0, where negative terms are moved to the other side. */
 qdot_expr qdot_conditions_unequal(qdot_pool *pool, qdot_expr u);
 
 /* The facts with the relations of a set (nil: none) added; `room` [QDOT_CONDITIONS_MOST] holds them. More than

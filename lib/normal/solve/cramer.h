@@ -1,4 +1,4 @@
-/* cramer.h -- small linear systems whose entries are too long to be expanded. */
+/* cramer.h -- solves small linear systems whose entries are too long to be expanded. */
 #ifndef QDOT_NORMAL_CRAMER_H
 #define QDOT_NORMAL_CRAMER_H
 
@@ -12,7 +12,7 @@ enum { QDOT_CRAMER_MOST = 3 };
 QDOT_MUST_CHECK qdot_status qdot_cramer(qdot_pool *pool, uint32_t n, const qdot_expr *A,
                                         const qdot_expr *b, qdot_expr *x);
 
-/* det A, entries kept as they are; nil: the pool failed. */
+/* det A without expanding the entries; nil: the pool failed. */
 qdot_expr qdot_cramer_determinant(qdot_pool *pool, uint32_t n, const qdot_expr *A);
 
 #endif

@@ -8,7 +8,7 @@
 
 /* --- where a function is defined ------------------------------------------------------ */
 
-/* The set and lo <= u <= hi, or lo < u < hi; nil: no such end. */
+/* The set with lo <= u <= hi, or lo < u < hi if `open`; a nil end adds nothing. */
 static qdot_expr
 conditions_add_bounds(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, bool open)
 {
@@ -59,7 +59,8 @@ conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_exp
     return set;
 }
 
-/* The set with the conditions that one node of f adds; of factors, only those that hold x count (nil: all). */
+/* A function that adds to the set the conditions of one node of f; of factors only those that
+ * contain x (nil: all). */
 typedef qdot_expr conditions_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x);
 
 static qdot_expr

@@ -190,7 +190,7 @@ newton_to_end(qdot_isolate *s, double *x0)
     return true;
 }
 
-/* Whether K lies inside the box x0 +- radius; s->z is K - x0. */
+/* Whether the Krawczyk image K lies inside the box x0 +- radius; s->z is K - x0. */
 static bool
 is_inside(qdot_isolate *s, const double *x0, const double *radius)
 {

@@ -17,10 +17,10 @@
 #include "normal/solve/cramer.h"
 
 #define WORK 30000000
-/* So many times Cramer's, a solution multiplied out is not simplified to less. */
+/* An expanded solution is not simplified if it is this many times longer than Cramer's. */
 #define TOO_LONG 4
 
-/* The rows of [A b] as polynomials, times the common multiples of their denominators. */
+/* The rows of [A b] as polynomials, each multiplied by the common denominator of its entries. */
 static void
 rows_fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
 {
@@ -69,7 +69,7 @@ vanishes(qdot_field *f, const fmpz_mpoly_t p)
     return zero;
 }
 
-/* Charge a product: of coefficients that fill words, as many times. */
+/* Charge a product to the budget: coefficients of several words count by their number of words. */
 static bool
 charge_product(qdot_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
@@ -107,7 +107,7 @@ swap_rows(qdot_field *f, fmpz_mpoly_struct *m, uint32_t n, uint32_t i, uint32_t 
         fmpz_mpoly_swap(m + i * (n + 1) + j, m + k * (n + 1) + j, f->ctx);
 }
 
-/* The shortest entry of column k at or below row k that is not zero; n: none. */
+/* The row, from k on, with the shortest non-zero entry in column k; n if all vanish. */
 static uint32_t
 find_pivot(qdot_field *f, const fmpz_mpoly_struct *m, uint32_t n, uint32_t k)
 {
@@ -258,7 +258,7 @@ solve(qdot_pool *pool, uint32_t n, const qdot_expr *A, const qdot_expr *b, qdot_
     return status;
 }
 
-/* The operations of all entries. */
+/* The number of operations in all entries. */
 static uint64_t
 operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
 {
@@ -269,7 +269,7 @@ operations(const qdot_pool *pool, size_t n, const qdot_expr *e)
     return sum;
 }
 
-/* Each e that is there, simplified; all at once, so that what stands in several is simplified once. */
+/* Simplify all e that are not nil at once, so that common subexpressions are simplified once. */
 static qdot_status
 simplify_all(qdot_pool *pool, uint32_t n, qdot_expr *e, const qdot_facts *facts)
 {
@@ -344,7 +344,7 @@ struct system {
     qdot_status status;
 };
 
-/* One block: the m unknowns whose `block` is k. */
+/* Solve one block: the m unknowns whose `block` is k. */
 static qdot_status
 solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
 {
@@ -377,7 +377,7 @@ solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
     return status;
 }
 
-/* block[i]: the first unknown that i is coupled to, by way of others too. */
+/* block[i]: the first unknown to which i is coupled, directly or through others. */
 static void
 find_blocks(uint32_t n, const qdot_expr *A, uint32_t *block)
 {

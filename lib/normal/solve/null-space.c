@@ -35,7 +35,7 @@ typedef struct {
     size_t rank;
 } elimination;
 
-/* The order of the monomials; without generators there is one alone, and no key. */
+/* The order of monomials; without generators there is only one, without key. */
 static int
 key_order(const piece *x, const piece *y)
 {
@@ -77,7 +77,7 @@ subtract(elimination *e, qdot_ratio *a, const qdot_ratio *c, const qdot_ratio *b
     qdot_ratio_clear(e->f, &product);
 }
 
-/* Take the row at hand in: nothing new, or another pivot. */
+/* Reduce the present row by the pivots; if it does not vanish it becomes a new pivot. */
 static void
 absorb(elimination *e)
 {
@@ -107,7 +107,7 @@ absorb(elimination *e)
     e->column[e->rank++] = at;
 }
 
-/* The equations of pieces [n], sorted by their monomials. */
+/* Add the equations of pieces [n], one for each monomial. */
 static qdot_status
 absorb_pieces(elimination *e, piece *pieces, size_t n)
 {
@@ -148,7 +148,7 @@ common_denominator(elimination *e, const qdot_expr *row, fmpz_mpoly_t lcm)
     fmpz_mpoly_clear(g, f->ctx);
 }
 
-/* Every monomial of one row of E. */
+/* Split a row of E into one equation for each monomial. */
 static qdot_status
 take_row(elimination *e, const qdot_expr *row)
 {
@@ -204,7 +204,7 @@ take_row(elimination *e, const qdot_expr *row)
     return status;
 }
 
-/* One vector for each column without a pivot. */
+/* A null vector for each column without a pivot. */
 static qdot_status
 vectors(elimination *e, qdot_expr **basis, size_t *m)
 {
@@ -263,7 +263,7 @@ elimination_end(elimination *e)
     qdot_free(e->moving);
 }
 
-/* E prepared, each row taken apart by its roots, and divided by them. */
+/* Prepare E, and split each row by its roots into rows without roots. */
 static qdot_status
 rows_take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
                 qdot_root_parts *parts)

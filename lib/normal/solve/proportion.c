@@ -1,4 +1,4 @@
-/* proportion.c -- whether two equations are the same up to a factor. */
+/* proportion.c -- decides whether two equations are the same up to a factor. */
 #include "normal/solve/proportion.h"
 
 #include "base/memory.h"
@@ -18,7 +18,7 @@
 #define WORK 40000000
 #define MOVING (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
 
-/* Variables that must not stand in the factor. */
+/* Mark the variables that must not occur in the factor. */
 static bool *
 moving_variables(const qdot_field *f)
 {
@@ -30,7 +30,7 @@ moving_variables(const qdot_field *f)
     return by;
 }
 
-/* Whether a generator that is not a variable of its own (sin(q')) hides a velocity. */
+/* Whether a velocity occurs inside another generator, as in sin(q'). */
 static bool
 hidden_motion(const qdot_field *f, const bool *by)
 {
@@ -84,7 +84,7 @@ divide(qdot_field *f, const qdot_ratio *a, const qdot_ratio *b, qdot_ratio *fact
     qdot_ratio_init(f, &x);
     qdot_ratio_init(f, &y);
     if (status == QDOT_OK && gb.n > 0) {
-        /* the group with the shortest coefficient decides what the factor must be */
+        /* the group with the shortest coefficient determines what the factor must be */
         slong at = 0;
         const fmpz_mpoly_struct *match;
 
@@ -151,7 +151,7 @@ point_value_of_motion(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* The point without the second motion, and a and b there. */
+/* Report the point with a single motion, and the values of a and b there. */
 static qdot_status
 proportion_tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *d)
 {
@@ -231,7 +231,7 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
     return status;
 }
 
-/* Neither is a multiple of the other if one is zero where the other is not. */
+/* Refute that a and b are proportional, if one vanishes at a point where the other does not. */
 static qdot_status
 refute_by_zeros(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_decision *d)
 {

@@ -1,4 +1,4 @@
-/* proportion.h -- are two equations the same up to a factor? */
+/* proportion.h -- decides whether two equations are the same up to a factor. */
 #ifndef QDOT_NORMAL_PROPORTION_H
 #define QDOT_NORMAL_PROPORTION_H
 

@@ -20,7 +20,7 @@ qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
 
 /* --- one function ---------------------------------------------------------------------------------- */
 
-/* What a function is where left > right, where left < right and where they are equal. */
+/* The values of a switching function for left > right, left < right and left = right. */
 typedef struct {
     qdot_expr left, right;
     qdot_expr above, below, equal; /* nil: it is no function that chooses by one difference */
@@ -55,7 +55,7 @@ chooser_of(qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* 1 if v = c u with c > 0, -1 if with c < 0, both proved by the form of v/u; else 0. */
+/* 1 if v = c u with c > 0, -1 if c < 0, both proved from the form of v/u; else 0. */
 static int
 sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
 {
@@ -66,7 +66,7 @@ sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
 
 /* --- the switch ------------------------------------------------------------------------------------- */
 
-/* The functions of e that choose by the sign of u: to s->choice; which of the sides agree at u = 0: with[2]. */
+/* Collect the functions of e that switch by the sign of u in s->choice; with[2]: which sides agree at u = 0. */
 static qdot_status
 collect(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
 {
@@ -138,7 +138,7 @@ two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
     return qdot_pool_check(pool);
 }
 
-/* The largest (least) of several arguments: each, where it is. */
+/* For max or min of several arguments: one side for each argument that may be selected. */
 static qdot_status
 side_each(qdot_sides *s, qdot_expr choice)
 {

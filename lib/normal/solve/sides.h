@@ -31,12 +31,13 @@ typedef struct {
     qdot_vec(qdot_expr) value;            /* of each choice on each side, side by side; last where u = 0 */
 } qdot_sides;
 
-/* The innermost |u|, sign u, max, min or if(...) in e that holds x (nil: any); nil: none. */
+/* The innermost |u|, sign u, max, min or if(...) in e that contains x (nil: any); nil if there is none. */
 qdot_expr qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x);
 
-/* The switch that `choice` belongs to, of the functions in e (a LIST, too). *out is cleared by the caller in any case. */
+/* The switch to which `choice` belongs, with all functions in e (or a LIST) that it decides. *out
+ * is cleared by the caller in any case. */
 QDOT_MUST_CHECK qdot_status qdot_sides_of(qdot_pool *pool, qdot_expr e, qdot_expr choice, qdot_sides *out);
-/* e on a side, s->n: where u = 0. Nil (QDOT_EDOMAIN): it is not defined there. */
+/* e on a side of the switch; side s->n: at u = 0. Nil (QDOT_EDOMAIN): undefined there. */
 qdot_expr qdot_sides_put(const qdot_sides *s, size_t side, qdot_expr e);
 void qdot_sides_clear(qdot_sides *s);
 

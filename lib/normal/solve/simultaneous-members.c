@@ -19,7 +19,8 @@ enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16, MOST_LISTED = 64 };
 
 /* --- periods --------------------------------------------------------------------------- */
 
-/* The rates c at which u occurs in circular functions, sin(c u + d), each once; false: one is not linear in u. */
+/* The different rates c at which u occurs in circular functions sin(c u + d); false if one is not
+ * linear in u. */
 static bool
 circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
 {
@@ -48,7 +49,7 @@ circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
     return linear && *n > 0;
 }
 
-/* 2 pi over the greatest rate of which all are whole multiples; nil: there is none. */
+/* 2 pi over the largest rate of which all rates are integer multiples; nil if there is none. */
 static qdot_expr
 common_period(qdot_simultaneous *s, const qdot_expr *rate, size_t n)
 {
@@ -115,7 +116,7 @@ qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period)
 
 /* --- solutions ------------------------------------------------------------------------- */
 
-/* Whether something in e is divided by a constant that is proved to be 0. */
+/* Whether e contains a division by a constant that is proved to be 0. */
 static bool
 divides_by_zero(const qdot_simultaneous *s, qdot_expr e)
 {
@@ -144,7 +145,7 @@ divides_by_zero(const qdot_simultaneous *s, qdot_expr e)
     return found;
 }
 
-/* The set and that each place without a period lies in its declared domain. */
+/* Add to the set that each unknown without a period lies in its declared domain. */
 static qdot_status
 add_domains(qdot_simultaneous *s, qdot_expr known, qdot_expr *set)
 {
@@ -233,7 +234,7 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* What a solution consists of while its unknowns get their members. */
+/* A solution while its periodic unknowns are replaced by members of their families. */
 typedef struct {
     qdot_expr *symbol, *value; /* [n] */
     size_t n;
@@ -280,7 +281,8 @@ integer_bounds(qdot_simultaneous *s, qdot_expr conditions, qdot_expr n, double *
     return isfinite(*lo) && isfinite(*hi) && *hi - *lo < MOST_LISTED;
 }
 
-/* A solution; where conditions bound an integer in it on both sides, one for each value of that. */
+/* Append a solution; if conditions bound an integer in it on both sides, one solution for each
+ * value of the integer. */
 static qdot_status
 append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
 {
@@ -316,7 +318,7 @@ integers_before(qdot_simultaneous *s, const solution *p, size_t i)
     return a > b ? a : b;
 }
 
-/* The members of the i-th unknown and of those behind it, inside their domains. */
+/* Append the members of unknown i and of the later ones inside their domains. */
 static qdot_status
 append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr conditions)
 {

@@ -1,4 +1,4 @@
-/* simultaneous-set.c -- the whole set of solutions: each once, in order; unknowns that are parameters. */
+/* simultaneous-set.c -- completes the set of solutions: each once, sorted; unknowns that remain free. */
 #include <math.h>
 #include <stdio.h>
 
@@ -13,12 +13,12 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/simultaneous.h"
 
-/* What it may take: systems of books take some hundred units. */
+/* The budget; typical textbook systems take some hundred units. */
 enum { WORK = 6000 };
 
 /* --- each once ---------------------------------------------------------------------------------------- */
 
-/* Whether d is a whole number of turns. */
+/* Whether d is an integer number of full turns. */
 static bool
 is_turns(const qdot_simultaneous *s, qdot_expr d)
 {
@@ -33,7 +33,7 @@ is_turns(const qdot_simultaneous *s, qdot_expr d)
     return fmpz_is_one(fmpq_denref(c)) && fmpz_is_even(fmpq_numref(c));
 }
 
-/* Whether u is an angle without a declared end: with one its members are listed one by one. */
+/* Whether u is an angle without declared bounds; with bounds its members are listed individually. */
 static bool
 is_free_angle(const qdot_simultaneous *s, qdot_expr u)
 {
@@ -43,7 +43,7 @@ is_free_angle(const qdot_simultaneous *s, qdot_expr u)
            qdot_is_angle(s->pool, s->equations, u, &s->facts);
 }
 
-/* Whether the conditions are proved to hold at the solution `one`, where that exists. */
+/* Whether the conditions are proved to hold at the solution `one`, wherever that exists. */
 static bool
 hold_at(const qdot_simultaneous *s, qdot_expr conditions, const qdot_simultaneous_solution *one)
 {
@@ -86,7 +86,7 @@ qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_so
     return inside;
 }
 
-/* Join solutions that differ in conditions alone. */
+/* Join solutions that differ only in their conditions. */
 static void
 join(qdot_simultaneous *s)
 {
@@ -105,7 +105,7 @@ join(qdot_simultaneous *s)
     s->found.n = kept;
 }
 
-/* Leave out solutions that lie in another one. */
+/* Remove solutions that are contained in another one. */
 static qdot_status
 leave_out_twice(qdot_simultaneous *s)
 {
@@ -131,7 +131,7 @@ leave_out_twice(qdot_simultaneous *s)
 
 /* --- in order ----------------------------------------------------------------------------------------- */
 
-/* Whether a stands before b: by the first value that differs, where both are constants. */
+/* Whether a is listed before b: by the first value that differs, if both are constants. */
 static bool
 is_before(const qdot_simultaneous *s, const qdot_simultaneous_solution *a,
           const qdot_simultaneous_solution *b)

@@ -43,7 +43,7 @@ qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values)
     return e;
 }
 
-/* An end of a window with the values put in; as it is where it has none there. */
+/* An end of a window with the session's values inserted; unchanged if it then has no value. */
 static qdot_expr
 end_with_values(const qdot_simultaneous *s, qdot_expr end)
 {
@@ -74,7 +74,7 @@ holds_unknowns(const qdot_simultaneous *s, qdot_expr e)
     return n;
 }
 
-/* Note that where d, if it is of parameters alone, is 0 the set may be another. */
+/* Record that the solutions may differ where d, if it contains parameters only, vanishes. */
 static qdot_status
 add_special(qdot_simultaneous *s, qdot_expr d)
 {
@@ -87,7 +87,7 @@ add_special(qdot_simultaneous *s, qdot_expr d)
 
 /* --- one step of a branch ------------------------------------------------------------ */
 
-/* Whether e holds unknowns that are no places: multipliers, sides of jumps. */
+/* Whether e contains unknowns other than coordinates: multipliers, shares of forces. */
 static bool
 holds_others(const qdot_simultaneous *s, qdot_expr e)
 {
@@ -98,7 +98,7 @@ holds_others(const qdot_simultaneous *s, qdot_expr e)
     return holds;
 }
 
-/* Whether e holds shares of forces that switch: unknowns that are no places, between bounds. */
+/* Whether e contains shares of switching forces: unknowns other than coordinates, between bounds. */
 static bool
 holds_shares(const qdot_simultaneous *s, qdot_expr e)
 {
@@ -112,7 +112,7 @@ holds_shares(const qdot_simultaneous *s, qdot_expr e)
     return holds;
 }
 
-/* Whether e jumps or has a kink with u: its derivative does not tell that it is not linear in u. */
+/* Whether e jumps or has a kink as a function of u: its derivative then does not tell whether e is linear. */
 static bool
 has_kinks(const qdot_simultaneous *s, qdot_expr e, qdot_expr u)
 {
@@ -144,7 +144,7 @@ effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
     return holds_unknowns(s, slope) == 0 ? 1 : 2;
 }
 
-/* The easiest unknown of a factor, the last of them first. */
+/* The unknown for which a factor is solved most easily; of equal ones the last. */
 static int
 easiest(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
 {
@@ -161,7 +161,7 @@ easiest(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
     return least;
 }
 
-/* The branch with u = value put in everywhere. */
+/* Continue a branch with u = value inserted everywhere. */
 static qdot_status
 with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
            qdot_expr value, qdot_expr conditions)
@@ -189,7 +189,7 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
     QDOT_TRY(qdot_pool_check(pool));
     if (next.conditions == QDOT_FALSE)
         return QDOT_OK;
-    /* unknowns stand on the left of `known`, so they stay */
+    /* the left sides of `known` are unknowns and stay as they are */
     next.known = qdot_list_appended(pool, next.known, 1, &equation);
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_vec_push(&s->todo, next);
@@ -260,7 +260,7 @@ with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr 
     return status;
 }
 
-/* One branch for each member of a family of u within the period of all equations in u. */
+/* Continue with one branch for each member of a family of u within the common period of all equations. */
 static qdot_status
 with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
             const qdot_root *root)
@@ -305,7 +305,7 @@ with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e
                       qdot_conditions_all(pool, root->condition, root->members));
 }
 
-/* A branch in which all of a divisor (an expression, or a LIST of them) is 0. */
+/* Continue with a branch on which a divisor (an expression, or all of a LIST) is 0. */
 static qdot_status
 with_divisor_zero(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr factor,
                   qdot_expr divisor)
@@ -343,7 +343,7 @@ with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr oth
     return free.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->todo, free);
 }
 
-/* Each family of constants by its first member in the declared domain, and ascending. */
+/* Represent each family with constant values by its first member in the declared domain, in ascending order. */
 static qdot_status
 order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
 {
@@ -366,7 +366,7 @@ order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
     return any ? qdot_solve_sort(s->pool, found->root.n, found->root.at) : QDOT_OK;
 }
 
-/* factor = 0 for its easiest unknown. */
+/* Solve factor = 0 for its easiest unknown, and continue a branch for each root. */
 static qdot_status
 split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr factor)
 {
@@ -394,7 +394,7 @@ split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others,
 
 /* --- sides ----------------------------------------------------------------------------- */
 
-/* The branch on one side of a switch, with further conditions (nil: none), and `jump` (nil: none) among its equations. */
+/* Continue a branch on one side of a switch, with further conditions and the equation `jump` (nil: none). */
 static qdot_status
 with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_sides *sides, size_t side,
           qdot_expr relations, qdot_expr jump)
@@ -419,7 +419,7 @@ with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_si
     return next.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->todo, next);
 }
 
-/* A branch for each side of the switch that `choice` belongs to, in all equations; the first one is solved first. */
+/* Continue with a branch for each side of the switch of `choice`; the first one is solved first. */
 static qdot_status
 with_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr choice)
 {
@@ -442,7 +442,8 @@ with_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr ch
     return status;
 }
 
-/* The innermost choice by unknowns in e, unless it is the one equation left in one unknown: then the solution makes it. */
+/* The innermost switch in e that depends on unknowns; nil if e is the last equation, in one
+ * unknown, as solving it treats the switch. */
 static qdot_expr
 shared_choice(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
 {
@@ -457,7 +458,8 @@ shared_choice(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
 
 /* --- the next equation ----------------------------------------------------------------- */
 
-/* Whether e, without unknowns and not proved to be 0, is another number than 0: else nothing is known. */
+/* Note whether e, without unknowns and not proved 0, is proved to be non-zero; otherwise the set
+ * may be incomplete. */
 static qdot_status
 is_never_zero(qdot_simultaneous *s, qdot_expr e, const qdot_facts *facts)
 {
@@ -516,14 +518,14 @@ with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qd
     return status;
 }
 
-/* What is solved next. */
+/* The equation that is solved next. */
 typedef struct {
     qdot_expr equation, factors; /* factors: nil where nothing is left to solve */
     qdot_expr others;            /* equations */
     qdot_expr dead;              /* an equation without unknowns that is not proved to be 0; nil: there is none */
 } next_equation;
 
-/* The factors of every equation; the one whose hardest factor is easiest. */
+/* Factor every equation, and choose the one whose hardest factor is easiest to solve. */
 static qdot_status
 choose(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_equation *next)
 {
@@ -571,7 +573,7 @@ choose(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_
     return qdot_pool_check(pool);
 }
 
-/* A divisor that is to be 0 before anything else: its factors; nil: it is 0 already. */
+/* The factors of a divisor that must vanish first; nil if it is 0 already. */
 static qdot_status
 choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
 {

@@ -32,7 +32,7 @@ typedef struct {
     qdot_expr equations, known, conditions, first, whole;
 } qdot_simultaneous_branch;
 
-/* Equations, what is left to do, and the set of their solutions. The first fields are the caller's. */
+/* The equations, the branches still to be solved, and the solutions. The first fields are set by the caller. */
 typedef struct {
     qdot_pool *pool;
     qdot_facts facts;
@@ -41,10 +41,11 @@ typedef struct {
     qdot_expr domain;               /* conditions (conditions.h) under which it has one, as it is written; nil: none */
     qdot_vec(qdot_expr) unknowns;   /* solved for from the last on, if nothing is easier */
     size_t places;                  /* the first of them, whose periods are looked for; the others have none */
-    /* Whether the caller takes members of a family with this period, other than a turn, for alike; NULL: it does. */
+    /* Whether members of a family with this period, not a full turn, are equivalent for the caller;
+     * NULL: always. */
     bool (*alike)(void *user, qdot_expr u, qdot_expr period);
     void *user;
-    /* Values put into the ends of the domains of unknowns, that members are listed in; NULL: as they are. */
+    /* Inserts values into the ends of the domains in which members are listed; NULL: unchanged. */
     qdot_expr (*ends)(void *user, qdot_expr end);
     void *ends_user;
     uint64_t work;                  /* rest of the budget, in operations */
@@ -63,7 +64,8 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_all(qdot_pool *pool, size_t n, const qdot_expr *f, const qdot_expr *u,
                                                   qdot_expr conditions, const qdot_facts *facts,
                                                   qdot_simultaneous *out);
-/* Whether the solution `one` lies in the family `all` (or is it, full turns away), where that exists. */
+/* Whether the solution `one`, wherever it exists, is contained in `all`: a member of the family, or
+ * full turns away. */
 bool qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_solution *one,
                                const qdot_simultaneous_solution *all);
 
@@ -72,13 +74,13 @@ bool qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneo
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_solve(qdot_simultaneous *s);
 void qdot_simultaneous_clear(qdot_simultaneous *s);
 
-/* e with the values of equations u = value put in, all at once. */
+/* e with the values of the equations u = value inserted simultaneously. */
 qdot_expr qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values);
 
-/* The window of the unknown u (solutions.h), with the values in its ends. */
+/* The window of the unknown u (solutions.h), with values inserted into its ends. */
 qdot_window qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle);
 
-/* The least shift of the unknown u after which all equations are what they were; nil: none is known. */
+/* The smallest shift of the unknown u that leaves all equations unchanged; nil if none is known. */
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period);
 
 /* Append the solutions of a branch without equations: all its members inside the declared domains, with the conditions

@@ -1,4 +1,4 @@
-/* solutions.c -- the roots inside a domain: members of periodic families one by one, and conditions. */
+/* solutions.c -- the roots inside a domain: members of periodic families, and conditions. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,7 +145,7 @@ qdot_solve_integers(qdot_pool *pool, qdot_expr e)
     return n;
 }
 
-/* f(u) with u less the whole turns in it, of a circular function f. */
+/* For a circular function f: f(u) with integer multiples of a full turn removed from u. */
 static qdot_expr
 leave_out_turns(qdot_pool *pool, qdot_expr f, void *user)
 {
@@ -188,7 +188,7 @@ qdot_solve_one_member(qdot_pool *pool, qdot_expr e)
     return qdot_subs(pool, e, MOST_INTEGERS, integer, zero);
 }
 
-/* The members of a root inside a window, to out. */
+/* Arguments for listing the members of a root inside a window. */
 typedef struct {
     qdot_pool *pool;
     qdot_expr x;
@@ -214,7 +214,7 @@ qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value)
     return relations;
 }
 
-/* The conditions and that `value` lies in the window. */
+/* The conditions, and that `value` lies in the window. */
 static qdot_expr
 conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
        const qdot_facts *facts)
@@ -223,7 +223,7 @@ conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_wi
 
     if (relations == QDOT_NIL || relations == QDOT_FALSE || set == QDOT_FALSE)
         return relations == QDOT_FALSE ? QDOT_FALSE : set;
-    /* the value's own conditions decide more: decided together, contradictions found */
+    /* decide them together with the value's own conditions, which may contradict them */
     if (set != QDOT_NIL) {
         qdot_facts all = qdot_facts_and(pool, facts, set, room);
 
@@ -253,7 +253,7 @@ members_add_value(const members *m, qdot_expr value, const qdot_window *w)
 
 /* --- families -------------------------------------------------------------------------- */
 
-/* e as a double, if it is a constant. */
+/* Whether e is a constant; *v its double. */
 static bool
 as_number(qdot_pool *pool, qdot_expr e, double *v)
 {
@@ -261,7 +261,7 @@ as_number(qdot_pool *pool, qdot_expr e, double *v)
            qdot_ball_double(pool, e, NULL, NULL, v) && isfinite(*v);
 }
 
-/* (end - base)/period as a number, if it is one. */
+/* The number of periods (end - base)/period, if it is a constant. */
 static bool
 periods_to(const members *m, qdot_expr end, double *v)
 {
@@ -280,7 +280,8 @@ members_value(const members *m, long k)
                     qdot_mul(m->pool, qdot_expr_int(m->pool, k), m->root->period));
 }
 
-/* Members between first and last periods; those near an end are decided, the others lie inside. */
+/* Add members number first ... last; those near an end of the window are decided exactly, the
+ * others lie inside. */
 static qdot_status
 members_add_between(const members *m, double first, double last)
 {
@@ -294,14 +295,14 @@ members_add_between(const members *m, double first, double last)
 
 /* --- families whose values are bounded ---- */
 
-/* Bounds of the declared end of a domain; the whole line if there is none, or it depends on a symbol. */
+/* Bounds of the declared end of a domain; the whole line if there is none or it contains a symbol. */
 static qdot_interval
 bounds_of_end(qdot_pool *pool, qdot_expr end)
 {
     return end == QDOT_NIL ? qdot_interval_whole : qdot_zeros_constant(pool, end);
 }
 
-/* Bounds of e [m] over the declared domains of all symbols in them; the whole line where there are none. */
+/* Bounds of e [m] over the declared domains of all their symbols; the whole line if unknown. */
 static qdot_status
 bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval *to)
 {
@@ -369,7 +370,7 @@ is_beyond(const members *m, long k)
     return qdot_condition(m->pool, gap, k > 0 ? w->hi_open : w->lo_open, m->facts) == QDOT_FALSE;
 }
 
-/* Add the members to either side, up to the first that is proved to lie beyond the end there. */
+/* Add members in both directions up to the first that is proved to lie beyond the end. */
 static qdot_status
 members_add_outward(const members *m)
 {
@@ -379,7 +380,7 @@ members_add_outward(const members *m)
     return qdot_pool_check(m->pool);
 }
 
-/* As many members as make a turn, whichever turn they lie in; *few: there are few enough, else none is added. */
+/* Add as many members as make a full turn; *few: there are few enough, otherwise none is added. */
 static qdot_status
 members_add_turn(const members *m, bool *few)
 {
@@ -393,7 +394,7 @@ members_add_turn(const members *m, bool *few)
     return qdot_pool_check(m->pool);
 }
 
-/* The family itself, value + n period, with what n must fulfil. */
+/* Add the whole family, value + n period, with the condition on n. */
 static qdot_status
 members_add_family(const members *m)
 {
@@ -407,7 +408,7 @@ members_add_family(const members *m)
 
     if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && periods_to(m, w->lo, &at) &&
         qdot_condition(pool, m->root->period, true, m->facts) == QDOT_TRUE) {
-        /* counted from the first member on */
+        /* number the members from the first one on */
         qdot_expr first = members_value(m, (long)ceil(at - 1e-6));
 
         if (qdot_condition(pool, qdot_sub(pool, first, w->lo), w->lo_open, m->facts) == QDOT_FALSE)

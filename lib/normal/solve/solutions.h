@@ -27,7 +27,7 @@ void qdot_solutions_clear(qdot_solutions *s);
 
 /* --- inside a domain ---- */
 
-/* Where x may be; nil: no end. */
+/* The window in which x is sought; nil: no end. */
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
@@ -36,13 +36,13 @@ typedef struct {
     unsigned integer; /* which integer counts the members of a family, see qdot_solve_integer */
 } qdot_window;
 
-/* The declared domain of x; of an angle (f changes nothing in a full turn of x) one turn of it. */
+/* The declared domain of x; for an angle (f has period 2 pi in x) one turn of it. */
 qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
 /* One turn within the window: of one with one end, the turn from there; -pi < x <= pi if it has none. A window with two
  * ends stays as it is. */
 qdot_window qdot_window_turn(qdot_pool *pool, qdot_window w);
 
-/* That a value lies in the window: a set of conditions; nil: the window has no end. */
+/* The conditions that a value lies in the window; nil if the window has no ends. */
 qdot_expr qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value);
 
 /* Whether a shift of x by `period` changes nothing in e, an expression or a LIST, by proof. */
@@ -51,7 +51,7 @@ bool qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period,
 /* Whether a full turn of x changes nothing in e, by proof. */
 bool qdot_is_angle(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts);
 
-/* The window and what conditions in x that are linear in it say of its ends, where these are constants. */
+/* The window narrowed by conditions that are linear in x with constant bounds. */
 qdot_window qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions,
                                qdot_window window, const qdot_facts *facts);
 
@@ -61,16 +61,16 @@ QDOT_MUST_CHECK qdot_status qdot_solve_members(qdot_pool *pool, qdot_expr x, con
                                                const qdot_window *window,
                                                const qdot_facts *facts, qdot_solutions *out);
 
-/* The k-th symbol of an integer, k = 0, 1 ...: of n, n1, n2 ... those that are no declared names. */
+/* The k-th symbol for an integer, k = 0, 1 ...: n, n1, n2 ... without declared names. */
 qdot_expr qdot_solve_integer(qdot_pool *pool, unsigned k);
 
-/* How many of these symbols, from n on, are needed to name those that occur in e. */
+/* The number of these symbols, from n on, that are needed to include those in e. */
 unsigned qdot_solve_integers(qdot_pool *pool, qdot_expr e);
 
-/* e with the whole turns left out that integers make of circular functions: sin(x) for sin(x + 2 pi n). */
+/* e without multiples of full turns in circular functions: sin(x) for sin(x + 2 pi n). */
 qdot_expr qdot_solve_without_turns(qdot_pool *pool, qdot_expr e);
 
-/* e with all these integers 0: one member of a family. */
+/* e with all these integers set to 0: one member of a family. */
 qdot_expr qdot_solve_one_member(qdot_pool *pool, qdot_expr e);
 
 #endif

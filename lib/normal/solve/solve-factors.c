@@ -52,7 +52,7 @@ collect(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
     return status;
 }
 
-/* The product, and the numerator's factors if asked for (*list stays NULL past the budget). */
+/* The product of factors and, if asked for, the factors of the numerator (*list stays NULL if over budget). */
 static qdot_status
 factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, size_t *n)
 {
@@ -238,7 +238,7 @@ qdot_solve_factors(qdot_pool *pool, qdot_expr e)
 
 enum { MOST_FUNCTIONS = 32 };
 
-/* Functions and the symbols in their places. */
+/* Functions, and the symbols that replace them. */
 struct unrelated {
     uint32_t n;
     qdot_expr of[MOST_FUNCTIONS], as[MOST_FUNCTIONS];

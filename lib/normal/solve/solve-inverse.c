@@ -63,7 +63,7 @@ circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
         when);
 }
 
-/* u with tan(u/2) = a/b. */
+/* The solution u of tan(u/2) = a/b. */
 static qdot_expr
 twice_the_angle(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -139,7 +139,7 @@ qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_ex
 
 /* --- the others ------------------------------------------------------------------------ */
 
-/* The conditions and lo < v < hi, an end that is not open too; nil: no such end. */
+/* The conditions and lo < v < hi (<= at an end that is not open); nil: no such end. */
 static qdot_expr
 in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool lo_open, bool hi_open)
 {
@@ -154,7 +154,7 @@ in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi
     return when;
 }
 
-/* An end of the values of a function; nil: there is none. */
+/* An end of the range of values of a function; nil if there is none. */
 static qdot_expr
 end_of_values(qdot_pool *pool, const qdot_fun_end *end)
 {
@@ -164,7 +164,7 @@ end_of_values(qdot_pool *pool, const qdot_fun_end *end)
                       : qdot_expr_int(pool, end->number);
 }
 
-/* The conditions under which v is a value of the function h. */
+/* The conditions under which v lies in the range of the function h. */
 static qdot_expr
 in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
 {

@@ -14,7 +14,7 @@
 #include "normal/solve/solve.h"
 #include "normal/solve/special-values.h"
 
-/* The equation is solved at so many special values; at others it is open what its solutions are. */
+/* The equation is solved at no more special parameter values than this; further ones stay open. */
 enum { MOST_SPECIALS = 24 };
 
 void
@@ -29,7 +29,7 @@ qdot_specials_clear(qdot_specials *s)
 
 /* --- where a root exists --------------------------------------------------------------- */
 
-/* The set and those relations of `more` that do not hold x. */
+/* The set, and those relations of `more` that do not contain x. */
 static qdot_expr
 conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
 {
@@ -43,7 +43,7 @@ conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
 
 /* --- the search ------------------------------------------------------------------------- */
 
-/* A set at values of parameters, special for it or not, whose special values are looked for. */
+/* The solutions at certain parameter values, whose own special values are then sought. */
 typedef struct {
     qdot_pool *pool;
     qdot_expr f, x;
@@ -54,7 +54,7 @@ typedef struct {
     qdot_specials *out;
 } special_search;
 
-/* Note that the solutions may be others where the equation holds. */
+/* Record that the solutions may differ where the equation holds. */
 static qdot_status
 leave_open(special_search *s, qdot_expr equation)
 {
@@ -66,7 +66,7 @@ leave_open(special_search *s, qdot_expr equation)
 
 /* --- sets there ------------------------------------------------------------------------ */
 
-/* Whether one of these roots, with the values put in, is `root` wherever that exists. */
+/* Whether `root`, wherever it exists, is one of these roots with the values inserted. */
 static bool
 is_among(const special_search *s, const qdot_solutions *set, size_t n, const qdot_expr *from,
          const qdot_expr *to, const qdot_root *root)
@@ -94,7 +94,7 @@ is_among(const special_search *s, const qdot_solutions *set, size_t n, const qdo
 
 /* --- roots at single values of the parameters ------------------------------------------- */
 
-/* The first relation a <= b of a set that allows a = b alone; nil: none. */
+/* The first relation a <= b of a set that can only hold as a = b; nil if there is none. */
 static qdot_expr
 equality_in(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 {
@@ -209,7 +209,8 @@ qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_writ
     return leave_out_points(pool, x, facts, found);
 }
 
-/* Whether all that `where` of a set that is told says holds at the values put in: then it is told there too. */
+/* Whether the conditions `where` of a listed set hold with the values inserted: then that set
+ * applies here, too. */
 static bool
 applies(const special_search *s, qdot_expr where, size_t n, const qdot_expr *from, const qdot_expr *to)
 {
@@ -229,7 +230,7 @@ applies(const special_search *s, qdot_expr where, size_t n, const qdot_expr *fro
     return holds;
 }
 
-/* Whether what is told, for all values and for special ones, says all of the set. */
+/* Whether the general and special solutions already listed contain all of this set. */
 static bool
 is_told(const special_search *s, size_t n, const qdot_expr *from, const qdot_expr *to,
         const qdot_solutions *set)
@@ -247,7 +248,7 @@ is_told(const special_search *s, size_t n, const qdot_expr *from, const qdot_exp
 
 static qdot_status search_specials(special_search *s);
 
-/* The set where the parameters have these values. */
+/* Solve the equation with the parameters at these values. */
 static qdot_status
 solve_at(special_search *s, qdot_expr where)
 {

@@ -1,4 +1,4 @@
-/* solve.c -- the set of roots of an equation, and what of it lies inside a domain. */
+/* solve.c -- the set of roots of an equation, and its part inside a domain. */
 #include "normal/solve/solve.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@
 #include "normal/solve/sides.h"
 #include "normal/solve/solver.h"
 
-/* Whether the root `one` lies in the family or range `all`. */
+/* Whether the root `one` belongs to the family or range `all`. */
 static bool
 is_member(const qdot_solver *s, const qdot_root *one, const qdot_root *all)
 {
@@ -25,7 +25,7 @@ is_member(const qdot_solver *s, const qdot_root *one, const qdot_root *all)
                                                     &one->value, s->facts) == QDOT_NIL;
 }
 
-/* Remove roots that belong to a family or a range of x that is listed too. */
+/* Remove roots that belong to a listed family or range. */
 static qdot_status
 leave_out_members(qdot_solver *s)
 {
@@ -116,7 +116,7 @@ qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts 
 
 /* --- ranges of x ---------------------------------------------------------------------- */
 
-/* Whether f may be constant in pieces: |u|, sign, max, min, if or floor of x. */
+/* Whether f may be piecewise constant: it contains |u|, sign, max, min, if or floor of x. */
 static qdot_status
 has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
 {
@@ -125,7 +125,7 @@ has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
     return qdot_pool_check(pool);
 }
 
-/* The conditions that are no bounds of x by constants. */
+/* The conditions except those that bound x by constants. */
 static qdot_expr
 conditions_beside_ends(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
 {
@@ -143,7 +143,7 @@ conditions_beside_ends(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
     return left;
 }
 
-/* Every x in the window that fulfils the conditions: a range, one point, or nothing. */
+/* Add all x in the window that satisfy the conditions: a range, one point, or nothing. */
 static qdot_status
 add_range(qdot_pool *pool, qdot_expr x, qdot_expr conditions, const qdot_window *window,
           qdot_solutions *out)

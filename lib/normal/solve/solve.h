@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_facts *facts,
                                               qdot_solutions *out);
 
-/* The same of an equation as it was written. */
+/* The same for an equation as it was typed. */
 QDOT_MUST_CHECK qdot_status qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                                const qdot_written *written, const qdot_facts *facts,
                                                qdot_solutions *out);
@@ -48,12 +48,12 @@ QDOT_MUST_CHECK qdot_status qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_window *window,
                                               qdot_solutions *out);
 
-/* The factors of f that hold x and that qdot_solve does not solve completely; a LIST. *all: f has no others. */
+/* The factors of f with x that qdot_solve does not solve completely, as a LIST. *all: f has no others. */
 QDOT_MUST_CHECK qdot_status qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                                 const qdot_facts *facts, qdot_expr *list,
                                                 bool *all);
 
-/* Sort roots [n] by their values, if all are constants; else they stay as they are. */
+/* Sort roots [n] by value if all are constants; otherwise leave their order. */
 QDOT_MUST_CHECK qdot_status qdot_solve_sort(qdot_pool *pool, size_t n, qdot_root *roots);
 
 #endif

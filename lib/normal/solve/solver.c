@@ -1,4 +1,4 @@
-/* solver.c -- factors an equation; each factor by what functions of x it holds. */
+/* solver.c -- factors an equation and solves each factor by the functions of x in it. */
 #include "normal/solve/solver.h"
 
 #include "base/interrupt.h"
@@ -113,7 +113,7 @@ qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_expr v
     return number != NULL && fmpz_is_one(fmpq_denref(number));
 }
 
-/* Whether two values are the same root; of families with one period, whole periods apart. */
+/* Whether two values are the same root; for families with one period, an integer number of periods apart. */
 static bool
 is_same(const qdot_solver *s, const qdot_root *a, qdot_expr value, qdot_expr period)
 {
@@ -127,7 +127,7 @@ is_same(const qdot_solver *s, const qdot_root *a, qdot_expr value, qdot_expr per
     return apart != QDOT_NIL && qdot_is_zero(s->pool, apart, s->facts);
 }
 
-/* The conditions that are the same for all members of a family; *each gets the others, in x. */
+/* The conditions that are the same for all members of a family; *each gets the others, which contain x. */
 static qdot_expr
 of_all_members(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr *each)
 {
@@ -239,7 +239,7 @@ typedef struct {
 
 typedef qdot_vec(argument) arguments;
 
-/* y with y^k = v: v^(1/k), its negative where k is even. */
+/* Add the y with y^k = v: v^(1/k), and its negative if k is even. */
 static qdot_status
 arguments_add_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, arguments *out)
 {
@@ -269,7 +269,7 @@ arguments_add_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, argumen
     return qdot_vec_push(out, ((argument){y, when}));
 }
 
-/* The largest k for which sum c_i y^i, c [degree + 1], is a polynomial in y^k; 0: a constant. */
+/* The largest k such that sum c_i y^i, c [degree + 1], is a polynomial in y^k; 0 for a constant. */
 static long
 common_step(const qdot_expr *c, long degree)
 {
@@ -334,7 +334,7 @@ polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, argu
 
 /* --- one factor -------------------------------------------------------------------- */
 
-/* The generators of x in one factor, and the factor by their powers. */
+/* The generators of one factor that contain x, and the factor as a polynomial in them. */
 typedef struct {
     slong var[3];
     size_t n;
@@ -367,7 +367,7 @@ shape_of(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, shape *out)
     return status;
 }
 
-/* Coefficient of var0^i (and var1^j). */
+/* The coefficient of var0^i (and var1^j). */
 static qdot_expr
 coefficient(qdot_field *f, const shape *sh, ulong i, ulong j)
 {
@@ -406,7 +406,7 @@ exchange(shape *sh)
     sh->degree[1] = degree;
 }
 
-/* sin u and cos u of one angle. */
+/* Solve an equation in sin u and cos u of the same u. */
 static qdot_status
 sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
 {
@@ -432,7 +432,7 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
     A = slice(f, sh, 0);
     B = slice(f, sh, 1);
     c = f->gen[sh->var[0]].expr;
-    /* sin u = -A/B: of the two angles with this cosine the one whose sine has that sign */
+    /* sin u = -A/B: of the two angles with this cosine take the one with the right sign of the sine */
     when = qdot_conditions_and(
         pool, when,
         qdot_rel(pool, QDOT_LE, QDOT_ZERO,
@@ -529,7 +529,7 @@ generator_is(qdot_solver *s, const qdot_gen *gen, qdot_expr v, qdot_expr when)
     return QDOT_OK;
 }
 
-/* One generator g: values of g, then g(x) = value. */
+/* Solve an equation in one generator g: find values of g, then solve g(x) = value. */
 static qdot_status
 one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
 {
@@ -550,7 +550,7 @@ one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
     return status;
 }
 
-/* Whether two generators are sine and cosine of one argument, circular or hyperbolic. */
+/* Whether two generators are sine and cosine of the same argument, circular or hyperbolic. */
 static bool
 is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind cosine)
 {
@@ -571,7 +571,7 @@ holds_exponential(const qdot_field *f, const shape *sh)
     return false;
 }
 
-/* A factor of the numerator of `whole`. */
+/* Solve one factor of the numerator of `whole`. */
 static qdot_status
 one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr whole, qdot_expr when)
 {
@@ -634,7 +634,7 @@ by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
-/* Whether e is a product of whole powers of several factors with x, divided by nothing that holds x. */
+/* Whether e is a product of integer powers of several factors with x, without a denominator that contains x. */
 static bool
 is_product(const qdot_solver *s, qdot_expr e)
 {
@@ -652,7 +652,8 @@ is_product(const qdot_solver *s, qdot_expr e)
     return with > 1;
 }
 
-/* The zeros of each factor of a product, of those with choices last: the choices of one do not matter to another. */
+/* Find the zeros of each factor of a product; factors with switches come last, so that they do not
+ * affect the others. */
 static qdot_status
 by_product(qdot_solver *s, qdot_expr e, qdot_expr when)
 {

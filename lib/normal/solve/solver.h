@@ -1,4 +1,4 @@
-/* solver.h -- the state of one qdot_solve, for the files of normal/solve/. */
+/* solver.h -- the state of one call of qdot_solve, for the files of normal/solve/. */
 #ifndef QDOT_NORMAL_SOLVER_H
 #define QDOT_NORMAL_SOLVER_H
 
@@ -16,27 +16,27 @@ typedef struct {
     qdot_status status;
 } qdot_solver;
 
-/* In all of these `when` is a set of conditions; those that hold x are decided at each root. */
+/* In all of these `when` is a set of conditions; those that contain x are decided at each root. */
 
 /* Every x with e = 0, e an expression in x (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when);
-/* The root `value`, with a period or nil, if it is one (solver.c). */
+/* Add the root `value`, with a period or nil, if it satisfies the equation and `when` (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period,
                                             qdot_expr when);
 /* The root `value` where e is 0: in regions of parameters on the sides of its choices; else e is noted as a divisor, for
  * its zeros are special values (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e,
                                                   qdot_expr when);
-/* Whether a value is a whole number of periods away from those of a family (solver.c). */
+/* Whether a value differs from the members of a family by an integer number of periods (solver.c). */
 bool qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_expr value);
-/* Note that d, without x, was divided by (solver.c). */
+/* Record that d, which does not contain x, was divided by (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_divide(qdot_solver *s, qdot_expr d);
 /* e simplified (solver.c). */
 qdot_expr qdot_solver_tidy(const qdot_solver *s, qdot_expr e);
 /* 0 <= gap as a condition (solver.c); 0 < gap of generic parameters. */
 qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
 
-/* g(x) = v for an elementary function g of one argument (solve-inverse.c). */
+/* Solve g(x) = v for an elementary function g of one argument (solve-inverse.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v,
                                                qdot_expr when);
 /* x with u(x) = w[i] + 2 pi k (solve-inverse.c). */
@@ -46,7 +46,7 @@ QDOT_MUST_CHECK qdot_status qdot_solver_turns(qdot_solver *s, qdot_expr u, size_
 QDOT_MUST_CHECK qdot_status qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a,
                                               qdot_expr b, qdot_expr d, qdot_expr when);
 
-/* e = 0 side by side of the switch that `choice` (sides.h) belongs to (solve-cases.c). */
+/* Solve e = 0 on each side of the switch to which `choice` (sides.h) belongs (solve-cases.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_cases(qdot_solver *s, qdot_expr e, qdot_expr choice,
                                               qdot_expr when);
 

@@ -1,4 +1,4 @@
-/* special-values.c -- values of parameters at which divisors of a solution are 0. */
+/* special-values.c -- parameter values at which divisors of a solution vanish. */
 #include "normal/solve/special-values.h"
 
 #include "expr/build.h"
@@ -42,7 +42,7 @@ qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot
 
 static qdot_status zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
 
-/* Note the equation d = 0, which is not solved. */
+/* Record the equation d = 0, which is not solved. */
 static qdot_status
 leave_open(search *s, qdot_expr d)
 {
@@ -54,7 +54,7 @@ leave_open(search *s, qdot_expr d)
                : qdot_vec_push(&s->out->open, equation);
 }
 
-/* p = value where also the other divisors d [n] are 0. */
+/* Insert p = value, and find where the other divisors d [n] vanish, too. */
 static qdot_status
 zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
         qdot_expr where)
@@ -86,7 +86,7 @@ zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
     return zeros_of_all(s, n, there, all);
 }
 
-/* d = s p + r, whose slope s may be 0: p = -r/s, or s = 0 = r. */
+/* d = s p + r with a slope s that may vanish: p = -r/s, or s = 0 and r = 0. */
 static qdot_status
 zeros_of_linear(search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_t n,
                 const qdot_expr *d, qdot_expr where)
@@ -98,7 +98,8 @@ zeros_of_linear(search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_
                  : zeros_of_all(s, 2, (qdot_expr[]){slope, rest}, where);
 }
 
-/* Whether the zeros of d recur after a turn of p, in a domain without two ends: one turn of them is listed. */
+/* Whether the zeros of d recur after a full turn of p, whose domain is not bounded on both sides:
+ * one turn is listed. */
 static bool
 recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
 {
@@ -145,7 +146,7 @@ zeros_of_factor(search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdo
                            qdot_subs(pool, d, 1, &linear, &zero), n, others, where);
 }
 
-/* Values of parameters at which all of d [n] are 0; n = 0: those of `where`. */
+/* Parameter values at which all of d [n] vanish; for n = 0 those of `where`. */
 static qdot_status
 zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
 {

@@ -12,7 +12,8 @@
 #include "base/memory.h"
 #include "normal/field/facts.h"
 
-/* The most parameters with a value at one place; the most operations in a divisor whose zeros are looked for. */
+/* The most parameters with simultaneous special values; the most operations of a divisor whose
+ * zeros are sought. */
 enum { QDOT_SPECIAL_TOGETHER = 3, QDOT_SPECIAL_LONGEST = 60 };
 
 typedef struct {
@@ -30,7 +31,8 @@ QDOT_MUST_CHECK qdot_status qdot_special_values_add(qdot_pool *pool, size_t n,
                                                     const qdot_facts *facts,
                                                     qdot_special_values *out);
 
-/* The sides of the equations of a LIST (nil: none), from and to [QDOT_SPECIAL_TOGETHER]; how many. */
+/* The left and right sides of the equations of a LIST (nil: none), in from and to
+ * [QDOT_SPECIAL_TOGETHER]; returns their number. */
 size_t qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot_expr *to);
 
 #endif

@@ -1,4 +1,4 @@
-/* written.c -- conditions of roots as they were written, before they were taken apart. */
+/* written.c -- conditions of roots in the equation as typed, before products under roots were split. */
 #include "normal/solve/written.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@
 #include "normal/prove/decide.h"
 #include "normal/solve/solve-factors.h"
 
-/* The place of a relation in a set; UINT32_MAX: it is not in it. */
+/* The index of a relation in a set; UINT32_MAX if it is not there. */
 static uint32_t
 place_in(qdot_pool *pool, qdot_expr set, qdot_expr relation)
 {
@@ -41,7 +41,7 @@ qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some)
     return left;
 }
 
-/* Whether q is a positive number that is no integer. */
+/* Whether q is positive and not an integer. */
 static bool
 is_root_exponent(const fmpq *q)
 {
@@ -66,7 +66,7 @@ qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_writt
     return qdot_pool_check(pool);
 }
 
-/* A sum as the product of its factors if one of those that hold x stands in it more than once, else the sum. */
+/* A sum as the product of its factors if a factor with x is repeated; otherwise the sum. */
 static qdot_expr
 square_factors(qdot_pool *pool, qdot_expr sum, qdot_expr x)
 {
@@ -83,14 +83,14 @@ square_factors(qdot_pool *pool, qdot_expr sum, qdot_expr x)
     return repeated ? product : sum;
 }
 
-/* Roots of sums with x to be taken apart, and what that asks. */
+/* State for splitting roots of sums with x, and the conditions that this needs. */
 typedef struct {
     qdot_expr x;
     qdot_written *written;
     qdot_status status;
 } sums;
 
-/* A product with roots of products in the place of roots of sums with factors that stand in them more than once. */
+/* Replace roots of sums with repeated factors by products of roots. */
 static qdot_expr
 take_sums_apart(qdot_pool *pool, qdot_expr product, void *user)
 {
@@ -125,7 +125,7 @@ qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written
     return s.status == QDOT_OK ? qdot_pool_check(pool) : s.status;
 }
 
-/* The symbol that stands for g in the k-th condition 0 <= g of `apart`. */
+/* The symbol that stands for g in condition number k, 0 <= g, of `apart`. */
 static qdot_expr
 part_symbol(qdot_pool *pool, uint32_t k)
 {
@@ -176,7 +176,7 @@ qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_exp
     return qdot_pool_check(pool);
 }
 
-/* The relation at x = value where no root that is apart is left in it; nil: one is, or none was. */
+/* The relation at x = value if no split root is left in it; nil if one is left, or if there was none. */
 static qdot_status
 without_roots(qdot_pool *pool, qdot_expr relation, qdot_expr apart, qdot_expr x, qdot_expr value, qdot_expr *there)
 {

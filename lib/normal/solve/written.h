@@ -25,10 +25,10 @@ QDOT_MUST_CHECK qdot_status qdot_written_add(qdot_pool *pool, qdot_expr base, qd
  * becomes |x| sqrt(a - x^2), and `apart` gets what that asks and `domain` does not. */
 QDOT_MUST_CHECK qdot_status qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written *w);
 
-/* The set without those relations that are in `some`. */
+/* The set without the relations that are in `some`. */
 qdot_expr qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some);
 
-/* Whether f is 0 at x = value whatever the roots are whose conditions are `apart`. */
+/* Whether f vanishes at x = value for any values of the roots whose conditions are `apart`. */
 QDOT_MUST_CHECK qdot_status qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_expr x,
                                                qdot_expr value, const qdot_facts *facts, bool *yes);
 

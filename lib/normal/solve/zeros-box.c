@@ -1,4 +1,4 @@
-/* zeros-box.c -- boxes excluded, proved to hold one zero, or halved. */
+/* zeros-box.c -- excludes boxes, proves that they contain one zero, or halves them. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, ROUNDS = 8, NEWTON = 12, INTERRUPT = 64 };
 
-/* The width, relative to the size of the unknown, at which a box is not halved any more. */
+/* The width, relative to the unknown, below which a box is not halved further. */
 static const double narrow = 1e-13;
 
 typedef enum { DONE, SPLIT, DOUBT } verdict;
@@ -43,7 +43,7 @@ qdot_zeros_system_end(qdot_zeros_system *s)
 
 /* --- f and its slopes ------------------------------------------------------------------------- */
 
-/* f over a box. */
+/* Enclosures of f over a box. */
 typedef struct {
     qdot_interval y[MOST], slope[MOST][MOST];
     bool nowhere, zero_free; /* undefined everywhere; without a zero */
@@ -73,7 +73,7 @@ box_evaluate(qdot_zeros_system *s, const qdot_interval *X, image *to)
     }
 }
 
-/* Whether one of the other expressions has no zero there. */
+/* Whether one of the additional expressions has no zero in the box. */
 static bool
 is_excluded_by_others(qdot_zeros_system *s, const qdot_interval *X)
 {
@@ -109,7 +109,7 @@ minus(qdot_interval a, double b)
     return qdot_interval_sum(a, qdot_interval_point(-b));
 }
 
-/* C = A^-1 by Gauss and Jordan, A destroyed; false where it is singular. */
+/* C = A^-1 by Gauss-Jordan elimination; A is destroyed; false if it is singular. */
 static bool
 invert(size_t n, double A[MOST][MOST], double C[MOST][MOST])
 {
@@ -158,7 +158,7 @@ invert_middles(size_t n, const image *f, double C[MOST][MOST])
     return invert(n, A, C);
 }
 
-/* 1 - C f'(X), and its norm: the largest sum over a row. */
+/* R = 1 - C f'(X); returns its norm, the largest row sum. */
 static double
 remainder_of(size_t n, double C[MOST][MOST], const image *f, qdot_interval R[MOST][MOST])
 {
@@ -216,7 +216,7 @@ krawczyk(size_t n, size_t i, double C[MOST][MOST], qdot_interval R[MOST][MOST],
 
 /* --- proof of one zero ------------------------------------------------------------------------------ */
 
-/* Krawczyk's test in doubles over a small box about z: for zeros at kinks. */
+/* Krawczyk's test in doubles over small boxes about z, for zeros at kinks. */
 static bool
 prove_here(qdot_zeros_system *s, const double *z, qdot_zero_place *place)
 {
@@ -312,7 +312,7 @@ is_covered(const qdot_zeros_system *s, const qdot_interval *X)
     return false;
 }
 
-/* Whether all of X is known to be zeros, by one of the ranges that the caller gave (qdot_zeros_range.held). */
+/* Whether all points of X are known to be zeros, by a range that the caller gave (qdot_zeros_range.held). */
 static bool
 box_is_held(const qdot_zeros_system *s, const qdot_interval *X)
 {
@@ -339,7 +339,7 @@ ball(size_t n, const qdot_zero_place *place, qdot_interval *to)
                                 place->at[i] + place->radius[i]};
 }
 
-/* A known zero in X, which holds one at most: X is where that is alone. */
+/* If X, which contains at most one zero, contains a known one: record X as its uniqueness box. */
 static bool
 is_known(qdot_zeros_system *s, const qdot_interval *X)
 {
@@ -356,7 +356,7 @@ is_known(qdot_zeros_system *s, const qdot_interval *X)
     return false;
 }
 
-/* Where somewhat more than X holds one zero at most: that zero, found and proved. */
+/* If a box slightly larger than X contains at most one zero: find and prove it. */
 static qdot_status
 settle(qdot_zeros_system *s, const qdot_interval *X, const double *m, bool *settled)
 {
@@ -397,7 +397,8 @@ is_narrow(const qdot_zeros_system *s, const qdot_interval *X)
     return true;
 }
 
-/* Whether X is so small that an equation whose rounding hides its change will not exclude its parts. */
+/* Whether X is so small that rounding hides the change of an equation over it, so that halving does
+ * not help. */
 static bool
 box_is_small(size_t n, const qdot_interval *X)
 {
@@ -407,7 +408,8 @@ box_is_small(size_t n, const qdot_interval *X)
     return true;
 }
 
-/* Exclude by f(m) + f'(X) (X - m), one equation at a time; *noisy: f(m) is known no better than that. */
+/* Try to exclude X by f(m) + f'(X) (X - m) for each equation; *noisy: the rounding of f(m) is
+ * larger than the change. */
 static bool
 is_excluded(size_t n, const image *f, const image *at_m, const qdot_interval *X,
             const double *m, bool *noisy)
@@ -432,7 +434,7 @@ is_excluded(size_t n, const image *f, const image *at_m, const qdot_interval *X,
     return false;
 }
 
-/* Whether the rounding of f(m) alone makes K about as wide as a small X: near a multiple zero. */
+/* Whether rounding of f(m) makes K about as wide as a small X, as near a multiple zero. */
 static bool
 hides_in_rounding(size_t n, double C[MOST][MOST], const image *at_m,
                   const qdot_interval *X)
@@ -450,7 +452,7 @@ hides_in_rounding(size_t n, double C[MOST][MOST], const image *at_m,
     return false;
 }
 
-/* The direction to halve: that in which f changes most over X. */
+/* The direction in which f changes most over X, along which X is halved. */
 static size_t
 widest(size_t n, const image *f, const qdot_interval *X)
 {
@@ -478,7 +480,7 @@ widest(size_t n, const image *f, const qdot_interval *X)
     return best;
 }
 
-/* Exclude X, shrink it, or settle it. */
+/* Exclude X, shrink it, or find its zero. */
 static qdot_status
 look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
 {
@@ -573,7 +575,7 @@ halve(qdot_zeros_system *s, const qdot_interval *X, size_t j)
     return qdot_vec_push(&s->todo, a);
 }
 
-/* Small boxes that are left: places where zeros are multiple take long, so they come last. */
+/* Whether X is a small box to be treated last: near multiple zeros the search takes long. */
 static bool
 is_late(qdot_zeros_system *s, const qdot_interval *X)
 {

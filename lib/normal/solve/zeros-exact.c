@@ -1,4 +1,4 @@
-/* zeros-exact.c -- exact numbers that a zero may be, and exact tests of them. */
+/* zeros-exact.c -- guesses exact values of zeros, and tests them exactly. */
 #include <math.h>
 
 #include "expr/build.h"
@@ -10,7 +10,7 @@
 
 enum { BITS = 128, FRACTION = 100000, PART = 120 };
 
-/* The fraction of the least denominator in lo ... hi; false: none below `most`. */
+/* The fraction with the smallest denominator in lo ... hi; false if none is below `most`. */
 static bool
 simplest(double lo, double hi, long most, long *p, long *q)
 {

@@ -1,4 +1,4 @@
-/* zeros-far.c -- from where on one equation has no zeros, by the growth of its terms. */
+/* zeros-far.c -- proves that an equation has no zeros beyond some x, by comparing the growth of its terms. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "expr/walk.h"
 #include "normal/solve/zeros-parts.h"
 
-/* Exponents are counted in parts of UNIT, so that sums of them are exact. */
+/* Exponents are integer multiples of 1/UNIT, so that their sums are exact. */
 enum { UNIT = 5040, LARGEST = 10000, TERMS = 4, FIRST = 2, LAST = 30, SIZE = 400 };
 
 /* S(x) = x^power log(x)^logs exp(sum of rate x^exponent), the exponents descending and > 0. */
@@ -49,7 +49,7 @@ static const far_form form_nowhere = {.bounds = {-INFINITY, INFINITY}, .nowhere 
 
 /* --- scales ---------------------------------------------------------------------------------------- */
 
-/* Multiply S by exp(rate x^exponent). */
+/* Multiply the scale s by exp(rate x^exponent). */
 static bool
 scale_add_term(qdot_pool *pool, far_scale *s, long exponent, qdot_expr rate)
 {
@@ -242,7 +242,7 @@ form_power(const far_task *t, const far_form *f, const fmpq *exponent)
     return form_checked(g);
 }
 
-/* f + g: the one of smaller scale is that scale's bound times the larger one. */
+/* The bounds of f + g: the term of smaller growth is a bounded factor times the larger one. */
 static far_form
 form_sum(const far_task *t, const far_form *f, const far_form *g)
 {
@@ -296,7 +296,7 @@ is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
     return *rate != QDOT_NIL && !qdot_expr_contains(pool, *rate, x) && *exponent > 0;
 }
 
-/* exp(u) for u that has one sign and grows no slower than x, |u| >= c x: it is exp(c x) or more, or exp(-c x) or less. */
+/* exp(u) for u of one sign with |u| >= c x: at least exp(c x), or at most exp(-c x). */
 static far_form
 form_exp_of_fast(const far_task *t, const far_form *u)
 {
@@ -320,7 +320,7 @@ form_exp_of_fast(const far_task *t, const far_form *u)
     return form_checked(f);
 }
 
-/* exp(by u), `by` a constant, part by part. */
+/* exp(by u) for a constant `by`, as a product over the terms of u. */
 static far_form
 form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
 {
@@ -352,7 +352,7 @@ form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
     return form_checked(f);
 }
 
-/* exp(by u), `by` a constant. */
+/* exp(by u) for a constant `by`. */
 static far_form
 form_exp(const far_task *t, qdot_expr u, qdot_expr by)
 {
@@ -392,7 +392,7 @@ form_log(const far_task *t, const far_form *u)
 
 /* --- other functions ------------------------------------------------------------------------------- */
 
-/* Bounds of h(v)/v for 0 < |v| <= most of an odd function h; empty where these are not known. */
+/* Bounds of h(v)/v for 0 < |v| <= most, h odd; empty if unknown. */
 static qdot_interval
 bounds_of_quotient(qdot_fun_id h, double most)
 {

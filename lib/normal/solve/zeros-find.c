@@ -1,4 +1,4 @@
-/* zeros-find.c -- all zeros in a box: systems, charts, ends; what is found put together. */
+/* zeros-find.c -- all zeros in a box: splits into systems, treats infinity and ends, and merges the results. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "normal/solve/zeros.h"
@@ -16,7 +16,7 @@ enum {
     MOST_RELATIONS = 24
 };
 
-/* Evaluations for n unknowns, where nothing else is said; of more nodes than SHORT each counts more. */
+/* The default number of evaluations for n unknowns; expressions with more nodes than SHORT count more. */
 static const uint64_t usual[MOST + 1] = {0, 20000, 80000, 160000, 160000, 160000, 160000};
 enum {
     SHORT = 50,
@@ -49,7 +49,7 @@ read_ranges(qdot_zeros_task *t)
     return qdot_pool_check(t->pool);
 }
 
-/* Zeros that fill a range are known by relations a < b that hold in it: bounds of b - a for each of them. */
+/* For zeros that fill a range given by relations a < b: prepare enclosures of b - a. */
 static qdot_status
 read_held(qdot_zeros_task *t)
 {
@@ -83,7 +83,7 @@ read_held(qdot_zeros_task *t)
 
 /* --- systems ---------------------------------------------------------------------------------------- */
 
-/* Every choice of one factor of each equation. */
+/* Form a system for every choice of one factor from each equation. */
 static qdot_status
 split(qdot_zeros_task *t)
 {
@@ -196,7 +196,7 @@ decide_doubt(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
     return QDOT_OK;
 }
 
-/* The zeros of one system within R. */
+/* Search the zeros of one system within the box of size R. */
 static qdot_status
 search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
             const qdot_zero_box *box, bool again)
@@ -232,7 +232,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     return QDOT_OK;
 }
 
-/* The zeros of one system in a chart beyond R. */
+/* Search the zeros of one system beyond R, in one chart. */
 static qdot_status
 search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
              const qdot_zeros_chart *chart, bool wild, bool *beyond)
@@ -275,7 +275,7 @@ search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     return status;
 }
 
-/* The charts beyond R, unknowns in groups as they are given or each by itself. */
+/* Search the zeros beyond R in all charts, with unknowns grouped as given or singly. */
 static qdot_status
 search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
               const qdot_zeros_range *range, bool *beyond)
@@ -300,7 +300,8 @@ search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     }
 }
 
-/* One unknown: the zeros of a system beyond the box, up to where growth excludes them; *beyond: it does not. */
+/* One unknown: search zeros beyond the box up to where growth excludes them; *beyond: growth does
+ * not exclude them. */
 static qdot_status
 search_to_growth(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
                  const qdot_interval *box, bool *beyond)
@@ -373,7 +374,7 @@ by_place(const void *a, const void *b)
     return 0;
 }
 
-/* Which of the zeros are simple zeros of F itself. */
+/* Find which zeros are simple zeros of F itself. */
 static qdot_status
 find_simple(qdot_zeros_task *t)
 {

@@ -16,12 +16,12 @@
 #include "normal/solve/solve.h"
 #include "normal/solve/zeros-parts.h"
 
-/* MOST_GROWN: doubtful places at which the growth of terms is examined. */
+/* MOST_GROWN: undecided intervals at which the growth of terms is examined. */
 enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100, MOST_GROWN = 32 };
 
 /* --- exact candidates ------------------------------------------------------------------------------- */
 
-/* Whether f rises or falls on either side of c, perhaps with a kink there. */
+/* Whether f is monotonic on either side of c, where it may have a kink. */
 static bool
 is_monotone_aside(qdot_zeros_system *s, qdot_interval c, qdot_interval X)
 {
@@ -40,7 +40,7 @@ is_monotone_aside(qdot_zeros_system *s, qdot_interval c, qdot_interval X)
     return yes;
 }
 
-/* Whether c is proved the only zero within X; *k its multiplicity. */
+/* Whether c is proved to be the only zero within X; *k its multiplicity. */
 static qdot_status
 is_only_zero(qdot_zeros_system *s, qdot_expr c, qdot_interval X, int *k)
 {
@@ -111,7 +111,7 @@ is_only_zero_at_end(qdot_zeros_system *s, qdot_expr c, int side, double reach, b
     return qdot_pool_check(pool);
 }
 
-/* The root, or that of its family, nearest to v. */
+/* The value of a root, or of the member of its family, nearest to v. */
 static qdot_expr
 nearest_member(qdot_pool *pool, const qdot_root *root, double v)
 {
@@ -128,7 +128,8 @@ nearest_member(qdot_pool *pool, const qdot_root *root, double v)
                              root->period));
 }
 
-/* The roots by formulas that lie about X, a LIST: what is not simple in doubles may be simple to write. */
+/* The roots known by formulas near X, as a LIST: a zero that is multiple in doubles may have a
+ * simple formula. */
 static qdot_status
 roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
            qdot_expr *list)
@@ -149,7 +150,7 @@ roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
     return qdot_pool_check(s->pool);
 }
 
-/* The roots by formulas of an equation that is short; none where they are not known. */
+/* The roots of a short equation by formulas; none if unknown. */
 static qdot_status
 solve_by_formulas(qdot_zeros_system *s, qdot_solutions *roots)
 {
@@ -162,7 +163,8 @@ solve_by_formulas(qdot_zeros_system *s, qdot_solutions *roots)
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* The place in doubt, X, as one exact zero: one of the list, of ends of the range or of roots, or a simple number. */
+/* Decide an undecided interval X as one exact zero: one of the list, an end of the range, a root by
+ * formula, or a simple number. */
 static qdot_status
 decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
                bool *decided)
@@ -234,7 +236,7 @@ fine_value(void *user, qdot_expr atom, arb_t value, slong prec)
     return true;
 }
 
-/* The sign of e[i] over lo .. hi (a point where they are equal); 0: not known. */
+/* The sign of e[i] on lo .. hi (a point if they are equal); 0 if not known. */
 static int
 sign_over(fine *d, int i, const arf_t lo, const arf_t hi)
 {
@@ -281,7 +283,7 @@ push_zero(fine *d, arf_t lo, arf_t hi, int below)
     return qdot_vec_push(&d->s->found, place);
 }
 
-/* Zeros in lo .. hi; what cannot be decided is pushed back as a doubt. */
+/* Find zeros in lo .. hi; intervals that cannot be decided are recorded as such. */
 static qdot_status
 refine(fine *d, const arf_t lo, const arf_t hi, int depth)
 {

@@ -1,4 +1,4 @@
-/* zeros-near.c -- the zero that Newton's steps reach from a guess, proved. */
+/* zeros-near.c -- finds the zero that Newton's method reaches from a guess, and proves it. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, STEPS = 200, HALVINGS = 30 };
 
-/* The size of f at z: its largest component beside those at the guess; INFINITY where it has no value. */
+/* The size of f at z: its largest component relative to that at the guess; INFINITY if undefined. */
 static double
 size_at(qdot_zeros_system *s, const double *z, const double *unit, double *f)
 {
@@ -53,7 +53,7 @@ newton_step(const qdot_zeros_system *s, const double *f, double *step)
     return true;
 }
 
-/* Newton's steps, halved until f becomes smaller; true where they end. */
+/* Newton's method with steps halved until f becomes smaller; true if it converges. */
 static bool
 descend(qdot_zeros_system *s, double *z)
 {

@@ -9,7 +9,7 @@
 
 enum { QDOT_ZEROS_DOUBTS = 4000 }; /* boxes not decided; more: the search ends */
 
-/* A zero proved in one system. */
+/* A zero that was proved in one system. */
 typedef struct {
     double at[QDOT_ZEROS_MOST_UNKNOWNS], radius[QDOT_ZEROS_MOST_UNKNOWNS];
     qdot_interval
@@ -21,7 +21,7 @@ typedef struct {
     qdot_interval at[QDOT_ZEROS_MOST_UNKNOWNS];
 } qdot_zero_box;
 
-/* A system of equations f = 0 with all that is found of it. */
+/* A system of equations f = 0 with the zeros found so far. */
 typedef struct {
     qdot_pool *pool;
     size_t n;
@@ -47,16 +47,16 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_system_begin(qdot_zeros_system *s, qdot_p
                                                     const qdot_expr *x);
 void qdot_zeros_system_end(qdot_zeros_system *s); /* in any case */
 
-/* Search the boxes of s->todo; to s->found and s->doubt. (zeros-box.c) */
+/* Search the boxes of s->todo; zeros go to s->found, undecided boxes to s->doubt. (zeros-box.c) */
 QDOT_MUST_CHECK qdot_status qdot_zeros_search(qdot_zeros_system *s);
 
-/* Newton's steps from x0 [n] to a zero and its proof; false where that fails. */
+/* Newton's method from x0 [n] to a zero, and its proof; false if that fails. */
 bool qdot_zeros_prove(qdot_zeros_system *s, const double *x0, qdot_zero_place *place);
 
-/* Whether the slopes of the latest evaluation, [n] by [n], are regular all over its box. */
+/* Whether the Jacobian of the latest evaluation, [n] by [n], is regular on the whole box. */
 bool qdot_zeros_is_regular(const qdot_enclosure *bounds, size_t n);
 
-/* Boxes of s->doubt that touch each other become one. */
+/* Merge boxes of s->doubt that touch each other. */
 void qdot_zeros_join(qdot_zeros_system *s);
 
 /* One unknown: decide boxes of s->doubt by derivatives at exact candidates, then with more bits.
@@ -80,11 +80,11 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_ex
                                            int sign, double *R);
 
 /* --- systems (zeros-systems.c) ---- */
-/* The factors of f's numerator that may vanish, a LIST; f itself where writing it as a product gives nothing. */
+/* The factors of f's numerator that may vanish, as a LIST; f itself if it does not factor. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n,
                                                const qdot_expr *x, qdot_expr *list);
 
-/* One of the charts that cover what lies beyond |x| = R; or what lies near a point. */
+/* A chart: new variables that cover what lies beyond |x| = R, or the neighbourhood of a point. */
 typedef struct {
     size_t n;
     int8_t sign
@@ -97,24 +97,25 @@ typedef struct {
     qdot_zero_box box;
 } qdot_zeros_chart;
 
-/* The k-th chart; k = 0: the box within R itself. lo, hi [n]: bounds of the ranges. *out->n = 0: there is no k-th. */
+/* The k-th chart; k = 0: the box within R. lo, hi [n]: bounds of the ranges. *out->n = 0: there is no k-th. */
 void qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
                          const qdot_zeros_range *range, const qdot_interval *bounds,
                          size_t k, qdot_zeros_chart *out);
-/* The k-th chart, k < 2 n, of what lies within `reach` of the point. */
+/* The k-th chart, k < 2 n, of the neighbourhood of size `reach` of a point. */
 void qdot_zeros_chart_near(qdot_pool *pool, size_t n, const qdot_expr *centre,
                            double reach, size_t k, qdot_zeros_chart *out);
 /* to [n] = f [n] in the chart's unknowns. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_chart_put(qdot_pool *pool, const qdot_expr *x,
                                                  const qdot_zeros_chart *chart,
                                                  const qdot_expr *f, qdot_expr *to);
-/* Clear such f [n] of s and of what never vanishes; *empty: one of them never does. */
+/* Write f [n] in the chart without powers of s and factors that never vanish; *empty: one of them
+ * never vanishes. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_chart_clear(qdot_pool *pool,
                                                    const qdot_zeros_chart *chart,
                                                    qdot_expr *f, bool *empty);
-/* x of a place of the chart. */
+/* Convert the point y of the chart to x. */
 void qdot_zeros_chart_place(const qdot_zeros_chart *chart, const double *y, double *x);
-/* Whether f waves or jumps however far an unbounded unknown is: perhaps without end. */
+/* Whether f oscillates or jumps at arbitrarily large values of an unbounded unknown. */
 bool qdot_zeros_is_wild(qdot_pool *pool, size_t n, const qdot_expr *f, const qdot_expr *x,
                         const qdot_zeros_range *range);
 

@@ -1,4 +1,4 @@
-/* zeros-places.c -- whether a proved zero counts: within its ranges, defined, and not found before. */
+/* zeros-places.c -- decides whether a proved zero counts: inside its ranges, defined, and new. */
 #include <float.h>
 #include <math.h>
 
@@ -30,7 +30,7 @@ overlap(const qdot_zeros_task *t, const qdot_zero_place *a, const qdot_zero_plac
     return true;
 }
 
-/* Whether b, with its radius, lies where a is the only zero of its system. */
+/* Whether b, with its radius, lies in the box where a is the only zero of its system. */
 static bool
 is_alone_with(const qdot_zeros_task *t, const qdot_zero_place *a,
               const qdot_zero_place *b)
@@ -185,7 +185,7 @@ is_on_face(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, siz
     return status;
 }
 
-/* One unknown: on which side of the end its only zero p lies, by the signs of f there and of f'. */
+/* One unknown: on which side of the end the only zero p lies, from the signs of f there and of f'. */
 static qdot_status
 side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
              qdot_expr end, bool upper, side *where)
@@ -206,7 +206,7 @@ side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
     return QDOT_OK;
 }
 
-/* Where the zero p of f lies beside an end of x_j. */
+/* On which side of an end of x_j the zero p of f lies. */
 static qdot_status
 side_of(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t j,
         bool upper, side *where)

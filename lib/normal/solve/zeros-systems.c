@@ -1,4 +1,4 @@
-/* zeros-systems.c -- equations as products, and in the charts that reach to infinity. */
+/* zeros-systems.c -- writes equations as products, and in charts that reach to infinity. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,7 +26,7 @@ holds_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
     return false;
 }
 
-/* A factor without what never vanishes: b of b^p, p > 0; nil: it never does. */
+/* A factor without parts that never vanish: b for b^p with p > 0; nil if it never vanishes. */
 static qdot_expr
 bare(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 {
@@ -56,7 +56,7 @@ bare(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
     return e;
 }
 
-/* Whether f/g is one number, as far as two points tell. */
+/* Whether f/g seems to be a constant, judged at two points. */
 static bool
 is_multiple(qdot_pool *pool, qdot_expr f, qdot_expr g, size_t n, const qdot_expr *x)
 {
@@ -118,7 +118,7 @@ qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *x,
 
 /* --- charts ---------------------------------------------------------------------------------------------- */
 
-/* How far the box within R goes: beyond every end, and not to a round number. */
+/* The size R of the inner box: beyond every end, and not a round number. */
 static double
 reach(size_t n, const qdot_interval *bounds)
 {

@@ -1,4 +1,4 @@
-/* zeros-task.h -- what the search for all zeros knows of its question. Internal to zeros*.c. */
+/* zeros-task.h -- the question and the state of the search for all zeros. Internal to zeros*.c. */
 #ifndef QDOT_NORMAL_ZEROS_TASK_H
 #define QDOT_NORMAL_ZEROS_TASK_H
 
@@ -6,7 +6,7 @@
 
 enum { QDOT_ZEROS_SYSTEMS = 64 };
 
-/* A zero with the system that it was found in. */
+/* A zero with the index of the system in which it was found. */
 typedef struct {
     qdot_zero_place place;
     size_t system;
@@ -31,7 +31,7 @@ typedef struct {
 } qdot_zeros_task;
 
 /* (zeros-places.c) */
-/* Exact values within the place at which f [n] vanish: value [n]; *found. */
+/* Exact values within the radius of a zero at which f [n] vanish: value [n]; *found. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_exact_place(const qdot_zeros_task *t,
                                                    const qdot_expr *f,
                                                    const qdot_zero_place *p,

@@ -36,7 +36,7 @@
 
 enum { QDOT_ZEROS_MOST_UNKNOWNS = 6 };
 
-/* Where an unknown is searched. */
+/* The range in which an unknown is searched. */
 typedef struct {
     qdot_expr lo, hi;      /* constants; nil: unbounded */
     bool lo_open, hi_open; /* the end does not belong to it */
