@@ -1,4 +1,4 @@
-/* chart-body.c -- a body as masses at its centre and at the ends of its axes. */
+/* chart-body.c -- represents a body by point masses at its centre and along its axes. */
 #include "mech/coordinates/chart-body.h"
 
 #include <stdio.h>
@@ -59,7 +59,7 @@ is_acted_on(const qdot_scene *s)
     return false;
 }
 
-/* V of the uniform fields, which act on the masses given alone. */
+/* V of the uniform fields, which act only on the given masses. */
 static qdot_status
 add_weight(const qdot_scene *s, qdot_scene *to)
 {
@@ -82,7 +82,7 @@ add_weight(const qdot_scene *s, qdot_scene *to)
     return V == QDOT_ZERO ? QDOT_OK : qdot_scene_potential(to, V);
 }
 
-/* A mass at the sum of one or two columns of R. */
+/* Add a mass at the sum of one or two columns of R. */
 static qdot_status
 add_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, size_t i,
          size_t j)
@@ -99,7 +99,7 @@ add_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, s
     return qdot_scene_particle(to, name, mass, qdot_vector(pool, 3, r));
 }
 
-/* The masses of one body: J_jj less the J_jk beside it at c_j, J_jk at c_j + c_k. */
+/* Add the masses of a body: J_jj minus the J_jk at c_j, and J_jk at c_j + c_k. */
 static qdot_status
 add_masses(qdot_scene *to, const qdot_body *b, const qdot_expr *R)
 {

@@ -1,4 +1,4 @@
-/* chart-express.c -- expressions in other coordinates. */
+/* chart-express.c -- writes expressions in other coordinates. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -12,12 +12,12 @@
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 
-/* Multiples of an angle beyond this are left as they are. */
+/* Multiples of an angle larger than this are not expanded. */
 enum { MOST_MULTIPLE = 12 };
 
 typedef qdot_vec(qdot_expr) expressions;
 
-/* Replacements of one expression. */
+/* The replacements in one expression. */
 typedef struct {
     const qdot_chart *c;
     qdot_pool *pool;
@@ -58,7 +58,7 @@ typedef struct {
     qdot_expr cosine, sine;
 } direction;
 
-/* Whether m is known by cosh and sinh, or by cos and sin. */
+/* Whether m is given by its cosh and sinh (hyperbolic), or by its cos and sin. */
 static bool
 is_of(const qdot_chart_moved *m, bool hyperbolic)
 {
@@ -236,7 +236,7 @@ replace_coordinates(rewriting *r, uint32_t holds)
     return QDOT_OK;
 }
 
-/* P^(k/2) as w^k. */
+/* Replace P^(k/2) by w^k. */
 static qdot_expr
 put_branches(qdot_pool *pool, qdot_expr node, void *user)
 {
@@ -260,7 +260,7 @@ put_branches(qdot_pool *pool, qdot_expr node, void *user)
     return factor == QDOT_ONE ? node : qdot_mul(pool, node, factor);
 }
 
-/* e with the new coordinates and roots put in, before products are simplified. */
+/* e with the new coordinates and roots inserted, before products are simplified. */
 static qdot_expr
 replaced(const qdot_chart *c, qdot_expr e)
 {
@@ -286,7 +286,7 @@ replaced(const qdot_chart *c, qdot_expr e)
     return e;
 }
 
-/* The exponent of `symbol` in a product, if it is a whole number. */
+/* The exponent of `symbol` in a product if it is an integer, else 0. */
 static long
 power_in(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
 {
@@ -299,7 +299,7 @@ power_in(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
     return k;
 }
 
-/* Multiply by (what/(symbol^a other^b))^times. */
+/* e times (to/from)^times. */
 static qdot_expr
 exchanged(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
 {
@@ -308,7 +308,7 @@ exchanged(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times
                              qdot_pow_int(pool, to, times)));
 }
 
-/* Products of two roots, then even powers of roots and signs, by what they are. */
+/* Replace products of two roots, then even powers of roots and signs, by their values. */
 static qdot_expr
 put_squares(qdot_pool *pool, qdot_expr node, void *user)
 {
@@ -348,7 +348,7 @@ qdot_chart_put(const qdot_chart *c, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_walk_replace(c->pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
 }
 
-/* The angle of m less so many quarter turns. */
+/* The angle of m minus that many quarter turns. */
 static qdot_expr
 angle_beyond(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
 {
@@ -382,7 +382,7 @@ put_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters
                      (qdot_expr[]){half.cosine, half.sine, qdot_add(pool, turns, beyond)});
 }
 
-/* e with its angles, roots and signs replaced by their values, once; these values may contain others. */
+/* Replace the angles, roots and signs in e once by their values, which may contain others. */
 static qdot_expr
 chart_put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
 {
@@ -426,7 +426,7 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
     bool some = false;
 
     e = qdot_chart_put(c, e);
-    /* v holds sinh u, that an angle, that a distance */
+    /* v contains sinh u, which contains an angle, which contains a distance */
     for (int depth = 0; depth < 3 && e != QDOT_NIL; depth++)
         e = chart_put_values(c, e, quarters, &some);
     if (turns)
@@ -446,7 +446,7 @@ qdot_chart_beyond(const qdot_chart *c, qdot_expr e, const long *quarters)
 
 /* --- what is regular -------------------------------------------------------------------- */
 
-/* Whether `e` is the square of a root, or a factor of it; or a root w that is a coordinate. */
+/* Whether e is the square of a root, a factor of it, or a root w that is a coordinate. */
 static bool
 is_of_square(const qdot_chart *c, const qdot_pool *pool, qdot_expr e)
 {
@@ -478,7 +478,7 @@ holds_bare(const qdot_chart *c, qdot_expr e)
     return false;
 }
 
-/* Whether e holds a root, a power of its square that is not smooth, or an angle outside of sin and cos. */
+/* Whether e contains a root, a power of its square that is not smooth, or an angle outside of sin and cos. */
 static bool
 is_singular(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
 {

@@ -71,7 +71,7 @@ square_sum(const qdot_chart *c, size_t n, const qdot_expr *x)
     return sum;
 }
 
-/* A symbol of its own for coordinate i. */
+/* A new symbol that belongs to coordinate i. */
 static qdot_expr
 own_symbol(const qdot_chart *c, const char *what, size_t i)
 {
@@ -81,7 +81,7 @@ own_symbol(const qdot_chart *c, const char *what, size_t i)
     return qdot_symbol_get(c->pool, QDOT_FORMAL, name);
 }
 
-/* Say that the group is written in its new coordinates k ..., or in `what`. */
+/* Append to the chart's description the new coordinates from k on, or `what`. */
 static void
 chart_add_name(qdot_chart *c, size_t k, const char *what)
 {
@@ -94,7 +94,7 @@ chart_add_name(qdot_chart *c, size_t k, const char *what)
                          qdot_expr_symbol(c->pool, c->fresh.at[k].q)->name);
 }
 
-/* A new coordinate: it is called by what it is in those given. */
+/* Add a new coordinate, named after its expression in the given ones. */
 static qdot_status
 add_fresh(qdot_chart *c, qdot_expr given, qdot_expr *q)
 {
@@ -110,7 +110,7 @@ add_fresh(qdot_chart *c, qdot_expr given, qdot_expr *q)
     return qdot_vec_push(&c->fresh, ((qdot_chart_fresh){*q, given}));
 }
 
-/* The place of coordinate i among those that are replaced, to be filled. */
+/* Add coordinate i to those that are replaced. */
 static qdot_status
 add_moved(qdot_chart *c, size_t i, qdot_chart_moved m)
 {
@@ -140,7 +140,7 @@ chart_angle_of(const qdot_chart *c, qdot_expr x, qdot_expr y, qdot_expr norm, si
                               .sign = sign};
 }
 
-/* The ends of an angle between singular places: 0 and pi, or turned by a quarter. */
+/* Set the bounds of an angle between singularities: 0 and pi, or turned by a quarter turn. */
 static void
 end_angle(const qdot_chart *c, qdot_chart_moved *m, bool turned)
 {
@@ -150,7 +150,7 @@ end_angle(const qdot_chart *c, qdot_chart_moved *m, bool turned)
     m->ends[1] = turned ? quarter : QDOT_PI;
 }
 
-/* N, whose square is given, and its sign: *signed_N = s N. Its number, from 1. */
+/* Add the distance N, given by its square, and its sign s: *signed_N = s N. */
 static qdot_status
 add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *signed_N)
 {
@@ -162,7 +162,7 @@ add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *si
         &c->signs, ((qdot_chart_sign){.symbol = s, .start = start, .distance = *signed_N}));
 }
 
-/* x, y = `across` times cos and sin of angle i. *R = across, with its sign. */
+/* Add x, y = `across` times cos and sin of angle i. *R = across, with its sign. */
 static qdot_status
 add_axis(qdot_chart *c, size_t i, qdot_expr across, int start, qdot_expr *x, qdot_expr *R)
 {
@@ -253,7 +253,7 @@ put_body(qdot_chart *c, const size_t *index, int start)
 
 /* --- parabolic and elliptic coordinates --------------------------------------------------------- */
 
-/* X, Y of a plane, one of which may be the distance from an axis. */
+/* The components X, Y in a plane; one of them may be the distance from an axis. */
 typedef struct {
     qdot_expr X, Y, XX, YY, dX, dY; /* with their squares and rates */
     size_t sign;
@@ -314,7 +314,7 @@ is_positive(const qdot_pool *pool, const qdot_scene *s, const qdot_chart_group *
            other->lo == QDOT_NIL;
 }
 
-/* An angle atan2(y, x) that is no coordinate, by which those of the group are read. */
+/* Add an angle atan2(y, x) that is no coordinate, from which angles of the group are computed. */
 static qdot_status
 add_turn(qdot_chart *c, const qdot_chart_group *g, const pair *p, qdot_expr x, qdot_expr y,
          qdot_expr given)
@@ -497,7 +497,7 @@ put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
 
 /* --- roots ------------------------------------------------------------------------------------------ */
 
-/* w^2 = P */
+/* Add the new coordinate w with w^2 = P. */
 static qdot_status
 put_root(qdot_chart *c, const qdot_chart_group *g)
 {

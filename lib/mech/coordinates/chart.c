@@ -1,4 +1,4 @@
-/* chart.c -- which groups of coordinates can be replaced, and the scene without them. */
+/* chart.c -- finds groups of coordinates that can be replaced, and makes the scene in the new ones. */
 #include "mech/coordinates/chart.h"
 
 #include <string.h>
@@ -152,7 +152,7 @@ copy_event(qdot_chart *c, const qdot_event *event)
     return status;
 }
 
-/* A chart is of no use if a position contains the root N: it is not smooth where N is 0. */
+/* Reject a chart if a position contains the root N, which is not smooth at N = 0. */
 static void
 check_places(qdot_chart *c)
 {
@@ -163,7 +163,7 @@ check_places(qdot_chart *c)
                 snprintf(c->hindrance, sizeof c->hindrance, "a place is not smooth");
 }
 
-/* Places that hold the length of a group itself are not smooth where it is 0. */
+/* Reject a chart if a position contains the length of a group itself, which is not smooth at 0. */
 static void
 check_lengths(qdot_chart *c)
 {
@@ -206,7 +206,7 @@ coordinate_is_taken(const qdot_chart_groups *groups, size_t i)
     return false;
 }
 
-/* The constraints of s as they are, with their names and multipliers. */
+/* Copy the constraints of s with their names and multipliers. */
 static qdot_status
 copy_constraints(const qdot_scene *s, qdot_scene *to)
 {
@@ -220,7 +220,7 @@ copy_constraints(const qdot_scene *s, qdot_scene *to)
     return QDOT_OK;
 }
 
-/* The coordinates that stay, and the things; a generalized force on one that goes has no place. */
+/* Copy the remaining coordinates and the things; a generalized force on a replaced coordinate is refused. */
 static qdot_status
 begin_scene(qdot_chart *c, const qdot_chart_groups *groups)
 {
@@ -267,7 +267,7 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
 
 /* --- which groups there are ------------------------------------------------------------------ */
 
-/* Take the group if the scene is regular without it. */
+/* Take the group if the scene is regular in its new coordinates. */
 static qdot_status
 try_group(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *groups)
 {
@@ -295,7 +295,7 @@ typedef struct {
     bool hyperbolic[MOST_COORDINATES], square[MOST_COORDINATES];
 } joined;
 
-/* Particles, then bodies. */
+/* The position of thing number i: particles, then bodies. */
 static qdot_expr
 position_of(const qdot_scene *s, size_t i)
 {
@@ -348,7 +348,7 @@ join_pairs(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
     }
 }
 
-/* rates: those in one term of L with the rate of another, too. */
+/* Pairs of coordinates that occur together in positions; rates: also in one term of L with their velocities. */
 static joined
 find_pairs(const qdot_scene *s, bool rates)
 {
@@ -361,7 +361,7 @@ find_pairs(const qdot_scene *s, bool rates)
     return pairs;
 }
 
-/* Whether the coordinates are all joined, as those of a group are. */
+/* Whether all coordinates of a possible group occur together in pairs. */
 static bool
 may_be(const joined *pairs, const size_t *index, size_t n)
 {
@@ -372,7 +372,7 @@ may_be(const joined *pairs, const size_t *index, size_t n)
     return true;
 }
 
-/* What can be seen of coordinates at once: not one is of a kind that needs functions of it. */
+/* A quick test whether coordinates can be a group, by the functions in which they occur. */
 static bool
 group_fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
 {
@@ -408,7 +408,7 @@ try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const join
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             for (size_t k = 0; k < third; k++) {
-                /* what is not in the group is no index of it, for `group_fits` */
+                /* unused indices are 0, as `group_fits` expects */
                 const qdot_chart_group g = {
                     .kind = kind, .index = {i, j, third > 1 ? k : 0}, .turned = turned};
 
@@ -418,7 +418,7 @@ try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const join
     return QDOT_OK;
 }
 
-/* Square roots of coordinates in a place. */
+/* Try square roots of coordinates in a position as groups. */
 static qdot_status
 try_roots(qdot_scene *s, qdot_expr r, qdot_chart_groups *groups)
 {

@@ -61,7 +61,7 @@ typedef enum {
     QDOT_CHART_ROOT
 } qdot_chart_kind;
 
-/* A group that can be replaced: the indices of its coordinates, in the order of the table. */
+/* A group of coordinates that can be replaced: its kind and its indices in the order of the table. */
 typedef struct {
     qdot_chart_kind kind;
     size_t index[3];
@@ -78,7 +78,7 @@ typedef enum {
     QDOT_CHART_HYPERBOLIC /* known by cosh and sinh */
 } qdot_chart_sort;
 
-/* A coordinate of a group, or an angle by which some are read, in new coordinates and roots. */
+/* A coordinate of a group, or an auxiliary angle, in terms of new coordinates and roots. */
 typedef struct {
     qdot_expr q; /* of an angle that is no coordinate a symbol of its own */
     qdot_chart_sort sort;
@@ -97,7 +97,7 @@ typedef struct {
     bool between;      /* its domain ends there: it has no turns */
 } qdot_chart_moved;
 
-/* A new coordinate, in those given. */
+/* A new coordinate, in terms of the given ones. */
 typedef struct {
     qdot_expr q, given;
 } qdot_chart_fresh;
@@ -158,7 +158,7 @@ qdot_expr qdot_chart_given(const qdot_chart *c, qdot_expr e);
 qdot_expr qdot_chart_express(const qdot_chart *chart, qdot_expr e, const long *quarters,
                              bool *turns);
 
-/* A root w that e, in new coordinates, holds where it is negative by `quarters`; NULL: none. */
+/* A root w contained in e (in new coordinates) where w is negative, judged by `quarters`; NULL: none. */
 const qdot_chart_sign *qdot_chart_beyond(const qdot_chart *chart, qdot_expr e,
                                          const long *quarters);
 
@@ -175,7 +175,7 @@ QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_g
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);
 /* Inside: de/dt, e in new coordinates and roots. */
 qdot_expr qdot_chart_rate(const qdot_chart *chart, qdot_expr e);
-/* Inside: that without roots, if it is regular; else nil, with no failure. */
+/* For use inside: e without roots if it is regular; else nil, without a failure. */
 qdot_expr qdot_chart_regular(const qdot_chart *chart, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* collision-pairs.c -- pairs of points on whose distance accelerations depend in a singular way. */
+/* collision-pairs.c -- finds pairs of points whose distance makes accelerations singular. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -26,7 +26,7 @@ is_numeral(const qdot_collision_equations *of, qdot_expr e)
     return e != QDOT_NIL && qdot_expr_kind(of->pool, e) == QDOT_NUM;
 }
 
-/* Whether e is linear in coordinates, with nothing else in it: one component. */
+/* Whether e is a linear combination of coordinates only: a pair in one dimension. */
 static bool
 find_line(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *pair)
 {
@@ -112,7 +112,7 @@ pairs_add(const qdot_collision_equations *of, qdot_expr base, bool line,
     return qdot_vec_push(pairs, pair);
 }
 
-/* A divisor that holds coordinates, or what an absolute value is taken of. */
+/* A divisor that contains coordinates, or the argument of an absolute value. */
 typedef struct {
     qdot_expr e;
     bool whole; /* it stands in whole powers */

@@ -1,4 +1,4 @@
-/* collision.c -- the scene in which a collision is regular, and expressions in it. */
+/* collision.c -- the scene in coordinates in which a collision is regular, and expressions in these. */
 #include "mech/coordinates/collision.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ qdot_collision_clear(qdot_collision *c)
     *c = (qdot_collision){0};
 }
 
-/* The scene in regular coordinates while it is made: symbols, and the equations of the pair. */
+/* The regularised scene while it is made: symbols, and the equations of the pair. */
 typedef struct {
     qdot_collision *c;
     qdot_pool *pool;
@@ -39,7 +39,7 @@ typedef struct {
     qdot_expr in_u[MOST], rate_u[MOST]; /* L u, 2 L u'/R */
     qdot_expr strength;                 /* k */
     qdot_expr P[MOST];                  /* in x, dx/dt, R */
-    /* of each coordinate given: [n] */
+    /* for each given coordinate: [n] */
     qdot_expr *Q, *w; /* QDOT_NIL where it is a pivot */
     qdot_expr *value; /* in x and Q */
     qdot_expr *speed; /* dq/dt in dx/dt and w' */
@@ -71,7 +71,7 @@ collision_dot(const work *k, size_t n, const qdot_expr *a, const qdot_expr *b)
     return sum;
 }
 
-/* L(u), row i and column j: +-u of that index, from 1. */
+/* Entry of the Kustaanheimo-Stiefel matrix L(u) in row i, column j: +-u of that index, counted from 1. */
 static qdot_expr
 ks_matrix_entry(const work *k, size_t i, size_t j)
 {
@@ -204,7 +204,7 @@ make_symbols(work *k)
     }
 }
 
-/* e with the coordinates given in x and in themselves: pivots are solved for, the last one first. */
+/* e in terms of x and the given coordinates other than pivots, which are solved for, the last one first. */
 static qdot_expr
 without_pivots(const work *k, qdot_expr e)
 {
@@ -222,7 +222,7 @@ without_pivots(const work *k, qdot_expr e)
 
 /* --- the equations --------------------------------------------------------------------------------- */
 
-/* The accelerations in x and R: c of each, and what is left. */
+/* Split each acceleration in x and R into its singular part c.x/R^3 and the rest. */
 static void
 split_accelerations(work *k)
 {
@@ -287,7 +287,7 @@ find_pair(work *k)
         hinder(k, "the points do not attract each other");
 }
 
-/* c.x/k, the difference of a regular coordinate and its Q. */
+/* c.x/k, the difference between a coordinate and its regular replacement Q. */
 static qdot_expr
 lag(const work *k, size_t i, const qdot_expr *x)
 {
@@ -324,7 +324,7 @@ express_coordinates(work *k)
     }
 }
 
-/* e, in the coordinates given beside x and R, in x, dx/dt and the others' Q and w', beside R. */
+/* Write e, given in coordinates, x and R, in terms of x, dx/dt and the Q and w' of the others. */
 static qdot_expr
 in_rates(const work *k, qdot_expr e)
 {
@@ -347,14 +347,14 @@ in_u(const work *k, qdot_expr e)
     return qdot_subs(k->pool, e, k->d, k->rate, k->rate_u);
 }
 
-/* e, in the coordinates given beside x and R, in new coordinates beside R. */
+/* Write e, given in coordinates, x and R, in terms of the new coordinates and R. */
 static qdot_expr
 in_new(const work *k, qdot_expr e)
 {
     return in_u(k, in_rates(k, e));
 }
 
-/* e as a polynomial in R, which is put as |u|^2; hinders where it is divided by R. */
+/* e as a polynomial in R, replaced by |u|^2; sets a hindrance if e is divided by R. */
 static qdot_expr
 regular(work *k, qdot_expr e)
 {
@@ -384,7 +384,7 @@ add_equation(work *k, qdot_expr q, qdot_expr second, qdot_expr q0, qdot_expr v0)
     return qdot_vec_push(&k->c->v0, v0);
 }
 
-/* The start of u: of two roots that which does not cancel. */
+/* The start value of u; of its two roots the one without cancellation. */
 static void
 start_of_u(const work *k, qdot_expr *u)
 {
@@ -550,7 +550,7 @@ express_energy(work *k)
                   &k->R, (qdot_expr[]){collision_dot(k, k->m, k->u, k->u)});
 }
 
-/* Copy the events of the scene; they must not set coordinates or velocities. */
+/* Copy the events of the scene, which must not set coordinates or velocities. */
 static qdot_status
 copy_events(work *k)
 {
@@ -571,7 +571,7 @@ copy_events(work *k)
     return QDOT_OK;
 }
 
-/* Check that domains of coordinates end at the collision only. */
+/* Check that domains of coordinates end only at the collision. */
 static void
 check_domains(work *k)
 {

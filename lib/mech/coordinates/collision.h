@@ -30,12 +30,12 @@
 
 enum { QDOT_COLLISION_MOST = 3 };
 
-/* Two points: x [d] in coordinates, each of which holds q[pivot] with the coefficient 1. */
+/* A pair of points: x [d] in coordinates, each component containing q[pivot] with the coefficient 1. */
 typedef struct {
     size_t d;
     qdot_expr x[QDOT_COLLISION_MOST];
     size_t pivot[QDOT_COLLISION_MOST];
-    /* for d > 1: R^2 = square/scale, where `square` is what stands under roots of the scene */
+    /* for d > 1: R^2 = square/scale, where `square` is the radicand in the scene */
     qdot_expr square, scale;
     qdot_expr distance;      /* R */
 } qdot_collision_pair;
@@ -50,7 +50,7 @@ typedef struct {
     qdot_expr energy;            /* nil: none is conserved */
 } qdot_collision_equations;
 
-/* Whether e is divided by something that holds coordinates, or holds their absolute values. */
+/* Whether e is divided by an expression of coordinates, or contains an absolute value of one. */
 bool qdot_collision_may(const qdot_collision_equations *of, qdot_expr e);
 
 /* All pairs by whose distance one of the expressions [m], potentials or forces, is divided. `pairs`

@@ -43,7 +43,7 @@ minimal_moves(const work *w, qdot_expr e)
            (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_UFUN);
 }
 
-/* Coordinate i is `value` from now on, in those solved before too. */
+/* Record that coordinate i equals `value`, and insert this into the earlier solutions. */
 static void
 put_solved(work *w, size_t i, qdot_expr value)
 {
@@ -56,7 +56,7 @@ put_solved(work *w, size_t i, qdot_expr value)
             w->out->given[k] = qdot_subs(w->pool, w->out->given[k], 1, &q, &value);
 }
 
-/* f with the coordinates that were solved for replaced by their solutions. */
+/* f with the solved coordinates replaced by their solutions. */
 static qdot_expr
 put_solved_in(const work *w, qdot_expr f)
 {
@@ -64,7 +64,7 @@ put_solved_in(const work *w, qdot_expr f)
                                           w->out->given));
 }
 
-/* c x + g = 0 for the first x of which c does not move. */
+/* Solve c x + g = 0 for the first x whose coefficient c is constant. */
 static bool
 solve_linear(work *w, qdot_expr f, qdot_expr whole)
 {
@@ -86,12 +86,12 @@ solve_linear(work *w, qdot_expr f, qdot_expr whole)
 
 enum { most_axes = 3 };
 
-/* A circle or a sphere: its centre and the square of its radius. */
+/* A circle or sphere: its centre and its squared radius. */
 typedef struct {
     qdot_expr centre[most_axes], square;
 } ball;
 
-/* Of f as one of x [m], s ((x - a)^2 + ... - l^2) with 2 s its second derivatives. */
+/* Whether f = s ((x - a)^2 + ... - l^2) as a function of x [m], where 2 s is its second derivative. */
 static bool
 is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
 {
@@ -126,7 +126,7 @@ is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
     return of->square != QDOT_NIL && of->square != QDOT_ZERO && !minimal_moves(w, of->square);
 }
 
-/* A new angle that is atan2(y, x) of the coordinates as given. */
+/* A new angle, equal to atan2(y, x) of the given coordinates. */
 static qdot_expr
 new_angle(work *w, qdot_expr y, qdot_expr x)
 {
@@ -147,7 +147,7 @@ times_function(qdot_pool *pool, qdot_expr a, qdot_fun_id f, qdot_expr u)
     return qdot_mul(pool, a, qdot_fun1(pool, f, u));
 }
 
-/* x = a + l sin u, y = b - l cos u; whole: f as it was declared, for u by x and y. */
+/* Solve a circle by x = a + l sin u, y = b - l cos u; whole: f as declared, for u in terms of x and y. */
 static bool
 solve_circle(work *w, qdot_expr f, qdot_expr whole)
 {
@@ -236,7 +236,7 @@ solve_sphere(work *w, qdot_expr f, qdot_expr whole)
     return false;
 }
 
-/* What constraint k holds at 0: itself, or by its integral F less F at the start; nil: neither. */
+/* The function that constraint k keeps at 0: f, or its integral F minus F at the start; nil: neither. */
 static qdot_expr
 held_by(work *w, size_t k)
 {
@@ -325,7 +325,7 @@ write_anew(work *w)
     return QDOT_OK;
 }
 
-/* A generalized force on a coordinate that goes has no place in the new scene. */
+/* Whether a generalized force acts on an eliminated coordinate; then there is no minimal form. */
 static bool
 is_acted_on(work *w)
 {

@@ -77,7 +77,7 @@ accelerations_solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, siz
     return status;
 }
 
-/* lambda of constraint k, of that of its row. */
+/* The multiplier of constraint k as declared, from that of its equation. */
 static qdot_expr
 declared_multiplier(qdot_scene *s, size_t k, qdot_expr lambda)
 {

@@ -18,7 +18,7 @@
 
 enum { PATTERNS = 256, PATTERN_ATOMS = 20, UNITS = 4 };
 
-/* Sums of parameters, each with the symbol that stands for it. */
+/* Sums of parameters, each with the symbol that replaces it. */
 typedef struct {
     size_t n;
     qdot_expr sum[UNITS], symbol[UNITS];
@@ -50,7 +50,7 @@ is_term(const qdot_pool *pool, qdot_expr sum, qdot_expr symbol)
     return false;
 }
 
-/* The sums of parameters in e, put in as symbols; e itself where that would lose something. */
+/* e with sums of parameters replaced by symbols; e itself if that would lose information. */
 static qdot_expr
 with_units(qdot_scene *s, qdot_expr e, units *u)
 {
@@ -120,7 +120,7 @@ stand_in(qdot_scene *s, qdot_expr atom, uint32_t k)
     return e;
 }
 
-/* e with stand-ins for its atoms; nil where it has none. */
+/* e with its symbols replaced by place holders; nil if e has no such pattern. */
 static qdot_expr
 pattern_of(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
 {
@@ -144,7 +144,7 @@ pattern_of(qdot_scene *s, qdot_expr e, qdot_expr *atoms)
     return qdot_subs(pool, e, n, from, to);
 }
 
-/* e simplified, by its pattern if that is known. */
+/* e simplified, by its pattern if that was simplified before. */
 static qdot_expr
 by_pattern(qdot_scene *s, qdot_expr e)
 {

@@ -23,7 +23,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* -dL/dt + sum Q q', Q what is applied beside V. */
+/* -dL/dt + sum Q q', with Q the applied forces not contained in V. */
 static qdot_expr
 applied_power(qdot_scene *s)
 {
@@ -58,7 +58,7 @@ constraint_power(qdot_scene *s, size_t k)
     return power;
 }
 
-/* dh/dt, with the multipliers' symbols. */
+/* dh/dt, containing symbols of multipliers. */
 static qdot_expr
 energy_rate(qdot_scene *s)
 {
@@ -75,7 +75,7 @@ energy_rate(qdot_scene *s)
     return rate;
 }
 
-/* dp/dt of coordinate i, likewise. */
+/* dp_i/dt, containing symbols of multipliers. */
 static qdot_expr
 momentum_rate(qdot_scene *s, size_t i)
 {
@@ -166,7 +166,7 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
         for (size_t k = 0; k < s->constraints.n && *conserved; k++) {
             qdot_expr f = s->constraints.at[k].f;
 
-            /* Linear and homogeneous in q', its power is f itself. */
+            /* If f is linear and homogeneous in q' its power is a multiple of f. */
             power = constraint_power(s, k);
             *conserved = power != QDOT_NIL &&
                          (qdot_is_zero(pool, power, &facts) ||

@@ -108,7 +108,7 @@ out:
     return sum;
 }
 
-/* T by degrees in velocities where that is shorter: m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2). */
+/* T grouped by degree in velocities if that is shorter: m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2). */
 static qdot_expr
 or_degrees(qdot_scene *s, qdot_expr T)
 {
@@ -121,7 +121,7 @@ or_degrees(qdot_scene *s, qdot_expr T)
     return qdot_expr_size(s->pool, sum) < qdot_expr_size(s->pool, T) ? sum : T;
 }
 
-/* T with this sum of squares where that is shorter; others: the terms that are none. */
+/* T with a sum of squares if that is shorter; others: the remaining terms. */
 static qdot_expr
 or_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
 {
@@ -172,7 +172,7 @@ qdot_mech_lagrangian(qdot_scene *s)
 
 enum { MOST_ADDED = 2000 };
 
-/* Terms of e, multiplied out. */
+/* The number of terms of e when multiplied out. */
 static uint32_t
 expanded_terms(qdot_pool *pool, qdot_expr e)
 {
@@ -213,7 +213,7 @@ qdot_mech_energy(qdot_scene *s)
 
     if (d->energy != QDOT_NIL)
         return d->energy;
-    /* Of F = L or -V: sum q' dF/dq' - F; of T: its quadratic part less c. */
+    /* For F = L or -V: sum q' dF/dq' - F; from T: its quadratic part minus the constant part. */
     F = qdot_mech_stated(s) ? s->lagrangian : qdot_neg(pool, qdot_potential_raw(s));
     h = qdot_neg(pool, F);
     if (qdot_mech_holds(s, F) & QDOT_HAS_VELOCITY)
@@ -236,7 +236,7 @@ qdot_mech_energy(qdot_scene *s)
 
 /* --- slopes of L ---------------------------------------------------------------------- */
 
-/* Whether t stands in anything that L is made of: seen before M is derived. */
+/* Whether L depends explicitly on t, seen from its ingredients before M is derived. */
 static bool
 time_stands(qdot_scene *s)
 {

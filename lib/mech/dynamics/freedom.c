@@ -90,7 +90,7 @@ add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind, size_t 
     return n - c;
 }
 
-/* The slopes of equation k by what it holds. */
+/* Add the derivatives of equation k by the variables in it. */
 static qdot_status
 equation_add_slopes(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind kind, size_t *capacity,
                     size_t *columns)
@@ -180,7 +180,7 @@ constraints_evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
     return QDOT_OK;
 }
 
-/* A A^T, lower triangle; its trace. `row` [m] is scratch, left at 0. */
+/* A A^T, lower triangle; returns its trace. `row` [m] is work space, left at 0. */
 static double
 fill_gram(problem *p, double *row)
 {
@@ -322,7 +322,7 @@ rank_add_row(const problem *p, size_t k, size_t low, size_t width, double *rows,
     return true;
 }
 
-/* Which rows are independent, one after another; their number. */
+/* Find which rows are independent of those before; returns their number. */
 static size_t
 rank(qdot_scene *s, problem *p, bool *independent)
 {
@@ -339,7 +339,7 @@ rank(qdot_scene *s, problem *p, bool *independent)
 
 /* --- conditions that rows of one direction leave --------------------------------------- */
 
-/* Some of the constraints: those that are independent, and the others up to `last`. */
+/* A selection of the constraints: the independent ones, and dependent ones up to `last`. */
 typedef struct {
     const problem *p;
     const bool *independent;
@@ -365,7 +365,7 @@ rank_of_kinds(const selection *of, int least, int most, int lowest)
     return found;
 }
 
-/* The number of hidden conditions that the selected constraints leave. */
+/* The number of hidden conditions that follow from the selected constraints. */
 static size_t
 count_hidden(const selection *of)
 {
@@ -377,7 +377,7 @@ count_hidden(const selection *of)
     return count;
 }
 
-/* Find which of the dependent constraints leave a further (hidden) condition. */
+/* Find the dependent constraints from which a further (hidden) condition follows. */
 static qdot_status
 find_hidden(const problem *p, const bool *independent, bool *hidden)
 {
@@ -402,7 +402,7 @@ find_hidden(const problem *p, const bool *independent, bool *hidden)
     return QDOT_OK;
 }
 
-/* Undefined functions whose arguments move cannot be given consistent values. */
+/* Whether constraints can be evaluated at random points; not with undefined functions of moving arguments. */
 static bool
 can_sample(qdot_scene *s, const problem *p)
 {
@@ -428,7 +428,7 @@ can_sample(qdot_scene *s, const problem *p)
     return true;
 }
 
-/* Into independent [2c], the second half: which leave a condition. */
+/* Judge independence at random points, into independent [2c]; the second half: which lead to a condition. */
 static qdot_status
 by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
 {

@@ -4,7 +4,7 @@
 
 #include "mech/scene/scene.h"
 
-/* Fill d->independent: which constraints are independent of those before them. */
+/* Fill d->independent: whether each constraint is independent of those before it. */
 bool qdot_freedom_independent(qdot_scene *s);
 
 #endif

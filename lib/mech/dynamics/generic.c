@@ -34,7 +34,7 @@ greatest(const double *x, uint32_t n)
     return y;
 }
 
-/* f(x[0] ... x[n-1]) */
+/* The value f(x[0] ... x[n-1]) of an elementary function. */
 static double
 function_value(qdot_fun_id id, const double *x, uint32_t n)
 {
@@ -110,7 +110,7 @@ double_power(double b, double e)
     return e == 1 ? b : e == -1 ? 1 / b : pow(b, e);
 }
 
-/* One node from its children's values x [n]. */
+/* The value of one node from the values x [n] of its children. */
 static double
 node_combine(const qdot_node *node, const double *x)
 {

@@ -13,14 +13,14 @@ typedef struct {
     uint64_t seed;
 } qdot_generic_point;
 
-/* Values of e [n] in double at a point (NULL: with seed 1 alone). NaN where undefined. */
+/* Evaluate e [n] in double at a point (NULL: random values with seed 1). NaN where undefined. */
 QDOT_MUST_CHECK qdot_status qdot_generic_evaluate(const qdot_pool *pool, size_t n,
                                                   const qdot_expr *e,
                                                   const qdot_generic_point *at,
                                                   double *out);
 /* x to 15 digits, exactly; nil: the pool failed. */
 qdot_expr qdot_generic_decimal(qdot_pool *pool, double x);
-/* The random value of a symbol: inside its domain, of about size 1. */
+/* The random value of a symbol, inside its domain and about of size 1. */
 double qdot_generic_value(const qdot_pool *pool, qdot_expr symbol, uint64_t seed);
 
 #endif

@@ -14,7 +14,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/antiderivative.h"
 
-/* Forms over x = (q, t), n + 1 of them a row. */
+/* Differential forms over x = (q, t), in rows of n + 1 coefficients. */
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
@@ -43,7 +43,7 @@ forms_clear(forms *f)
     qdot_free(f->relations);
 }
 
-/* The form of constraint k; *linear whether it is one. */
+/* The differential form of constraint k; *linear: whether the constraint is one. */
 static qdot_status
 form_of(const forms *f, size_t k, qdot_expr *a, bool *linear)
 {
@@ -108,7 +108,7 @@ forms_init(forms *f, qdot_scene *s)
 
 /* --- what the system leaves --------------------------------------------------------- */
 
-/* A pivot is best a number, then what is short. */
+/* Choose a pivot: a number if possible, otherwise a short entry. */
 static qdot_status
 choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
 {
@@ -135,7 +135,7 @@ choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
     return qdot_pool_check(f->pool);
 }
 
-/* row -= row[pivot] by, whose entry there is 1 */
+/* row -= row[pivot] times `by`, whose entry at the pivot is 1 */
 static void
 form_eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
 {
@@ -153,7 +153,7 @@ form_eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot
     }
 }
 
-/* B: dx_pivot = - sum over the others, of the forms that are in. */
+/* Reduce the forms to B: dx_pivot = - sum over the other dx. */
 static qdot_status
 forms_reduce(forms *f)
 {
@@ -194,7 +194,7 @@ is_pivot(const forms *f, size_t i)
     return false;
 }
 
-/* dw(x_i, x_j) of form k. */
+/* The component dw(x_i, x_j) of the exterior derivative of form k. */
 static qdot_expr
 curl(const forms *f, size_t k, size_t i, size_t j)
 {
@@ -274,7 +274,7 @@ is_closed(const forms *f, const qdot_expr *a, const bool *held)
     return !qdot_pool_failed(f->pool);
 }
 
-/* F of mu w, if that is closed and the table of integrals knows it. */
+/* F with dF = mu w if mu w is closed and can be integrated; else nil. */
 static qdot_expr
 try_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
 {
@@ -345,7 +345,7 @@ find_integral(const forms *f, size_t k, const bool *held, qdot_integrability *re
     result->factor = F == QDOT_NIL ? QDOT_NIL : mu;
 }
 
-/* Coordinates that another form of the system holds constant: a dz = 0 alone. */
+/* Find coordinates held constant by another form of the system, of the kind a dz = 0. */
 static void
 find_held(const forms *f, size_t k, bool *held)
 {
@@ -416,7 +416,7 @@ integrability_decide(forms *f, size_t k, bool alone, qdot_integrability *result)
     bool *held, jump;
     qdot_status status;
 
-    /* an integral would be that between the jumps */
+    /* an integral would hold only between the jumps */
     QDOT_TRY(qdot_jumps(f->pool, f->s->constraints.at[f->of[k]].f, UINT32_MAX, &jump));
     if (jump) {
         result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};
@@ -472,7 +472,7 @@ qdot_mech_integrable(qdot_scene *s, size_t k, bool alone, qdot_integrability *re
     return status;
 }
 
-/* Every velocity constraint of the scene is among the forms and stands still. */
+/* Whether all velocity constraints of the scene are among the forms and do not depend on time. */
 static qdot_status
 all_still(const forms *f, bool *yes)
 {

@@ -1,4 +1,4 @@
-/* integrated.c -- integrals of velocity constraints, kept with the scene; when they are used. */
+/* integrated.c -- integrals of velocity constraints, cached with the scene, and when they are used. */
 #include "mech/dynamics/integrated.h"
 
 #include "expr/calculus.h"
@@ -12,7 +12,7 @@
 #include "mech/scene/cache.h"
 #include "mech/scene/constraint.h"
 
-/* Larger constraints stay as declared: what Frobenius' condition takes grows with their terms. */
+/* Larger constraints are not integrated: the cost of Frobenius' condition grows with their terms. */
 enum { MOST_OPERATIONS = 400 };
 
 /* Whether every power in a product of powers is smooth: a natural exponent, or a base that is not
@@ -124,7 +124,7 @@ qdot_integrated_slope(qdot_scene *s, size_t k, size_t i)
                          : qdot_diff(s->pool, F, s->coordinates.at[i]);
 }
 
-/* Whether the slopes of velocity constraint k may vanish together: none is known to differ from 0. */
+/* Whether all coefficients of velocity constraint k may vanish together: none is known to be non-zero. */
 static bool
 may_vanish(qdot_scene *s, size_t k)
 {

@@ -13,9 +13,11 @@
 
 #include "mech/scene/scene.h"
 
-/* F of constraint k and mu; nil, 1 where it has none that is used. A failure is kept by the pool. */
+/* The integral F of constraint k, and mu with dF/dt = mu f; nil and 1 if none is used. The pool
+ * keeps a failure. */
 qdot_expr qdot_integrated_of(qdot_scene *s, size_t k, qdot_expr *mu);
-/* dF/dq_i of constraint k, or its own df/dq_i, df/dq_i', df/dq_i''; nil on failure. */
+/* dF/dq_i of constraint k if F is used, otherwise df/dq_i, df/dq_i' or df/dq_i'' by its kind; nil
+ * on failure. */
 qdot_expr qdot_integrated_slope(qdot_scene *s, size_t k, size_t i);
 /* What runs keep of constraint k: f, mu = 1; or dF/dt = mu f, where the slopes of f may vanish
  * together somewhere, so that lambda of f is mu times that of dF/dt. Nil on failure. */

@@ -207,7 +207,7 @@ typedef struct {
     qdot_expr e;
 } slope;
 
-/* A summand of some x: its slopes are slopes.at[from .. to). */
+/* A summand of some coordinate function x; its derivatives are slopes.at[from .. to). */
 typedef struct {
     qdot_expr term;
     uint32_t from, to;
@@ -279,7 +279,7 @@ learn(qdot_scene *s, summands *m, qdot_expr term)
     return qdot_vec_push(&m->known, x);
 }
 
-/* The index in m->known of a summand, made if new. */
+/* The index of a summand in m->known; it is added if new. */
 static qdot_status
 summand_find(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
 {
@@ -394,7 +394,7 @@ entries_combine(qdot_scene *s, entries *all, bool slopes)
     return qdot_pool_check(s->pool);
 }
 
-/* Entries of one key go to one of `out`. */
+/* Group the entries with the same key in one element of `out`. */
 static qdot_status
 group(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *out)
 {
@@ -439,7 +439,7 @@ number_coordinates(const qdot_scene *s, summands *m)
     return QDOT_OK;
 }
 
-/* Group what is wanted of the first, or of the second, functions of all inertial terms. */
+/* Group the wanted derivatives of the first, or the second, functions of all inertial terms. */
 static qdot_status
 group_all(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_groups *out)
 {
@@ -512,7 +512,7 @@ qdot_kinematics_get(qdot_scene *s)
     return &d->kinematics;
 }
 
-/* The groups of x'' or of x, made when first asked for. */
+/* The groups of x'' or of x, computed when first needed. */
 static const qdot_groups *
 groups_of(qdot_scene *s, qdot_kinematics *k, want want, qdot_groups *out, bool *ready)
 {

@@ -39,7 +39,7 @@ by_pair(const void *a, const void *b)
     return x->e < y->e ? -1 : x->e > y->e;
 }
 
-/* Contributions of dM to equation i; those by t in *linear, coefficients of q_j'. */
+/* The contributions of derivatives of M to equation i; those by t go to *linear, as coefficients of q_j'. */
 static qdot_status
 collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *linear)
 {
@@ -190,7 +190,7 @@ qdot_lagrange_people_forcing(qdot_scene *s, size_t i)
     return qdot_sub(pool, Q, qdot_lagrange_rest(s, i));
 }
 
-/* d/dt dT/dq' - dT/dq, or that of the stated L. */
+/* d/dt dT/dq' - dT/dq of equation i, or with a stated L in place of T. */
 static qdot_expr
 left_side(qdot_scene *s, size_t i)
 {

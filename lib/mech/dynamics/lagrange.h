@@ -9,7 +9,7 @@ qdot_expr qdot_lagrange_forcing(qdot_scene *s, qdot_expr F, size_t i);
 /* d/dt dT/dq' - dT/dq at q'' = 0, simplified. */
 qdot_expr qdot_lagrange_rest(qdot_scene *s, size_t i);
 
-/* f_i of M q'' = f, from simplified parts. */
+/* f_i of M q'' = f, from simplified parts, for printing. */
 qdot_expr qdot_lagrange_people_forcing(qdot_scene *s, size_t i);
 
 #endif

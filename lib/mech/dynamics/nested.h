@@ -4,7 +4,7 @@
 
 #include "mech/scene/scene.h"
 
-/* Sets of items that have values; bits of items >= `items` are 0. */
+/* Sets of items with values; bits of items >= `items` are 0. */
 typedef struct {
     size_t items, sets, words; /* words of 64 bits a set */
     const qdot_expr *value;    /* [items] */

@@ -35,7 +35,7 @@ static const struct {
     uint64_t units; /* units of cost() */
 } both_forms = {4, 150}, both_forms_in_space = {12, 600};
 
-/* Entries so short that simplifying each costs nothing to speak of: Pythagoras. */
+/* Entries with at most this many operations are simplified individually, at negligible cost. */
 enum { SHORT_ENTRY = 60 };
 
 /* M_ij of T: simplified where that leaves fewer operations, as along the diagonal of a
@@ -73,7 +73,7 @@ raw_mass(qdot_scene *s, size_t i, size_t j, qdot_expr V)
     return k ? qdot_sub(pool, kinetic_mass(s, k, i, j), second) : QDOT_NIL;
 }
 
-/* sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y') over the terms whose weight moves. */
+/* sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y') over the terms with a variable weight w. */
 static qdot_expr
 varying_masses(qdot_scene *s, const qdot_kinematics *k, size_t i)
 {
@@ -131,7 +131,7 @@ bill_moves(const bill *b, qdot_expr e)
                                        QDOT_HAS_UFUN);
 }
 
-/* The rational and parameters before e; whether there are any but a sign. */
+/* Whether e has numerical factors or parameters in front, other than a sign. */
 static bool
 has_factor(const bill *b, qdot_expr e)
 {

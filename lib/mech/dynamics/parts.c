@@ -1,4 +1,4 @@
-/* parts.c -- T and V by what they are made of: each particle, body, field, spring. */
+/* parts.c -- T and V by their sources: each particle, body, field, spring. */
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/tensor.h"
@@ -28,7 +28,7 @@ massive_at(const qdot_scene *s, size_t k)
         .name = b->name, .mass = b->mass, .position = b->position, .body = b};
 }
 
-/* w.I w, in space along the axes of the body, in which I is given. */
+/* w.I w; in space in the axes of the body, in which I is given. */
 static qdot_expr
 twice_rotation(qdot_scene *s, const qdot_body *b)
 {
@@ -59,7 +59,7 @@ qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part)
     return true;
 }
 
-/* -m g.r, all fields together. */
+/* -m g.r with the sum of all fields g. */
 static qdot_expr
 weight(qdot_scene *s, const massive *m)
 {

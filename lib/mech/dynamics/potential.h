@@ -4,12 +4,12 @@
 
 #include "mech/scene/scene.h"
 
-/* u . u of the ends of spring or damper k, simplified. */
+/* u.u, simplified, for the vector u between the ends of spring or damper k. */
 qdot_expr qdot_link_square(qdot_scene *s, bool damper, size_t k);
 qdot_expr qdot_spring_potential(qdot_scene *s, size_t k);
 /* V without gravity; nil on failure. */
 qdot_expr qdot_potential_but_gravity(qdot_scene *s);
-/* The terms of V with velocities (potentials may have them), as a sum. */
+/* The sum of the terms of V that depend on velocities (declared potentials may). */
 qdot_expr qdot_potential_with_velocities(qdot_scene *s);
 /* V before simplification; nil on failure. */
 qdot_expr qdot_potential_raw(qdot_scene *s);

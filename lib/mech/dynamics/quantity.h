@@ -27,7 +27,7 @@ qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R);    /* in dq, dt */
 qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* in q' */
 qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* MAT; over the coordinates in R; or of
                                                            a line element, a scalar in dq */
-/* The coordinates a metric is over: those in R (or whose differentials are), declared order. */
+/* The coordinates of a metric, in declared order: those in R, or whose differentials are in R. */
 qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
 
 /* --- momenta, forces --- */
@@ -45,7 +45,7 @@ typedef struct {
     const char *name; /* what it is of or on, its label; NULL: none */
     qdot_expr value;  /* simplified, common factors kept; nil on failure */
 } qdot_energy_part;
-/* 1/2 m v^2 of particle or body k, with 1/2 w.I w of a body; part k of V. False past the end. */
+/* 1/2 m v^2 of particle or body k, plus 1/2 w.I w of a body; part k of V. False past the end. */
 bool qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part);
 bool qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part);
 
@@ -55,9 +55,9 @@ typedef struct {
     bool conservative;       /* the force is the gradient of a part of V */
     size_t row, k;           /* internal */
 } qdot_force_source;
-/* Source k of generalized forces; false past the end. */
+/* Source number k of generalized forces; false past the end. */
 bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
-/* The part of Q[q] that a source contributes, simplified. */
+/* The contribution of a source to Q[q], simplified. */
 qdot_expr qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q);
 
 /* --- equations --- */
@@ -75,7 +75,7 @@ typedef struct {
     qdot_expr coordinate, momentum;
     qdot_expr rate;   /* dp/dt: nil when conserved; else the sum of applied forces, multipliers */
 } qdot_cyclic;
-/* Coordinates absent from L (their velocities may stand there). *list [*n], owned by caller. */
+/* Coordinates absent from L (their velocities may occur). *list [*n], owned by caller. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n);
 /* Whether coordinate i is cyclic (*is), with its momentum and rate. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic_at(qdot_scene *s, size_t i, qdot_cyclic *cyclic,

@@ -1,4 +1,4 @@
-/* squares.c -- a quadratic form as a sum of squares: pivots in every order, the shortest kept. */
+/* squares.c -- writes a quadratic form as a sum of squares: tries pivots in every order, keeps the shortest. */
 
 #include "mech/dynamics/squares.h"
 
@@ -108,7 +108,7 @@ qdot_squares_blocks(size_t n, const qdot_expr *A, size_t *block)
         }
 }
 
-/* Whether e, or a factor of it, is a sum with coordinates in it. */
+/* Whether e, or a factor of it, is a sum that contains coordinates. */
 static bool
 has_sum(const qdot_scene *s, qdot_expr e)
 {

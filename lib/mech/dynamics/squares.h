@@ -24,7 +24,7 @@ typedef struct {
 void qdot_squares_begin(qdot_squares *q, qdot_scene *s);
 void qdot_squares_clear(qdot_squares *q);
 
-/* Add 1/2 D u^2. */
+/* Add the square 1/2 D u^2. */
 QDOT_MUST_CHECK qdot_status qdot_squares_add(qdot_squares *q, qdot_expr D, qdot_expr u);
 
 /* Add 1/2 v.A v, A [n*n] symmetric, 2 <= n <= 3, as squares whose D contain no sum with
@@ -37,10 +37,10 @@ QDOT_MUST_CHECK qdot_status qdot_squares_complete(qdot_squares *q, size_t n,
  * shorter. */
 bool qdot_squares_worth(const qdot_scene *s, size_t n, const qdot_expr *A);
 
-/* The blocks of A [n*n]: block[i] is the least row that row i is coupled to, directly or not. */
+/* The blocks of A [n*n]: block[i] is the smallest row coupled to row i, directly or indirectly. */
 void qdot_squares_blocks(size_t n, const qdot_expr *A, size_t *block);
 
-/* The sum of all that was added. */
+/* The sum of all squares added so far. */
 qdot_expr qdot_squares_sum(const qdot_squares *q);
 
 #endif

@@ -24,7 +24,7 @@
 #include "mech/scene/access.h"
 #include "mech/scene/body.h"
 
-/* dr/dq_i or, in Kane's form, dv/dq_i', of a place. */
+/* dr/dq_i of a position r, or (Kane's form) dv/dq_i'. */
 static qdot_expr
 partial(qdot_scene *s, qdot_expr r, size_t i, bool kane)
 {
@@ -33,7 +33,7 @@ partial(qdot_scene *s, qdot_expr r, size_t i, bool kane)
     return qdot_diff(s->pool, r, s->coordinates.at[i]);
 }
 
-/* The places of everything that has mass: their sum of m g . dr/dq. */
+/* The generalized force of gravity on coordinate i: the sum of m g . dr/dq over all masses. */
 static qdot_expr
 gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
@@ -62,7 +62,7 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
             return QDOT_NIL;
         Q = qdot_kinematics_gravity(s, kin, &kin->dx[i]);
     }
-    /* A mass that depends on q: V = -m g.r has a slope by m too. */
+    /* If a mass depends on q, V = -m g.r also contributes through dm/dq. */
     for (size_t p = 0; p < s->particles.n + s->bodies.n; p++) {
         bool body = p >= s->particles.n;
         const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
@@ -128,7 +128,7 @@ spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return qdot_neg(pool, qdot_mul(pool, pull, pull_along(s, spring, i, true)));
 }
 
-/* e/2, a sum term by term: what is differentiated of a square has twos to lose. */
+/* e/2, for a sum term by term, so that factors 2 from differentiated squares cancel. */
 static qdot_expr
 half_of_terms(qdot_pool *pool, qdot_expr e)
 {
@@ -159,7 +159,7 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
         rate = qdot_mul(pool, qdot_ddt(pool, u), partial(s, u, i, kane));
         return qdot_neg(pool, qdot_mul(pool, damper->stiffness, rate));
     }
-    /* Uses u.u simplified, of which u.u' and u.du/dq are half the derivatives. */
+    /* Use u.u simplified; u.u' and u.du/dq are half its derivatives. */
     square = qdot_link_square(s, true, k);
     rate = half_of_terms(pool, qdot_ddt(pool, square));
     if (!kane)
@@ -176,7 +176,7 @@ dissipation_force(qdot_scene *s, size_t k, size_t i, bool kane)
                     qdot_diff(s->pool, s->dissipations.at[k].e, qdot_mech_jet(s, i, 1)));
 }
 
-/* On the material of a body the place is carried along by nothing but the body. */
+/* For a force on a material point, dr/dq_i is that of the body's motion only. */
 static qdot_expr
 applied_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
@@ -237,7 +237,7 @@ NAME(dissipation)
 NAME(spring)
 NAME(damper)
 
-/* Fields act together: where there is one, its label. */
+/* The label of gravity if there is a single field; several fields act together. */
 static const char *
 gravity_name(const qdot_scene *s, size_t k)
 {

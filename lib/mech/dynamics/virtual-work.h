@@ -8,7 +8,7 @@
 qdot_expr qdot_force_total(qdot_scene *s, size_t i, bool people, bool applied);
 /* Generalized force on coordinate i without gravity, not simplified. */
 qdot_expr qdot_force_but_gravity(qdot_scene *s, size_t i);
-/* The part declared by `force` and `torque`. */
+/* The generalized force on coordinate i from the statements `force` and `torque`. */
 qdot_expr qdot_force_declared(qdot_scene *s, size_t i);
 
 #endif

@@ -1,4 +1,4 @@
-/* access.c -- what every chapter asks of a scene. */
+/* access.c -- helpers that all files of mech use to read a scene. */
 #include "mech/scene/access.h"
 
 #include "expr/build.h"

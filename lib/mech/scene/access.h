@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "mech/scene/things.h"
 
-/* Whether two labels are the same; NULL is none. */
+/* Whether two labels are equal; NULL means no label, which equals nothing. */
 static inline bool
 qdot_label_is(const char *a, const char *b)
 {
@@ -17,31 +17,32 @@ qdot_label_is(const char *a, const char *b)
 /* Record the failure just raised in the pool; nil. */
 #define qdot_mech_fail(s, ...) (qdot_fail(__VA_ARGS__), qdot_pool_fail((s)->pool))
 uint32_t qdot_mech_holds(const qdot_scene *s, qdot_expr e);
-/* 1 for a scalar, the size of a VEC, 0 for anything else. */
+/* The number of components of r: 1 for a scalar, the size of a VEC, 0 for anything else; component
+ * d; the dot product. */
 uint32_t qdot_mech_dimension(const qdot_pool *pool, qdot_expr r);
 qdot_expr qdot_mech_component(const qdot_pool *pool, qdot_expr r, uint32_t d);
 qdot_expr qdot_mech_dot(qdot_pool *pool, qdot_expr a, qdot_expr b); /* scalars too */
-/* e simplified with the scene's facts; above a certain size e is returned as it is. */
+/* e simplified with the scene's facts; e itself if it is above a certain size. */
 qdot_expr qdot_mech_tidy(qdot_scene *s, qdot_expr e);
-/* A sum of simplified parts, simplified as a whole if it is short; else as it is. */
+/* A sum of simplified parts, simplified as a whole if it is short; otherwise unchanged. */
 qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
-/* Coordinate, velocity, acceleration i. */
+/* The symbol of coordinate i (order 0), its velocity (1) or its acceleration (2). */
 qdot_expr qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order);
 /* The index of a coordinate in the scene; fails (pool) with QDOT_ENAME and returns false. */
 bool qdot_mech_index(qdot_scene *s, qdot_expr q, size_t *i);
-/* A LIST of what `of` gives for each coordinate. */
+/* The LIST of of(s, q) for each coordinate q. */
 qdot_expr qdot_mech_each(qdot_scene *s, qdot_expr (*of)(qdot_scene *s, qdot_expr q));
-/* e with every acceleration 0. */
+/* e with every acceleration set to 0. */
 qdot_expr qdot_mech_at_rest(qdot_scene *s, qdot_expr e);
 bool qdot_mech_stated(const qdot_scene *s);
 /* QDOT_EINVAL in the pool unless the scene has T and V. */
 bool qdot_mech_needs_particles(qdot_scene *s, const char *what);
-/* Dimension of the scene's space: 1, 2, 3; 0 while nothing declared determines it. */
+/* Dimension of the scene's space: 1, 2, 3; 0 while no declaration determines it. */
 uint32_t qdot_scene_dimension(const qdot_scene *s);
 void qdot_scene_forget_dropped(qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
                                             const char *name);
-/* A copy that lasts as long as the scene; *copy NULL for NULL. */
+/* A copy that lives as long as the scene; *copy NULL for NULL. */
 QDOT_MUST_CHECK qdot_status qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy);
 /* Index among the torques of the k-th of a kind (QDOT_TORQUE, or QDOT_FORCE beyond the forces).
  *  */

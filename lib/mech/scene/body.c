@@ -88,7 +88,7 @@ check_rotation(qdot_scene *s, qdot_expr R)
     return status;
 }
 
-/* Inertia as stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
+/* The inertia as stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
 static qdot_status
 read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bool plane,
              qdot_expr *inertia)
@@ -144,7 +144,7 @@ read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bo
     return qdot_pool_check(pool);
 }
 
-/* No moment about the centre is known to be negative. */
+/* Refuse an inertia with a moment about the centre that is known to be negative. */
 static qdot_status
 need_moments(qdot_scene *s, qdot_expr inertia, bool moved)
 {
@@ -282,7 +282,7 @@ qdot_scene_spin(qdot_scene *s, const char *label)
     return qdot_body_spin(s, b);
 }
 
-/* v + w x (place - r), w a scalar in the plane. */
+/* v + w x (place - r), with w a scalar in the plane. */
 static qdot_expr
 carried(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_expr w)
 {

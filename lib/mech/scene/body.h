@@ -4,7 +4,7 @@
 
 #include "mech/scene/scene.h"
 
-/* Angular velocity as a linear form: its coefficient of q_i', from R or the angle. */
+/* The angular velocity from the rotation matrix or the angle; its coefficient of q_i'. */
 qdot_expr qdot_body_spin(qdot_scene *s, const qdot_body *body);
 qdot_expr qdot_body_partial_spin(qdot_scene *s, const qdot_body *body, qdot_expr q);
 /* d velocity(body, place) / dq'. */

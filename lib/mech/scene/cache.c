@@ -1,4 +1,4 @@
-/* cache.c -- what was derived of a scene: emptied when the scene has changed. */
+/* cache.c -- results derived from a scene, cleared when the scene changes. */
 #include "mech/scene/cache.h"
 
 void

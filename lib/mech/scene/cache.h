@@ -51,12 +51,12 @@ typedef struct {
     qdot_expr value;
 } qdot_mass_slope;
 
-/* A sum simplified once for all that differ from it only in their symbols (qdot_mech_alike). */
+/* A sum that was simplified once for all sums that differ only in their symbols (qdot_mech_alike). */
 typedef struct {
     qdot_expr pattern, atoms, simple;
 } qdot_pattern;
 
-/* Whether a coordinate is cyclic, and if it is, as qdot_cyclic has it. */
+/* Whether a coordinate is cyclic, and if so its momentum and rate, as in qdot_cyclic. */
 typedef struct {
     bool known, is;
     qdot_expr momentum, rate;
@@ -94,9 +94,9 @@ struct qdot_derived {
 /* The cache, emptied if the scene has changed. */
 qdot_derived *qdot_derived_get(qdot_scene *s);
 void qdot_derived_free(qdot_derived *d);
-/* Put [n] nil expressions in *array unless it is there. */
+/* Allocate *array with [n] nil expressions unless it exists. */
 bool qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n);
-/* Empty, to be made anew. */
+/* Clear it; it will be computed again when needed. */
 void qdot_kinematics_clear(qdot_kinematics *k);
 
 #endif

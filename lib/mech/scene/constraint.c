@@ -1,4 +1,4 @@
-/* constraint.c -- f = left - right = 0: its kind, derivatives and reactions. */
+/* constraint.c -- constraints f = left - right = 0: their kind, derivatives and reactions. */
 
 #include "mech/scene/constraint.h"
 
@@ -58,7 +58,7 @@ next_number(const qdot_scene *s)
     return (statements > highest_number ? statements : highest_number) + 1;
 }
 
-/* f and an earlier g = +-f + a number other than 0: no state keeps both. */
+/* Refuse f if an earlier constraint is g = +-f + a non-zero number: no state satisfies both. */
 static qdot_status
 refuse_contradiction(const qdot_scene *s, const char *name, qdot_expr f)
 {
@@ -95,7 +95,7 @@ is_linear_in_velocities(qdot_scene *s, qdot_expr f, bool *linear)
     return QDOT_OK;
 }
 
-/* q'' is solved for: a constraint on accelerations is linear in them, at least once simplified. */
+/* Check that a constraint on accelerations is linear in them, at least after simplification. */
 static qdot_status
 make_linear(qdot_scene *s, const char *name, qdot_expr *f)
 {

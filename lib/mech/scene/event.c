@@ -56,7 +56,7 @@ event_check(const qdot_scene *s, const qdot_event *e)
     return QDOT_OK;
 }
 
-/* A copy of its own of [n] expressions. */
+/* Replace an array of [n] expressions by a copy in the scene's arena. */
 static qdot_status
 copy_exprs(qdot_scene *s, size_t n, qdot_expr **at)
 {

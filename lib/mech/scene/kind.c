@@ -43,7 +43,7 @@ qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind)
     return 0;
 }
 
-/* Take out the member at k. */
+/* Remove the item with index k from a list. */
 #define TAKE(list, k)                                                                    \
     do {                                                                                 \
         memmove(&(list).at[k], &(list).at[(k) + 1],                                      \
@@ -115,7 +115,7 @@ same_torque(const qdot_torque *a, const qdot_torque *b)
            a->coordinate == b->coordinate && a->body == b->body;
 }
 
-/* Whether the last of a list is `same` as one before it. */
+/* Return whether the last item of a list is the `same` as an earlier one. */
 #define LAST_AGAIN(list, same)                                                           \
     do {                                                                                 \
         for (size_t i_ = 0; i_ + 1 < (list).n; i_++)                                     \

@@ -9,7 +9,7 @@
 #include "mech/scene/scene.h"
 #include "normal/prove/decide.h"
 
-/* Whether the body's position and rotation hold every coordinate of the place. */
+/* Whether the body's position and rotation contain every coordinate of the point. */
 static bool
 knows_all(qdot_scene *s, const qdot_body *b, qdot_expr place)
 {
@@ -24,7 +24,7 @@ knows_all(qdot_scene *s, const qdot_body *b, qdot_expr place)
     return true;
 }
 
-/* dP/dt == v(P), component by component: proved, refuted by one of them, or undecided. */
+/* Decide dP/dt == v(P) component by component: proved, refuted by one of them, or undecided. */
 static qdot_status
 fixed_in(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_verdict *verdict)
 {

@@ -34,7 +34,7 @@ qdot_scene_print_domain(const qdot_scene *s, qdot_expr symbol, qdot_text *out)
     return QDOT_OK;
 }
 
-/* " mass M at R" */
+/* Print an option with its value, such as " mass M" or " at R". */
 static qdot_status
 put_option(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out)
 {

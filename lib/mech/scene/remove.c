@@ -30,14 +30,14 @@ is_end(const qdot_link *link, const char *label)
     return qdot_label_is(link->end[0], label) || qdot_label_is(link->end[1], label);
 }
 
-/* Whether a torque acts on the body of that number (-1: none). */
+/* Whether a torque acts on the body with that index (-1: none). */
 static bool
 is_on(const qdot_torque *torque, int body)
 {
     return body >= 0 && torque->coordinate == QDOT_NIL && torque->body == body;
 }
 
-/* Keep the members for which `gone` is false. */
+/* Keep the items of a list for which `gone` is false. */
 #define FILTER(list, item, gone)                                                         \
     do {                                                                                 \
         size_t kept_ = 0;                                                                \
@@ -52,7 +52,7 @@ is_on(const qdot_torque *torque, int body)
         (list).n = kept_;                                                                \
     } while (0)
 
-/* Name, for the notice, the members for which `goes`: "spring s1", "a spring". */
+/* Record, for a notice, the items of a list for which `goes` is true: "spring s1", "a spring". */
 #define DROP(list, what, item, goes)                                                     \
     do {                                                                                 \
         for (size_t i_ = 0; i_ < (list).n; i_++) {                                       \
@@ -63,7 +63,7 @@ is_on(const qdot_torque *torque, int body)
         }                                                                                \
     } while (0)
 
-/* Name what acts on the thing to be removed; called before anything is removed. */
+/* Record what acts on the thing to be removed; called before anything is removed. */
 static qdot_status
 name_dependents(qdot_scene *s, const char *label, int body)
 {

@@ -15,7 +15,8 @@ typedef struct {
     uint64_t version;
 } qdot_scene_saved;
 
-/* Save, {0} before; put back, which also frees the copy. Where nothing was saved nothing is done. */
+/* Save the declarations, into {0}; restore them, which also frees the copy. Restoring without a
+ * copy does nothing. */
 QDOT_MUST_CHECK qdot_status qdot_scene_save(qdot_scene *s, qdot_scene_saved *saved);
 void qdot_scene_restore(qdot_scene *s, qdot_scene_saved *saved);
 

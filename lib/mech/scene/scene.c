@@ -1,4 +1,4 @@
-/* scene.c -- declarations: each function checks its arguments, then adds the item. */
+/* scene.c -- declarations: each function checks its arguments, then adds an item. */
 
 #include "mech/scene/scene.h"
 
@@ -103,7 +103,7 @@ need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return QDOT_OK;
 }
 
-/* Friction by multipliers: a word of the language that comes later. */
+/* Friction that depends on multipliers: not built yet. */
 static qdot_status
 need_known_friction(qdot_scene *s, qdot_expr e, const char *what)
 {
@@ -123,7 +123,7 @@ need_scalar(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return need_free_of(s, e, what, forbidden);
 }
 
-/* The dimension of the scene is another; a hint where gravity alone made it so. */
+/* Fail because the dimension differs from the scene's; with a hint if gravity alone determined that. */
 static qdot_status
 tell_dimension(qdot_scene *s, const char *what, uint32_t n, uint32_t space)
 {
@@ -140,7 +140,7 @@ tell_dimension(qdot_scene *s, const char *what, uint32_t n, uint32_t space)
     return status;
 }
 
-/* A position, field or force: of the scene's dimension, which is what is declared first. */
+/* Check a position, field or force: its dimension must be the scene's, which the first declaration sets. */
 static qdot_status
 need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 {
@@ -257,7 +257,7 @@ need_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
     }
 }
 
-/* The field without label; NULL: there is none. */
+/* The gravity field without label; NULL if there is none. */
 static qdot_term *
 plain_gravity(const qdot_scene *s)
 {
@@ -310,7 +310,7 @@ qdot_scene_dissipation(qdot_scene *s, qdot_expr D)
     return qdot_scene_term(s, QDOT_DISSIPATION, NULL, D);
 }
 
-/* A spring or damper: checked, copied and appended to its list. */
+/* Check a spring or damper, and append a copy of it to its list. */
 static qdot_status
 add_link(qdot_scene *s, const qdot_link *link, bool damper)
 {

@@ -40,20 +40,20 @@ QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
 QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
-/* An error if the scene states its Lagrangian: `what` beside it would not count. */
+/* Fail if the scene states its Lagrangian, because `what` would then have no effect. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what);
 /* f = left - right; scalars, or VECs of equal size (one constraint a component: "pin, 1").
  * Components proved to hold identically are left out and named in s->dropped. Without label the
  * constraint is called by its number. QDOT_EINVAL: no coordinate in it, or a third derivative. */
 QDOT_MUST_CHECK qdot_status qdot_scene_constraint(qdot_scene *s, const char *label,
                                                   qdot_expr left, qdot_expr right);
-/* f, df/dt, d2f/dt2 (as many as the kind asks) of constraint i, for `when LABEL` and checks. */
+/* f, df/dt or d2f/dt2 of constraint i (as far as its kind allows), for `when LABEL` and checks. */
 qdot_expr qdot_mech_constraint_derivative(qdot_scene *s, size_t i, unsigned order);
 /* An event; everything is copied. QDOT_EINVAL: it holds neither coordinate nor time, or what a run
  * does not know; a target twice. */
 QDOT_MUST_CHECK qdot_status qdot_scene_event(qdot_scene *s, const qdot_event *event);
 const qdot_event *qdot_scene_find_event(const qdot_scene *s, const char *label);
-/* The first event that ends a run or sets something, not only recorded; NULL: none. */
+/* The first event that ends a run or changes something; NULL if events are only recorded. */
 const qdot_event *qdot_scene_acting_event(const qdot_scene *s);
 /* Add an equation or inequality that proofs may use; turned: a < b was written b > a. QDOT_ETYPE:
  * it is neither; QDOT_EINVAL: it can never hold. */
@@ -61,14 +61,14 @@ QDOT_MUST_CHECK qdot_status qdot_scene_assume(qdot_scene *s, qdot_expr relation,
 /* Take the thing of that label out again. What was declared to act on a removed particle or body
  * goes with it, named in s->dropped. */
 QDOT_MUST_CHECK qdot_status qdot_scene_remove(qdot_scene *s, const char *label);
-/* How many of a kind there are, with and without label; the k-th, from 0, taken out. */
+/* The number of items of a kind, with and without label; remove item k, counted from 0. */
 size_t qdot_scene_count(const qdot_scene *s, qdot_scene_kind kind);
 QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k);
 /* Whether the latest of a kind equals an earlier one, both without label. QDOT_FORCE: on a
  * particle, a body or at a place; QDOT_TORQUE: also those declared with `force`. */
 bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
 
-/* The scene is another one than before: `version` becomes a number that none of its states has had. */
+/* Mark the scene as changed: `version` becomes a number that it has never had. */
 void qdot_scene_changed(qdot_scene *s);
 
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
@@ -86,22 +86,22 @@ qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot
 
 /* Replace a symbol by another expression in all declarations but events. */
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
-/* Whether a symbol stands in any of them. */
+/* Whether a symbol occurs in any expression of the scene. */
 bool qdot_scene_contains(qdot_scene *s, qdot_expr symbol);
-/* Replace every expression e of them by f(e); nil: the pool keeps the failure. */
+/* Replace every expression e of the scene by f(e); if that is nil the pool keeps the failure. */
 QDOT_MUST_CHECK qdot_status qdot_scene_map(qdot_scene *s,
                                            qdot_expr (*f)(qdot_expr e, void *user), void *user);
 /* Declare all that s declares in `to`, except coordinates, constraints, assumptions and events.
  */
 QDOT_MUST_CHECK qdot_status qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to);
 
-/* Find a thing by its label; NULL if there is none. */
+/* Find a particle or body by its label, NULL if there is none; whether anything has the label. */
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
 const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
 bool qdot_scene_has_label(const qdot_scene *s, const char *label);
-/* QDOT_ENAME where it has; label NULL: none is wanted. */
+/* QDOT_ENAME if the scene has this label already; NULL, no label, is always allowed. */
 QDOT_MUST_CHECK qdot_status qdot_scene_need_new_label(const qdot_scene *s, const char *label);
-/* Position of a particle or body; nil and QDOT_ENAME if there is none. */
+/* The position of a particle or body; nil and QDOT_ENAME if there is none. */
 qdot_expr qdot_scene_position(const qdot_scene *s, const char *label);
 /* point(body, P): position of the body-fixed P; for a particle P must be absent. spin(body):
  * scalar in the plane, VEC in inertial axes in space. velocity(body, P): of its material at the
@@ -116,11 +116,11 @@ qdot_expr qdot_scene_velocity(qdot_scene *s, const char *body, qdot_expr place);
 QDOT_MUST_CHECK qdot_status qdot_scene_moves_within(qdot_scene *s, qdot_expr place,
                                                     const char *body, qdot_text *out);
 
-/* `scene` printed: every declaration as a statement that parses back, a line each (plain style). */
+/* Print every declaration as a statement that parses back, one per line (plain style). */
 QDOT_MUST_CHECK qdot_status qdot_scene_print(const qdot_scene *s, qdot_text *out);
 /* Print all declarations except the coordinates. */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_things(const qdot_scene *s, qdot_text *out);
-/* A symbol with its domain, "0 < theta < pi". */
+/* Print a symbol with its domain, "0 < theta < pi". */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_domain(const qdot_scene *s, qdot_expr x,
                                                     qdot_text *out);
 /* The line of the k-th of a kind, from 0. */

@@ -72,7 +72,7 @@ typedef struct {
     qdot_expr unused;
 } qdot_constraint;
 
-/* An event of a run: left = right. It is no part of the mechanics. */
+/* An event of a run, where left = right. It does not affect the mechanics. */
 typedef struct {
     char *name;
     qdot_expr left, right;
@@ -83,7 +83,7 @@ typedef struct {
                                             once */
 } qdot_event;
 
-/* A statement `assume`, as it was written. */
+/* A statement `assume`, as it was typed. */
 typedef struct {
     qdot_expr relation;
     bool turned; /* written as b > a for the relation a < b */
@@ -121,7 +121,7 @@ typedef struct {
     void (*kept_free)(void *kept);
 } qdot_scene;
 
-/* Kinds of declarations that need no label, in the order of `scene`. */
+/* Kinds of declarations that need no label, in the order of the statement `scene`. */
 typedef enum {
     QDOT_GRAVITY,
     QDOT_POTENTIAL,

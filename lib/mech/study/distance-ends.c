@@ -1,4 +1,4 @@
-/* distance-ends.c -- between which points of bodies a constraint keeps the distance. */
+/* distance-ends.c -- finds the points of bodies between which a constraint keeps the distance. */
 #include "mech/study/distance-ends.h"
 
 #include "expr/build.h"
@@ -47,7 +47,7 @@ is_power(const qdot_pool *pool, qdot_expr e, qdot_expr exponent, qdot_expr *base
     return true;
 }
 
-/* Whether D is a sum of as many squares as the space has dimensions, all with one factor. */
+/* Whether D is a sum of as many squares as space has dimensions, all with the same factor. */
 static bool
 find_squares(search *w, qdot_expr D)
 {
@@ -84,7 +84,7 @@ expressions_have(const expressions *list, qdot_expr e)
     return false;
 }
 
-/* The coordinates of a thing: a body's centre and axes, a particle's place. */
+/* The coordinates on which a thing depends: a body's centre and axes, or a particle's position. */
 static qdot_status
 coordinates_of(const qdot_scene *s, qdot_expr r, qdot_expr R, expressions *list)
 {
@@ -114,7 +114,7 @@ is_fixed_in(search *w, const qdot_body *b, qdot_expr P)
     return own != QDOT_NIL && !holds_coordinates(pool, own);
 }
 
-/* Where the other end is sought: in a body, at a particle, in space. */
+/* Where the second end of a rod is sought: in a body, at a particle, or fixed in space. */
 typedef struct {
     const qdot_body *body;
     const qdot_particle *particle;
@@ -132,7 +132,7 @@ is_there(search *w, const place *where, qdot_expr Q)
                : !holds_coordinates(pool, Q);
 }
 
-/* Try P in body b and Q at a place, of which the coordinates are `own` and `other`. */
+/* Try P in body b and Q at a place; their coordinates are `own` and `other`. */
 static qdot_status
 try_place(search *w, const qdot_body *b, const expressions *own, const place *where,
           qdot_expr ends[2])
@@ -167,7 +167,7 @@ try_place(search *w, const qdot_body *b, const expressions *own, const place *wh
     return status;
 }
 
-/* P in body i, Q anywhere else: of this order and sign of u. */
+/* Try P in body i and Q anywhere else, for this order and sign of u. */
 static qdot_status
 try_body(search *w, size_t i, qdot_expr ends[2])
 {

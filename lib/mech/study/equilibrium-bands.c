@@ -1,4 +1,4 @@
-/* equilibrium-bands.c -- where relations in one coordinate hold: intervals between their zeros. */
+/* equilibrium-bands.c -- the intervals of one coordinate in which relations hold, between their zeros. */
 #include "mech/study/equilibrium-bands.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@
 
 enum { MOST_RELATIONS = 30, MOST_POINTS = 64, BUDGET = 20000 };
 
-/* A zero of some of the g: exact, or nil where it is known in numbers alone. */
+/* A zero of some of the functions g: exact, or nil if it is known only numerically. */
 typedef struct {
     qdot_expr exact;
     double at;
@@ -60,7 +60,7 @@ depends_on_u_alone(const line *l, qdot_expr e)
 
 /* --- zeros ------------------------------------------------------------------------------ */
 
-/* Add a zero of the relations `which`; false: it cannot be told from another one. */
+/* Add a zero of the relations `which`; false if it cannot be told from another zero. */
 static bool
 line_add_point(line *l, qdot_expr exact, double at, uint32_t which)
 {
@@ -93,7 +93,7 @@ add_exact(line *l, qdot_expr value, uint32_t which)
            qdot_ball_double(l->pool, value, NULL, NULL, &at) && line_add_point(l, value, at, which);
 }
 
-/* The zeros of g by formulas: *all where these are proved to be all. */
+/* Add the zeros of g by formulas; *all: they are proved to be all. */
 static qdot_status
 exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 {
@@ -110,7 +110,7 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
                root->members == QDOT_NIL && root->value != l->u &&
                add_exact(l, root->value, which);
     }
-    /* of an equation with a period one turn alone is listed */
+    /* of a periodic equation only one turn is listed */
     if (*all && !l->turn && found.root.n > 0 && (u->lo == QDOT_NIL || u->hi == QDOT_NIL))
         *all = !qdot_is_angle(l->pool, g, l->u, l->facts);
     qdot_solutions_clear(&found);
@@ -203,7 +203,7 @@ poles_of(line *l, qdot_expr g, bool *known)
 
 /* --- where they hold -------------------------------------------------------------------- */
 
-/* Whether all relations hold at u = value; those of the bits `zero` are 0 there. */
+/* Whether all relations hold at u = value; those with bits in `zero` vanish there. */
 static qdot_status
 hold_at(const line *l, qdot_expr value, uint32_t zero, answer *out)
 {
@@ -250,7 +250,7 @@ point_value(const line *l, size_t k, bool turn)
                                 : qdot_generic_decimal(l->pool, p->at + (turn ? 2 * M_PI : 0));
 }
 
-/* A number between the k-th point and the one before it: beyond the ends too, or around the circle. */
+/* A number between point k and the one before it; also beyond the ends, or around the circle. */
 static qdot_expr
 number_between(const line *l, size_t k)
 {
@@ -290,7 +290,7 @@ bands_collect(const line *l, const bool *holds, qdot_bands *out)
         to = k;
         band.lo_open = from % 2 == 0;
         band.hi_open = to % 2 == 0;
-        /* the points around a gap are the pieces beside it */
+        /* the pieces beside a gap are its end points */
         if (!band.lo_open || from > 0 || l->turn) {
             size_t piece = band.lo_open ? from - 1 : from, p = piece % pieces / 2;
 
@@ -361,7 +361,7 @@ by_zeros(line *l, qdot_bands *out, bool *found)
 
 /* --- linear relations, with parameters -------------------------------------------------- */
 
-/* The condition that one number is below another; *out FALSE where it never is. */
+/* Add the condition lo < hi; *out FALSE if it never holds. */
 static qdot_status
 also_below(line *l, qdot_expr lo, qdot_expr hi, qdot_expr *out)
 {

@@ -14,7 +14,7 @@
 #include "mech/study/rest.h"
 #include "normal/field/facts.h"
 
-/* One interval lo <= u <= hi; nil: no end. */
+/* An interval lo <= u <= hi; nil: no end. */
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;

@@ -191,7 +191,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
     return status;
 }
 
-/* Whether u, as a function of the coordinates, has kinks of its own. */
+/* Whether u itself, as a function of the coordinates, has kinks. */
 static bool
 has_kinks(const qdot_rest *r, qdot_expr u)
 {
@@ -234,7 +234,8 @@ jumps_add(const qdot_rest *r, qdot_expr forces, const qdot_expr u[2], qdot_expr 
     return true;
 }
 
-/* Whether u and v are 0 at one place of a coordinate, whatever the parameters are, and their jumps do not simply add. */
+/* Whether u and v vanish at the same value of a coordinate for all parameters, and their jumps do
+ * not simply add. */
 static qdot_status
 kinks_coincide(const qdot_rest *r, qdot_expr forces, qdot_expr u, qdot_expr v, bool *yes)
 {

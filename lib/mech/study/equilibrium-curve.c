@@ -1,4 +1,4 @@
-/* equilibrium-curve.c -- equations at rest and motion about it, one parameter left free. */
+/* equilibrium-curve.c -- the equations of rest, and the motion near rest, with one free parameter. */
 #include "mech/study/equilibrium-curve.h"
 
 #include <math.h>
@@ -67,7 +67,8 @@ check_influence(const qdot_equilibrium_curve *c)
 
 /* --- the equations ------------------------------------------------------------------------- */
 
-/* An end of the domain of a symbol; without one *v stays. *moving: the end, where it depends on the parameter. */
+/* An end of the domain of a symbol; *v is unchanged if there is none. *moving: the end, if it
+ * depends on the parameter. */
 static qdot_status
 curve_domain_end(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, double *v, qdot_expr *moving)
 {
@@ -150,7 +151,7 @@ qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool up
                : NAN;
 }
 
-/* e at rest; coordinates that occur in no equation at rest are put to 0. */
+/* e at rest; coordinates absent from the equations of rest are set to 0. */
 static qdot_expr
 at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
 {
@@ -170,7 +171,7 @@ at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
     return e;
 }
 
-/* K, Gamma, M of the slopes that stability is judged by. */
+/* Fill K, Gamma, M with the derivatives from which stability is judged. */
 static qdot_status
 fill_motion(qdot_equilibrium_curve *c)
 {
@@ -238,7 +239,7 @@ qdot_equilibrium_curve_end(qdot_equilibrium_curve *c)
 
 /* --- places ------------------------------------------------------------------------------- */
 
-/* Binds all, the parameter too. */
+/* Replaces all parameters by values, including the free one. */
 typedef struct {
     qdot_equilibrium_curve *c;
     qdot_expr value;
@@ -253,7 +254,7 @@ bind_all(void *user, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_subs(v->c->pool, e, 1, &v->c->parameter, &v->value);
 }
 
-/* The value of the i-th unknown; NaN where it is left free, or has no value at this p. */
+/* The value of unknown i; NaN if it is left free or undefined at this p. */
 static qdot_status
 unknown_number(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
                double *y)

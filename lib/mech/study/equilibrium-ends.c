@@ -16,10 +16,10 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
-/* A condition with more operations or more factors than this is not examined. */
+/* A condition with more operations or factors than this is not examined. */
 enum { LONGEST = 40, MOST_FACTORS = 4 };
 
-/* The place r->found.at[place] at p = value, where both sides of one of its conditions are equal. */
+/* The equilibrium r->found.at[place] at p = value, where both sides of one of its conditions are equal. */
 typedef struct {
     qdot_rest *r;
     size_t place;
@@ -61,7 +61,7 @@ are_zero(const end *e, qdot_expr list)
     return all;
 }
 
-/* Whether every part of a LIST has a value at these values and that of the parameter: also of a*log(x) at a = 0. */
+/* Whether all subexpressions of a LIST are defined at these values, also those like a*log(x) at a = 0. */
 static bool
 has_value(const end *e, qdot_expr list, qdot_expr values)
 {
@@ -99,7 +99,7 @@ are_inside(const end *e, qdot_expr values)
     return inside;
 }
 
-/* Whether another place, where it is proved to exist, has these values. */
+/* Whether another equilibrium that is proved to exist has these values. */
 static bool
 is_listed(const end *e, qdot_expr values)
 {
@@ -238,7 +238,7 @@ exists_at_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, bool *yes, q
     return qdot_pool_check(pool);
 }
 
-/* The list with a <= b in place of the i-th relation a < b. */
+/* The list with relation i, a < b, replaced by a <= b. */
 static qdot_expr
 weakened(qdot_pool *pool, qdot_expr list, uint32_t i)
 {
@@ -255,7 +255,7 @@ weakened(qdot_pool *pool, qdot_expr list, uint32_t i)
     return all;
 }
 
-/* Append the members of `more` that the LIST does not have. */
+/* Append those members of `more` that are not in the LIST. */
 static void
 append_new(qdot_pool *pool, qdot_expr *list, qdot_expr more)
 {
@@ -318,7 +318,7 @@ qdot_rest_ends(qdot_rest *r, qdot_expr *special)
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
-/* Whether the place at which kinks meet where `gap` is 0 is listed there. */
+/* Whether the equilibrium at which kinks meet, where `gap` = 0, is listed. */
 static qdot_status
 meeting_is_listed(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *yes)
 {

@@ -75,7 +75,7 @@ holds_multiplier(const qdot_rest *r, qdot_expr e)
     return false;
 }
 
-/* The equations that follow of e at t = `time`, appended; QDOT_EDOMAIN where they have no value. */
+/* Append the equations that e implies at t = `time`; QDOT_EDOMAIN if undefined. */
 static qdot_status
 at_time(qdot_rest *r, qdot_expr e, qdot_expr time, qdot_expr *list)
 {

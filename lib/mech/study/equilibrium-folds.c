@@ -9,7 +9,7 @@
 
 enum { MOST = 3, MOST_WALLS = 12 }; /* unknowns beside p */
 
-/* budgets[n]: the work that a search for n unknowns and p may take. */
+/* budgets[n]: the work allowed for a search in n unknowns and p. */
 static const uint64_t budgets[MOST + 1] = {0, 30000, 40000, 40000};
 
 static qdot_expr
@@ -23,7 +23,7 @@ slopes_determinant(const qdot_equilibrium_curve *c)
     return qdot_cramer_determinant(c->pool, (uint32_t)c->n, A);
 }
 
-/* A finite end as an expression; nil: there is none. */
+/* A finite end as an expression; nil for an infinite one. */
 static qdot_expr
 fold_range_end(qdot_pool *pool, double end)
 {

@@ -41,7 +41,7 @@ holds_coordinate(const qdot_rest *r, qdot_expr e)
 
 /* --- jumps as signs --------------------------------------------------------------------------- */
 
-/* u of a condition u > 0 or u >= 0; nil: it is another. */
+/* u of a condition u > 0 or u >= 0; nil for other conditions. */
 static qdot_expr
 condition_gap(qdot_pool *pool, qdot_expr condition)
 {
@@ -52,7 +52,7 @@ condition_gap(qdot_pool *pool, qdot_expr condition)
                     qdot_expr_arg(pool, condition, 0));
 }
 
-/* A symbol for a sign: where its argument is 0, the sign may have any value, not 0 alone. */
+/* Replace a sign by a symbol: where its argument is 0, friction may give it any value in -1 ... 1. */
 static qdot_expr
 sign_as_symbol(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -64,7 +64,7 @@ sign_as_symbol(qdot_pool *pool, qdot_expr e, void *user)
     return qdot_symbol_get(pool, QDOT_FORMAL, name);
 }
 
-/* Whether e is proved to vanish wherever u does, its signs having any value there. */
+/* Whether e is proved to vanish wherever u does, for any values of its signs there. */
 static qdot_status
 vanishes_with(const qdot_rest *r, qdot_expr e, qdot_expr u, bool *yes)
 {
@@ -120,7 +120,7 @@ qdot_rest_jumps(const qdot_rest *r, qdot_expr equations, qdot_expr u, bool *yes)
     return QDOT_OK;
 }
 
-/* Whether the energy is continuous where u = 0: what an if(...) by u chooses in it agrees there. */
+/* Whether the energy is continuous at u = 0: the branches of each if(...) that depends on u agree there. */
 static qdot_status
 is_continuous(const qdot_rest *r, qdot_expr u, bool *yes)
 {
@@ -201,7 +201,7 @@ ratio_is_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     return qdot_decide_less(pool, QDOT_ZERO, e, true, facts, &d) == QDOT_OK && d.verdict == QDOT_PROVED;
 }
 
-/* The sign of u / v, where v > 0 (up) or v < 0, |v| and sign v put in; 0: it is not known. */
+/* The sign of u / v for v > 0 (up) or v < 0, with |v| and sign v inserted; 0 if unknown. */
 static int
 sign_beside(qdot_pool *pool, qdot_expr u, qdot_expr v, bool up, const qdot_facts *facts)
 {
@@ -288,7 +288,7 @@ product_of_signs(qdot_pool *pool, qdot_expr e, void *user)
     return product;
 }
 
-/* if(u > 0, A, B) by the sign of u, where that holds velocities and is 0 at rest. */
+/* Write if(u > 0, A, B) by the sign of u, if u contains velocities and is 0 at rest. */
 static qdot_expr
 slip_by_sign(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -368,7 +368,7 @@ is_kept_off(const qdot_rest *r, qdot_expr b)
     return false;
 }
 
-/* Whether b, not proved to be other than 0, may have a least value 0: no sample of it is negative. */
+/* Whether b may have the minimum 0: it is not proved non-zero, and no sample is negative. */
 static qdot_status
 may_touch_zero(const qdot_rest *r, qdot_expr b, bool *yes)
 {
@@ -384,7 +384,7 @@ may_touch_zero(const qdot_rest *r, qdot_expr b, bool *yes)
     return QDOT_OK;
 }
 
-/* Whether the forces, which hold powers of b as of s^2, are proved to point away from b = 0 or grow without bound. */
+/* Whether forces that contain powers of b = s^2 are proved to point away from b = 0, or to diverge there. */
 static bool
 points_away(const qdot_rest *r, qdot_expr b)
 {
@@ -458,7 +458,7 @@ steps_over(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above,
     return vanishes_with(r, step, u, yes);
 }
 
-/* Append u of the relations in a condition, which changes only where one of them is 0. */
+/* Append u of the relations in a condition; the condition changes only where one of them is 0. */
 static qdot_expr
 with_gaps(qdot_pool *pool, qdot_expr condition, qdot_expr list)
 {
@@ -472,7 +472,8 @@ with_gaps(qdot_pool *pool, qdot_expr condition, qdot_expr list)
     return list;
 }
 
-/* Whether the energy is continuous although the function `node` jumps; else to *zeros, what is 0 where it does. */
+/* Whether the energy is continuous although the function `node` jumps; if not, append to *zeros
+ * what vanishes at the jump. */
 static qdot_status
 jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
 {
@@ -522,7 +523,7 @@ never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
            qdot_condition(r->pool, qdot_neg(r->pool, u), true, facts) == QDOT_TRUE;
 }
 
-/* *yes: one of the `zeros` is 0 at an equilibrium; *may: one may be, that is not known. */
+/* *yes: one of the `zeros` vanishes at an equilibrium; *may: one may vanish, which is unknown. */
 static qdot_status
 lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
 {

@@ -1,4 +1,4 @@
-/* equilibrium-members.c -- solutions of the equations at rest as places. */
+/* equilibrium-members.c -- turns solutions of the equations of rest into equilibria. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/node.h"
@@ -14,7 +14,8 @@
 
 enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 }; /* places; operations of a set of conditions with roots */
 
-/* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike. */
+/* Whether a shift of u leaves the equations of motion unchanged, so that all members of a family
+ * are equivalent. */
 bool
 qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period)
 {
@@ -100,7 +101,7 @@ narrowed(const qdot_rest *r, qdot_expr conditions)
     return QDOT_NIL;
 }
 
-/* The values and conditions of a solution, where its conditions leave one value of a coordinate alone, with that value. */
+/* If the conditions of a solution allow only one value of a coordinate, insert that value. */
 static qdot_status
 narrow(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
 {
@@ -122,7 +123,7 @@ narrow(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
     return qdot_pool_check(pool);
 }
 
-/* The set without the conditions with roots that hold where the others do: these say where the roots are defined. */
+/* The set without conditions with roots that follow from the others, which tell where the roots are defined. */
 static qdot_expr
 without_implied_roots(const qdot_rest *r, qdot_expr set)
 {

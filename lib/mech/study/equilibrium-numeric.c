@@ -20,7 +20,7 @@
 
 enum { STARTS = 240, STEPS = 60, MOST = QDOT_PLACES_MOST, NEWTON = 6 };
 
-/* The half widths of the boxes from which starts are drawn, one after another. */
+/* Half widths of the boxes from which starts are drawn, used cyclically. */
 static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
 enum { RANGES = sizeof ranges / sizeof *ranges };
 
@@ -114,7 +114,8 @@ problem_end(problem *p)
     gsl_permutation_free(p->order);
 }
 
-/* The residuals at x, with the slopes if wanted: their largest, INFINITY where one has no value. */
+/* Evaluate the residuals at x, and the derivatives if wanted; *most is the largest, INFINITY if one
+ * is undefined. */
 static qdot_status
 residuals_evaluate(problem *p, const double *x, bool slopes, double *most)
 {
@@ -147,7 +148,7 @@ residual_square(const problem *p)
 
 /* --- steps -------------------------------------------------------------------------------- */
 
-/* step = -(J^T J + by)^-1 J^T r over the unknowns from `first` on; false where that fails. */
+/* step = -(J^T J + by)^-1 J^T r for the unknowns from `first` on; false on failure. */
 static bool
 damped_step(problem *p, size_t first, double by)
 {
@@ -198,7 +199,7 @@ static void
 begin_at(problem *p, uint64_t start)
 {
     for (size_t i = 0; i < p->n; i++) {
-        /* of two seeds: what a name says and what the start says do not go together */
+        /* use two seeds, so that the start is independent of the seed derived from the name */
         double v = qdot_generic_value(p->pool, p->u[i], start),
                range = p->angle[i] ? M_PI : ranges[start % RANGES];
 
@@ -214,7 +215,7 @@ begin_at(problem *p, uint64_t start)
 
 typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the equations hold, their slopes are singular */
 
-/* Whether what is left of the equations is rounding, beside what their slopes make of x. */
+/* Whether the residual is rounding error, compared to its derivatives times x. */
 static bool
 residual_is_rounding(const problem *p, double most)
 {
@@ -289,7 +290,7 @@ equilibrium_descend(problem *p, end *how)
 
 /* --- what was found --------------------------------------------------------------------- */
 
-/* Angles turned into -pi < q <= pi; whether x lies within the domains. */
+/* Reduce angles to -pi < q <= pi; whether x lies within the domains. */
 static bool
 place_normalise(const problem *p, double *x)
 {

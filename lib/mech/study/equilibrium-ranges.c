@@ -1,4 +1,4 @@
-/* equilibrium-ranges.c -- a region of rests in one free coordinate, listed as intervals of it. */
+/* equilibrium-ranges.c -- lists a region of equilibria in one free coordinate as intervals. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "mech/scene/access.h"
@@ -7,7 +7,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
 
-/* The one coordinate in the conditions; nil: there is none, or several. */
+/* The only coordinate in the conditions; nil if there is none or several. */
 static qdot_expr
 free_coordinate(const qdot_rest *r, qdot_expr conditions)
 {
@@ -51,7 +51,7 @@ append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr e
     return qdot_vec_push(&r->found, one);
 }
 
-/* Append a region of one free coordinate as intervals; *done: that was possible. */
+/* Append a region with one free coordinate as intervals; *done: that was possible. */
 static qdot_status
 list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
 {

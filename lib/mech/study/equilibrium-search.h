@@ -51,11 +51,11 @@ QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
 /* In the n forces G a symbol in -1 ... 1 for each sign of a velocity, where it holds: to r->friction.
  * (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G);
-/* *u is 0 where the forces at rest jump by its sign; nil: none do so. (equilibrium-corners.c) */
+/* *u: an expression at whose zeros the forces at rest jump; nil: none. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corner(qdot_rest *r, qdot_expr *u);
-/* Whether forces jump at the place, a LIST of equations u = value. (equilibrium-corners.c) */
+/* Whether forces jump at the equilibrium, given as a LIST of equations u = value. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes);
-/* Branches to do for the places at which forces jump. (equilibrium-corners.c) */
+/* Add branches of the search for points at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
 
 /* Whether the only coordinate, at its value in `values`, a LIST, is proved to be held there with p = value put in: the
@@ -72,14 +72,14 @@ QDOT_MUST_CHECK qdot_status qdot_rest_jumps(const qdot_rest *r, qdot_expr equati
 /* Sets r->unresolved where there is the tip of a cone, sqrt(x^2 + y^2), at which forces have no value.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);
-/* A force whose jumps by velocities, if(x' > 0, ...), x'/|x'|, are written as signs. (equilibrium-kinks.c) */
+/* A force with its jumps in velocity, if(x' > 0, ...), x'/|x'|, written as signs. (equilibrium-kinks.c) */
 qdot_expr qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force);
 /* Remove places at which the energy jumps, as sign(x) does at 0: forces do not tell what it does to a body there. Where
  * that is not known of a place it is marked. *jump: a function by which the energy jumps, with r->unresolved; nil: none.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump);
 
-/* Equations without t that are equivalent to `equations` for all t. */
+/* Equations without t that are equivalent to `equations` holding for all t. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,
                                                    qdot_expr *list);
 
@@ -91,7 +91,7 @@ QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
  * too, and no other place is the same one there. Where that holds of some factors of b - a alone, these are added to
  * the LIST *special (nil: none). (equilibrium-ends.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r, qdot_expr *special);
-/* Behind that: a LIST of what is 0 where two kinks meet at a place that is not listed there; nil: none. */
+/* After that: a LIST of expressions that vanish where two kinks meet at an unlisted point; nil: none. */
 QDOT_MUST_CHECK qdot_status qdot_rest_meetings(qdot_rest *r, qdot_expr *left);
 
 /* A LIST of what the places [n] divide by that may be 0 at some values of parameters; nil: none.

@@ -61,7 +61,7 @@ append_gaps(const qdot_equilibrium_curve *c, qdot_expr relations, qdot_expr *lis
     return qdot_pool_check(pool);
 }
 
-/* The i-th unknown of a place, with values put in; nil: it has none that p alone determines. */
+/* The value of unknown i at an equilibrium, with parameter values; nil if p does not determine it. */
 static qdot_expr
 value_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
 {
@@ -77,7 +77,7 @@ value_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, size_t i)
     return QDOT_NIL;
 }
 
-/* Add an equilibrium; of a family with integers n, one member. */
+/* Add an equilibrium; for a family with integers n, one member. */
 static qdot_status
 member_add(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e)
 {
@@ -264,7 +264,7 @@ qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set)
 
 /* --- the set ---------------------------------------------------------------------------------- */
 
-/* All parameters but p get their values, which need not be generic ones. */
+/* Insert the values of all parameters except p; they need not be generic. */
 static qdot_status
 bind_rest(qdot_equilibrium_curve *c, qdot_rest *rest)
 {
@@ -294,7 +294,7 @@ add_walls_of_undefined(qdot_equilibrium_set *set, const qdot_rest *rest)
     return qdot_pool_check(pool);
 }
 
-/* The equilibria with p left free, to rest->found. */
+/* Find the equilibria with p as a free parameter, into rest->found. */
 static qdot_status
 find_members(qdot_equilibrium_set *set, qdot_equilibrium_curve *c, qdot_rest *rest)
 {
@@ -348,7 +348,7 @@ qdot_equilibrium_set_end(qdot_equilibrium_set *set)
     *set = (qdot_equilibrium_set){0};
 }
 
-/* Values of the members of a LIST at p. */
+/* The values of the members of a LIST at p. */
 static qdot_status
 list_evaluate(const qdot_equilibrium_curve *c, qdot_expr list, double p, double *value)
 {

@@ -28,13 +28,13 @@ typedef struct {
     double least, most;              /* of p */
     qdot_vec(qdot_equilibrium_member) member;
     qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
-    /* proved: at every p, but for single values, all equilibria are members, all walls are known */
+    /* proved: except for single values of p, all equilibria are members of the set, and all walls are known */
     bool complete;
     qdot_expr undefined;   /* a LIST of what is 0 where the energy or a force has no value, at single values in the range; or nil */
     bool families;         /* some equilibria belong to infinite families, of which one is a member of the set */
 } qdot_equilibrium_set;
 
-/* From {0}; ended in any case. Where nothing can be said the set is empty, and not complete. */
+/* Starts as {0}; call _end in any case. If nothing can be found the set is empty and incomplete. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_begin(qdot_equilibrium_set *set, qdot_equilibrium_curve *c,
                                                        double least, double most);
 void qdot_equilibrium_set_end(qdot_equilibrium_set *set);
@@ -42,16 +42,16 @@ void qdot_equilibrium_set_end(qdot_equilibrium_set *set);
 /* Walls where a curve of equilibria turns, as far as exclusion finds them: so that one that closes within the range is
  * met between two of them. (equilibrium-folds.c) */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_folds(qdot_equilibrium_set *set);
-/* Walls ascending, each once. */
+/* Sort the walls (special values of p), each once. */
 void qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set);
 
 /* Member k at y[n] = p: y [n + 1], NaN where there is no value; *exists: all conditions hold there, and it has
  * values. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_place(const qdot_equilibrium_set *set, size_t k, double *y,
                                                        bool *exists);
-/* Walls where the verdict on member k may change. Where they cannot all be found it becomes undecided. */
+/* Add walls at which the stability of member k may change. If not all can be found it becomes undecided. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_verdicts(qdot_equilibrium_set *set, size_t k);
-/* The verdict on member k at p. */
+/* The stability of member k at p. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_judge(qdot_equilibrium_set *set, size_t k, double p,
                                                        qdot_stability *verdict);
 

@@ -44,7 +44,7 @@ qdot_rest_is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *y
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* The divisors of a place that may be 0, to *special. */
+/* Append the divisors of an equilibrium that may vanish to *special. */
 static qdot_status
 add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
 {
@@ -88,7 +88,7 @@ qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places, 
 
 /* --- poles --------------------------------------------------------------------------------------- */
 
-/* Whether d is 0 at an open end of q's domain. */
+/* Whether d vanishes at an open end of q's domain. */
 static bool
 is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
 {
@@ -101,7 +101,7 @@ is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
     return false;
 }
 
-/* Whether the scene is regular where one group is replaced, or all, but for roots, which are smooth nowhere new. */
+/* Whether the scene becomes regular if one group of coordinates, or all, are replaced; roots do not count. */
 static qdot_status
 scene_is_regular(qdot_scene *s, const qdot_chart_groups *all, size_t g, bool *regular)
 {

@@ -1,4 +1,4 @@
-/* equilibrium.c -- all equilibria of a scene: exactly, where that cannot do in numbers; judged. */
+/* equilibrium.c -- all equilibria of a scene: exactly, otherwise numerically; with their stability. */
 #include "mech/study/equilibrium.h"
 
 #include <math.h>
@@ -57,7 +57,7 @@ begin_branch(qdot_rest *r, qdot_expr equations)
 
 /* --- for all times ------------------------------------------------------------------------- */
 
-/* Of the equations of an equilibrium those of coordinates, without multipliers. */
+/* The equations of an equilibrium for coordinates, without those for multipliers. */
 static qdot_expr
 places_alone(const qdot_rest *r, qdot_expr equations)
 {
@@ -109,7 +109,7 @@ keep_lasting(qdot_rest *r)
 
 /* --- numbers ---------------------------------------------------------------------------------- */
 
-/* The name of a symbol in e that is no unknown. */
+/* The name of a symbol in e that is no unknown and has no value. */
 static const char *
 unset(const qdot_rest *r, qdot_expr e)
 {
@@ -165,7 +165,7 @@ place_is_known(const qdot_rest *r, const double *x, qdot_expr angles, qdot_binde
     return false;
 }
 
-/* Whether the energy has a value at the place x [searched]. */
+/* Whether the energy is defined at the point x [searched]. */
 static qdot_status
 is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
 {
@@ -282,7 +282,8 @@ holds_integer(qdot_pool *pool, qdot_expr e)
     return qdot_solve_one_member(pool, e) != e;
 }
 
-/* Whether every coordinate that an integer counts has a period in the equations: then members are alike. */
+/* Whether the equations are periodic in every coordinate that contains an integer: then all members
+ * are equivalent. */
 static qdot_status
 is_alike(qdot_rest *r, const qdot_equilibrium *e, bool *yes)
 {
@@ -445,7 +446,8 @@ need_declared_angles(qdot_rest *r)
     return QDOT_OK;
 }
 
-/* Remove places outside the assumed domains of coordinates; where that depends on parameters, add the condition. */
+/* Remove equilibria outside the assumed domains of coordinates; if that depends on parameters add a
+ * condition. */
 static qdot_status
 keep_assumed(qdot_rest *r)
 {

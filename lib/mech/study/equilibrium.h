@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bin
 /* Find equilibria up to the first that is not unstable; all if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_first(qdot_scene *s, qdot_binder bind,
                                                    void *user, qdot_equilibria *out);
-/* The stability of the place one->equations, which exists where one->exists holds, to *one. */
+/* Judge the stability of one->equations, an equilibrium that exists where one->exists holds, into *one. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_judge(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibrium *one);
 void qdot_equilibria_clear(qdot_equilibria *e);
 

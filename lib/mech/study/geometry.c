@@ -47,7 +47,7 @@ is_diagonal(const geometry *m)
     return true;
 }
 
-/* det g and its inverse: n numbers where g is diagonal. */
+/* Compute det g and its inverse; if g is diagonal n entries suffice. */
 static void
 metric_invert(geometry *m)
 {
@@ -164,7 +164,7 @@ ricci(geometry *m, uint32_t j, uint32_t l)
     return geometry_tidy(m, sum);
 }
 
-/* An n x n MAT of f(m, prefix, row, column). */
+/* The n x n MAT of f(m, prefix, row, column). */
 static qdot_expr
 matrix_of(geometry *m, const uint32_t *prefix,
           qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t row, uint32_t column))
@@ -181,7 +181,7 @@ matrix_of(geometry *m, const uint32_t *prefix,
     return result;
 }
 
-/* A LIST of n members. */
+/* The LIST of n members f(m, prefix, i). */
 static qdot_expr
 list_of(geometry *m, const uint32_t *prefix,
         qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t i))
@@ -399,7 +399,7 @@ weighted_slope(const geometry *m, qdot_expr e, uint32_t i)
     return qdot_add(pool, qdot_diff(pool, e, m->q[i]), qdot_mul(pool, growth, e));
 }
 
-/* d_i h_j / h_j = d_i g_jj / (2 g_jj), without the root (its sign need not be known). */
+/* d_i h_j / h_j = d_i g_jj / (2 g_jj), without the root (whose sign need not be known). */
 static qdot_expr
 stretch(const geometry *m, uint32_t i, uint32_t j)
 {

@@ -20,7 +20,7 @@ qdot_expr qdot_geometry_christoffel(qdot_scene *s, qdot_expr R);
 /* R^i_jkl = d_k G^i_lj - d_l G^i_kj + G^i_km G^m_lj - G^i_lm G^m_kj: LIST over i of LISTs over j of
  * MATs in k, l. */
 qdot_expr qdot_geometry_riemann(qdot_scene *s, qdot_expr R);
-/* R_jl = R^i_jil: a MAT. */
+/* The Ricci tensor R_jl = R^i_jil as a MAT. */
 qdot_expr qdot_geometry_ricci(qdot_scene *s, qdot_expr R);
 /* g^jl R_jl; twice Gauss' curvature for a surface: 2/a^2 on a sphere. */
 qdot_expr qdot_geometry_scalar_curvature(qdot_scene *s, qdot_expr R);
@@ -28,11 +28,11 @@ qdot_expr qdot_geometry_scalar_curvature(qdot_scene *s, qdot_expr R);
 qdot_expr qdot_geometry_geodesic(qdot_scene *s, qdot_expr R);
 /* sqrt(det g). */
 qdot_expr qdot_geometry_volume_element(qdot_scene *s, qdot_expr R);
-/* h_i = sqrt(g_ii): a LIST. */
+/* The scale factors h_i = sqrt(g_ii) as a LIST. */
 qdot_expr qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R);
 
 /* In the frame e_i = (dr/dq_i)/h_i; g must be diagonal. */
-/* (1/h_i) df/dq_i: a VEC (a scalar for one coordinate). */
+/* The gradient (1/h_i) df/dq_i as a VEC (a scalar for one coordinate). */
 qdot_expr qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R);
 /* (1/w) d_i (w F_i/h_i), w = sqrt(det g). */
 qdot_expr qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R);

@@ -1,4 +1,4 @@
-/* hamilton.c -- replaces velocities by momenta, all of them or those of the cyclic coordinates. */
+/* hamilton.c -- replaces velocities by momenta: all of them, or those of the cyclic coordinates. */
 #include "mech/study/hamilton.h"
 
 #include "expr/build.h"
@@ -73,7 +73,7 @@ legendre_solve(legendre *l)
     return status == QDOT_OK;
 }
 
-/* 1/2 (p - b).A^-1 (p - b) over one block of A, as squares or solved for; which [m]. */
+/* Add 1/2 (p - b).A^-1 (p - b) for one block of A, as squares or by its inverse; which [m]: its rows. */
 static qdot_status
 legendre_add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
 {

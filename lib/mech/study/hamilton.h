@@ -16,10 +16,10 @@
 #include "mech/scene/things.h"
 
 qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
-/* Over the coordinates q [n], each once; n = 0: over the cyclic ones. */
+/* The Routhian for the coordinates q [n], without repetition; n = 0: for the cyclic ones. */
 qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
 
-/* e with every velocity as what it is in momenta; with every momentum as dL/dq'. */
+/* e with velocities expressed by momenta; e with momenta replaced by dL/dq'. */
 qdot_expr qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e);
 qdot_expr qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e);
 

@@ -1,4 +1,4 @@
-/* linear-motion.c -- the equations of motion about a place of rest, to first order. */
+/* linear-motion.c -- the equations of motion near an equilibrium, to first order. */
 #include "mech/study/linear-motion.h"
 
 #include "expr/build.h"
@@ -74,7 +74,7 @@ place_end(place *p)
     qdot_free(p->own);
 }
 
-/* e at the place; at a member of a family without the whole turns that its integer makes of circular functions. */
+/* e at the equilibrium; for a family without the full turns that its integer adds to circular functions. */
 static qdot_expr
 value_at(const place *p, qdot_expr e)
 {
@@ -114,14 +114,14 @@ qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
     return e;
 }
 
-/* Slopes of constraints in reduced row echelon form. */
+/* The gradients of constraints in reduced row echelon form. */
 typedef struct {
     size_t n, rank;
     qdot_expr *A;  /* [rank x n] */
     size_t *pivot; /* [rank] the column of each row's 1, in which the other rows are 0 */
 } echelon;
 
-/* row -= by other, both [n]. */
+/* row -= by times other, both [n]. */
 static qdot_status
 row_subtract(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_expr *other)
 {
@@ -132,7 +132,7 @@ row_subtract(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_
     return qdot_pool_check(pool);
 }
 
-/* Add the slopes of constraint k, unless they depend on those of the ones before. *pivot: its row was divided by it. */
+/* Add the gradient of constraint k unless it depends on the earlier ones. *pivot: the divisor of its row. */
 static qdot_status
 echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
 {
@@ -332,7 +332,7 @@ has_mass(const qdot_linear_motion *m, size_t a, qdot_pool *pool, const qdot_fact
     return false;
 }
 
-/* X [rows * n] without column a, and without row a if `square`, to `to`. */
+/* Copy X [rows * n] without column a, and without row a if `square`, to `to`; returns the next address. */
 static qdot_expr *
 copy_without(const qdot_expr *X, size_t rows, size_t n, size_t a, bool square, qdot_expr *to)
 {
@@ -343,7 +343,7 @@ copy_without(const qdot_expr *X, size_t rows, size_t n, size_t a, bool square, q
     return to;
 }
 
-/* y_a = -sum_b H_ab y_b / H_aa, put in; y_a is none of the unknowns then. */
+/* Eliminate y_a = -sum_b H_ab y_b / H_aa from the unknowns. */
 static qdot_status
 eliminate(qdot_scene *s, const qdot_facts *facts, size_t a, qdot_linear_motion *m)
 {

@@ -52,7 +52,7 @@ with_magnitudes(qdot_scene *s, qdot_expr *e)
     return status;
 }
 
-/* Whether e >= 0 is proved wherever it has a value. */
+/* Whether e >= 0 is proved wherever it is defined. */
 static qdot_status
 never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
 {
@@ -83,7 +83,7 @@ is_still(qdot_scene *s, bool *yes)
     return qdot_pool_check(s->pool);
 }
 
-/* Dampers and Rayleigh's function: *used where some are there, *yes where all take energy away. */
+/* Dampers and Rayleigh's function: *used if there are any, *yes if all dissipate energy. */
 static qdot_status
 damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 {
@@ -108,7 +108,7 @@ damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
     return QDOT_OK;
 }
 
-/* Forces and torques: *yes where those at rest have a potential and the rest takes energy away. */
+/* Forces and torques: *yes if at rest they have a potential and their remainder dissipates energy. */
 static qdot_status
 declared_forces_dissipate(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 {

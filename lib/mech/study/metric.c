@@ -121,7 +121,7 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     return list;
 }
 
-/* g_ij of a line element: half its second derivatives; proved to be all there is of it. */
+/* g_ij of a line element: half its second derivatives; checks that the line element contains nothing else. */
 static qdot_expr
 coefficients(qdot_scene *s, qdot_expr R, qdot_expr over, qdot_expr *g, uint32_t n)
 {

@@ -52,7 +52,7 @@ with_values(const job *j, qdot_expr e)
     return j->bind == NULL || e == QDOT_NIL ? e : j->bind(j->user, e);
 }
 
-/* A coordinate without mass has no oscillation of its own: it follows the others, by its springs. */
+/* Eliminate coordinates without mass: they follow the others statically. */
 static qdot_status
 put_massless(job *j)
 {
@@ -93,7 +93,7 @@ jumps_there(const job *j, qdot_expr e, qdot_expr place, bool *yes)
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* At a corner, between two springs that act on one side each, or under dry friction there is no linear motion. */
+/* Refuse points without linear motion: at a corner, between one-sided springs, or under dry friction. */
 static qdot_status
 check_smooth(const job *j, qdot_expr place)
 {
@@ -180,7 +180,7 @@ check_motion(job *j)
     return put_massless(j);
 }
 
-/* One mode: w, and x = N y with its first component that is not 0 made 1. */
+/* Add a mode: frequency w, and x = N y scaled so that its first non-zero component is 1. */
 static qdot_status
 add_mode(job *j, qdot_expr w, const qdot_expr *y)
 {
@@ -255,7 +255,7 @@ unstable(void)
                      "the equilibrium is not stable: there is no oscillation about it");
 }
 
-/* The modes of one root W = w^2: the null space of H - W M. */
+/* Add the modes for one root W = w^2: the null space of H - W M. */
 static qdot_status
 modes_of(job *j, qdot_expr W)
 {
@@ -299,7 +299,7 @@ modes_of(job *j, qdot_expr W)
     return status;
 }
 
-/* Whether a <= b: 1, -1 (a > b) by declared signs and assumptions; else 0. */
+/* *order: 1 if a <= b, -1 if a > b, by declared signs and assumptions; else 0. */
 static qdot_status
 frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
 {
@@ -321,7 +321,7 @@ frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
     return QDOT_OK;
 }
 
-/* The order of a and b at the values of the parameters; those without a value are put at a generic place. */
+/* The order of a and b at the parameter values; parameters without value get a generic one. */
 static int
 order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
 {
@@ -413,7 +413,7 @@ of_two(job *j, qdot_root *roots)
             roots[i].value = W[i];
 }
 
-/* *done: all n modes were found. */
+/* Find the modes exactly; *done: all n were found. */
 static qdot_status
 exact(job *j, bool *done)
 {
@@ -450,7 +450,7 @@ exact(job *j, bool *done)
 
 /* --- numbers ------------------------------------------------------------------------------ */
 
-/* Values of e [n], bound; QDOT_EUNSET names what has none. */
+/* The values of e [n] with parameter values; QDOT_EUNSET names a parameter without one. */
 static qdot_status
 values(const job *j, size_t n, const qdot_expr *e, double *out)
 {
@@ -487,7 +487,7 @@ values(const job *j, size_t n, const qdot_expr *e, double *out)
     return status;
 }
 
-/* x = N y, scaled so that the first component that is not small is 1. */
+/* Add a numerical mode: x = N y, scaled so that the first component that is not small is 1. */
 static qdot_status
 add_numeric(job *j, double w, const double *N, const gsl_matrix *Y, size_t k)
 {

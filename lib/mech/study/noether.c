@@ -1,4 +1,4 @@
-/* noether.c -- symmetries linear in q and t, and what they conserve. */
+/* noether.c -- symmetries linear in q and t, and the quantities that they conserve. */
 #include "mech/study/noether.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@
 
 enum { MOST_COORDINATES = 16 };
 
-/* An unknown of the ansatz. */
+/* An unknown coefficient of the ansatz for a symmetry. */
 typedef struct {
     enum { BOOST, ROTATION, TRANSLATION, TIME } kind;
     size_t i, j; /* xi_i has b t, c q_j, a */
@@ -58,7 +58,7 @@ noether_slope(const search *f, uint32_t order, size_t i, size_t j)
     return f->slope[(order * f->n + i) * f->n + j];
 }
 
-/* E_i of the change of L under one unknown: E_i(dL) = dE_i(xi) + sum_j dxi_j/dq_i E_j. */
+/* The Euler-Lagrange expression E_i of the change of L under one unknown: dE_i(xi) + sum_j dxi_j/dq_i E_j. */
 static qdot_expr
 variation(const search *f, const unknown *u, size_t i)
 {
@@ -80,7 +80,7 @@ variation(const search *f, const unknown *u, size_t i)
     return sum;
 }
 
-/* The component xi_j of the symmetry that one unknown stands for. */
+/* The component xi_j of the symmetry that belongs to one unknown. */
 static qdot_expr
 generator_component(const search *f, const unknown *u, size_t j)
 {
@@ -215,7 +215,7 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
     if (A != NULL && V != NULL && sigma != NULL && work != NULL)
         status = conditions_sample(f, e, columns, A->data, height);
     if (status == QDOT_OK) {
-        /* not Jacobi's way: GSL's takes columns for noise that many rotations have met */
+        /* not Jacobi's method: GSL's takes columns for noise after many rotations */
         gsl_linalg_SV_decomp(A, V, sigma, work);
         for (size_t j = 0; j < columns; j++) {
             double along = 0;
@@ -235,7 +235,7 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
 
 /* --- from a symmetry to its quantity ------------------------------------------------------ */
 
-/* sum_u v_u of(u). */
+/* The component xi_j of the symmetry with coefficients v [m]. */
 static qdot_expr
 combine_generators(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t j)
 {
@@ -273,7 +273,7 @@ gauge(const search *f, qdot_expr F, qdot_expr *K)
            qdot_is_zero(pool, qdot_sub(pool, qdot_ddt(pool, *K), F), &f->facts);
 }
 
-/* Whether nothing applied and no reaction works along (xi, tau): every such row of e. */
+/* Whether applied forces and reactions do no work along (xi, tau): each such row of e vanishes. */
 static bool
 works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
 {
@@ -289,7 +289,7 @@ works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
     return true;
 }
 
-/* The common denominator of the coefficients v, by which v is multiplied. */
+/* The common denominator of the coefficients v; v is multiplied by it. */
 static qdot_expr
 denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
 {
@@ -352,7 +352,7 @@ turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
             v[k] = qdot_neg(pool, v[k]);
 }
 
-/* tau h - sum, in the shorter of two forms: with h as the energy is printed, or expanded as a whole. */
+/* tau h - sum, in the shorter of two forms: with h as the energy is printed, or expanded. */
 static qdot_expr
 with_energy(const search *f, qdot_expr tau, qdot_expr sum)
 {
@@ -404,7 +404,7 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
     return qdot_mech_holds(f->s, sum) & motion ? sum : QDOT_NIL;
 }
 
-/* The quantity of v, or of v without denominators where that is shorter. */
+/* The conserved quantity for coefficients v, or for v without denominators if that is shorter. */
 static qdot_expr
 shortest_quantity(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
 {
@@ -419,7 +419,7 @@ shortest_quantity(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
     for (size_t k = 0; k < m; k++)
         v[k] = qdot_simplify(pool, qdot_mul(pool, v[k], by), NULL);
     other = quantity(f, f->unknowns.at, m, e, v);
-    /* of two as long that without fractions: 3*m1*x1' + 2*m2*x2' */
+    /* of equally long forms the one without fractions: 3*m1*x1' + 2*m2*x2' */
     return other != QDOT_NIL &&
                    qdot_expr_size(pool, other) <
                        qdot_expr_size(pool, one) + (qdot_expr_kind(pool, by) == QDOT_NUM)
@@ -482,7 +482,7 @@ euler_lagrange(search *f)
     return qdot_pool_check(pool);
 }
 
-/* Find every symmetry of the ansatz that numbers at random points have not excluded. */
+/* Find all symmetries of the ansatz that random numerical points have not excluded. */
 static qdot_status
 search_linear(search *f)
 {

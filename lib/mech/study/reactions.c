@@ -20,7 +20,7 @@ typedef struct {
     qdot_vec(qdot_reaction) list;
 } work;
 
-/* A particle, or a body where it is not NULL. */
+/* A particle, or a body if `body` is not NULL. */
 typedef struct {
     const char *name;
     qdot_expr position;
@@ -57,7 +57,7 @@ jacobian_column(const work *w, const thing *one, size_t j, qdot_expr out[6])
     return rows;
 }
 
-/* x = J (J^T J)^-1 R, J [rows x k] by columns; of a square J that is J^-T R. */
+/* x = J (J^T J)^-1 R, J [rows x k] stored by columns; for square J this is J^-T R. */
 static qdot_status
 reactions_solve(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, const qdot_expr *R,
                 qdot_expr *x)
@@ -87,7 +87,7 @@ reactions_solve(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, co
     return qdot_pool_check(pool);
 }
 
-/* Leave out of J [rows x k] the directions in which nothing moves; kept[] those that stay. */
+/* Remove rows of J [rows x k] in whose direction nothing moves; kept[]: those that remain. */
 static uint32_t
 moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
 {
@@ -107,7 +107,7 @@ moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
     return m;
 }
 
-/* The force on a thing, if its coordinates are its own. */
+/* Find the reaction force on a thing, if no other thing depends on its coordinates. */
 static qdot_status
 reaction(work *w, const thing *one)
 {

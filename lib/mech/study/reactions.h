@@ -33,7 +33,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_mech_reactions(qdot_scene *s, qdot_reaction **list,
                                                 size_t *n);
 
-/* The forces and torques of that list as a LIST. */
+/* The forces and torques of the reactions as a LIST. */
 qdot_expr qdot_mech_reaction_list(qdot_scene *s);
 
 #endif

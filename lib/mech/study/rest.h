@@ -41,7 +41,7 @@ typedef struct {
     const char *unset;    /* a parameter whose value a numerical search needs; NULL: none. The pool's */
 } qdot_equilibria;
 
-/* Values of parameters for numbers: e bound as far as they are known. */
+/* Replaces the parameters in e by their values, as far as they are known. */
 typedef qdot_expr (*qdot_binder)(void *user, qdot_expr e);
 
 #endif

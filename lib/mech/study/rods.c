@@ -1,4 +1,4 @@
-/* rods.c -- distances of a scene that never change: rods, and points fixed in bodies. */
+/* rods.c -- finds distances of a scene that are constant: rods, and points fixed in bodies. */
 #include "mech/study/rods.h"
 
 #include "expr/build.h"
@@ -43,7 +43,7 @@ distance2(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_dot(pool, d, d);
 }
 
-/* Whether r(q) keeps the distance, which is not 0. */
+/* Whether the distance between a and b is a non-zero constant, by r(q). */
 static bool
 keeps_distance(const search *w, qdot_expr a, qdot_expr b)
 {
@@ -78,7 +78,7 @@ has_rod(const search *w, qdot_expr a)
     return false;
 }
 
-/* The position that remains without the terms that hold coordinate i; nil: it is not in it. */
+/* The position r without the terms that contain coordinate i; nil if r does not contain it. */
 static qdot_expr
 hinge(qdot_scene *s, qdot_expr r, size_t i)
 {
@@ -112,7 +112,7 @@ origin(qdot_pool *pool, uint32_t dimension)
     return qdot_vector(pool, dimension, zero);
 }
 
-/* The particles first, then fixed places. */
+/* Collect the points: particles first, then fixed points. */
 static qdot_status
 find_points(search *w, uint32_t dimension)
 {
@@ -147,7 +147,7 @@ between_particles(search *w)
     return qdot_pool_check(w->s->pool);
 }
 
-/* From a point to the hinge that it turns about, and on from there where that is new. */
+/* Add the hinge about which a point turns, and its hinge in turn, as long as they are new. */
 static qdot_status
 to_hinges(search *w, qdot_expr r)
 {
@@ -239,7 +239,7 @@ centre_of(const search *w, qdot_expr g, qdot_expr r)
     return qdot_vector(pool, n, c);
 }
 
-/* The rod between points of bodies that constraint c is, if it is one. */
+/* Add the rod between points of bodies that constraint c represents, if it does. */
 static qdot_status
 of_bodies(search *w, const qdot_constraint *c)
 {
@@ -249,7 +249,7 @@ of_bodies(search *w, const qdot_constraint *c)
     return ends[0] == QDOT_NIL ? QDOT_OK : add_rod(w, ends[0], ends[1], c->label);
 }
 
-/* The rod that constraint c is, if it is one. */
+/* Add the rod that constraint c represents, if it does. */
 static qdot_status
 of_constraint(search *w, const qdot_constraint *c)
 {
@@ -302,7 +302,7 @@ qdot_mech_rods(qdot_scene *s, qdot_rods *rods)
 
 /* --- fixed in bodies ---------------------------------------------------------------- */
 
-/* Append P if it is fixed in the body and not its centre. */
+/* Append P as an arm if it is fixed in the body and is not its centre. */
 static qdot_status
 try_arm(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arms *arms)
 {
@@ -329,7 +329,7 @@ try_arm(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arms *arms)
     return qdot_vec_push(arms, P);
 }
 
-/* Both sides of constraints between points: as many components in a row as the space has. */
+/* Try both sides of constraints between points: as many successive components as space has dimensions. */
 static qdot_status
 try_constraints(qdot_scene *s, const qdot_body *b, qdot_arms *arms)
 {

@@ -58,7 +58,7 @@ value_there(const corner *c, qdot_expr e)
     return qdot_simplify(c->pool, qdot_rest_value(c->j->s, c->e->equations, e), &c->j->facts);
 }
 
-/* The kinks of the forces at the place; *known: they are of the kinds that are judged here. */
+/* Find the kinks of the forces at the equilibrium; *known: they are of the kinds treated here. */
 static qdot_status
 find_kinks(corner *c, bool *known)
 {
@@ -92,7 +92,7 @@ find_kinks(corner *c, bool *known)
     return status;
 }
 
-/* The forces with the symbols of the kinks in the place of their signs. */
+/* Replace the signs in the forces by the symbols of their kinks. */
 static qdot_status
 corner_put_symbols(corner *c)
 {
@@ -109,7 +109,7 @@ corner_put_symbols(corner *c)
     return qdot_pool_check(c->pool);
 }
 
-/* Symbols for the signs; kinks by which no force jumps are left out. */
+/* Read the forces with symbols for signs; drop kinks at which no force jumps. */
 static qdot_status
 read_forces(corner *c)
 {
@@ -137,7 +137,7 @@ read_forces(corner *c)
     return corner_put_symbols(c);
 }
 
-/* The slopes a of the kinks; *known: they are numbers, and none vanishes. */
+/* Compute the gradients a of the kinks; *known: they are numbers, and none vanishes. */
 static qdot_status
 read_slopes(corner *c, bool *known)
 {
@@ -170,7 +170,7 @@ scalar_product(const corner *c, const qdot_expr *v, const qdot_expr *w)
     return sum;
 }
 
-/* V'(sign d), simplified. */
+/* The directional derivative V'(sign d), simplified. */
 static qdot_expr
 slope_along(const corner *c, const qdot_expr *d, int sign)
 {
@@ -188,7 +188,7 @@ slope_along(const corner *c, const qdot_expr *d, int sign)
 
 typedef enum { RISES, FALLS, OPEN } course;
 
-/* What V does along d, either way; conditions under which it rises are noted. */
+/* How V changes along d in both directions; conditions under which it rises are recorded. */
 static qdot_status
 ask_ray(corner *c, const qdot_expr *d, course *how)
 {
@@ -254,7 +254,7 @@ ask_rays(corner *c, size_t rank, course *how)
 
 /* --- where all planes meet -------------------------------------------------------------------- */
 
-/* Whether no linear terms of velocities stand in L: no gyroscopic forces. */
+/* Whether L contains no terms linear in velocities, that is, no gyroscopic forces. */
 static bool
 is_natural(const corner *c)
 {
@@ -298,7 +298,7 @@ read_inside(const corner *c, size_t p, const qdot_expr *N, const qdot_expr *z, q
     return qdot_pool_check(pool);
 }
 
-/* V along a line on which every u_k stays 0: by the force W(z) on either side. */
+/* How V changes along a line on which all u_k stay 0, from the force W(z) on either side. */
 static qdot_status
 ask_line(corner *c, qdot_expr z, qdot_expr W, course *how)
 {

@@ -57,7 +57,7 @@ typedef struct {
     bool known;
 } one_side;
 
-/* a or b: the one that is chosen by the sign of u for small eps > 0; where that is not known, o->known is false. */
+/* a or b, selected by the sign of u for small eps > 0; o->known becomes false if that is unknown. */
 static qdot_expr
 chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 {
@@ -79,7 +79,7 @@ chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
     return e;
 }
 
-/* sign u, |u|, max, min, if(0 < u, a, b) as they are for small eps > 0. */
+/* The value of sign u, |u|, max, min, if(0 < u, a, b) for small eps > 0. */
 static qdot_expr
 on_one_side(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -151,7 +151,7 @@ by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, con
     return QDOT_OK;
 }
 
-/* The least common denominator of the exponents in e of what holds q; 1 where it is more than MOST_ROOT. */
+/* The least common denominator of the exponents of powers that contain q; 1 if it exceeds MOST_ROOT. */
 static qdot_status
 common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
 {
@@ -178,7 +178,7 @@ common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
     return qdot_pool_check(pool);
 }
 
-/* The leading term by eps of what pushes back to q = place at place + eps^root, or (below) at place - eps^root. */
+/* The leading term in eps of the restoring force at q = place + eps^root, or (below) at place - eps^root. */
 static qdot_status
 push_back_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, long root, qdot_expr *leading, int *sign,
                  bool *known)
@@ -374,7 +374,7 @@ take_blocks(qdot_judgement *j)
     return QDOT_OK;
 }
 
-/* Whether a slope of a force at the place is so long that signs of what is made of such slopes are not asked. */
+/* Whether a force gradient is so long that signs of expressions of them are not attempted. */
 static bool
 is_too_long(const qdot_judgement *j)
 {

@@ -41,7 +41,7 @@ typedef struct {
 
 /* --- what holds ---------------------------------------------------------------------------- */
 
-/* The coordinate of whose velocity alone u is a multiple; s->coordinates.n: there is none. */
+/* The only coordinate whose velocity u is a multiple of; s->coordinates.n if there is none. */
 static size_t
 slipping(qdot_scene *s, qdot_expr u)
 {
@@ -57,7 +57,7 @@ slipping(qdot_scene *s, qdot_expr u)
     return s->coordinates.n;
 }
 
-/* Whether the equation of motion of coordinate i jumps with velocities by the friction on i alone. */
+/* Whether the equation of coordinate i jumps only because of friction on i itself. */
 static qdot_status
 jumps_are_own(held *h, size_t i, bool *yes)
 {
@@ -97,7 +97,7 @@ forces_are_smooth(held *h, bool *yes)
     return QDOT_OK;
 }
 
-/* F and f of every coordinate at the place; *yes where friction has the form above. */
+/* Split the force on every coordinate into F and friction f; *yes if friction has the form above. */
 static qdot_status
 split_forces(held *h, bool *yes)
 {
@@ -136,7 +136,7 @@ split_forces(held *h, bool *yes)
     return *yes ? forces_are_smooth(h, yes) : QDOT_OK;
 }
 
-/* Whether friction is below its limit: inside the region by its conditions, elsewhere asked. */
+/* Whether friction is below its limit: by the conditions of the region, or asked for elsewhere. */
 static qdot_status
 is_below(held *h, bool *yes)
 {
@@ -163,7 +163,7 @@ is_below(held *h, bool *yes)
 
 /* --- the other coordinates --------------------------------------------------------------- */
 
-/* M, Gamma, H over the coordinates that nothing holds (all of them for M where `whole`). */
+/* M, Gamma, H for the coordinates that friction does not hold (all of them for M if `whole`). */
 static qdot_status
 matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
 {
@@ -231,7 +231,7 @@ by_others(held *h)
     return status;
 }
 
-/* The whole of M is positive definite, so T measures every velocity. */
+/* Whether the whole of M is positive definite, so that T bounds every velocity. */
 static qdot_status
 friction_mass_is_definite(held *h, bool *yes)
 {
@@ -258,7 +258,7 @@ friction_mass_is_definite(held *h, bool *yes)
 
 /* --- ends -------------------------------------------------------------------------------- */
 
-/* Whether the force at an end of the range of the only coordinate points inside. */
+/* Whether the force at an end of the range of the only coordinate points inward. */
 static qdot_status
 points_inside(held *h, qdot_expr end, bool upper, bool *yes)
 {
@@ -285,7 +285,7 @@ points_inside(held *h, qdot_expr end, bool upper, bool *yes)
     return qdot_pool_check(pool);
 }
 
-/* The relation of a closed end, with < for <=; nil: it needs none. */
+/* The relation with < instead of <=; nil if it has no closed end. */
 static qdot_expr
 strictly(qdot_pool *pool, qdot_expr relation)
 {
@@ -295,7 +295,7 @@ strictly(qdot_pool *pool, qdot_expr relation)
                : QDOT_NIL;
 }
 
-/* Conditions that leave out the ends of a stable band at which nothing is proved. */
+/* Add conditions that exclude those ends of a stable band at which nothing is proved. */
 static qdot_status
 leave_out_ends(held *h)
 {

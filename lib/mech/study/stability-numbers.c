@@ -102,13 +102,13 @@ qdot_stability_numbers_free(qdot_stability_numbers *x)
 
 /* --- the linear motion in numbers ------------------------------------------------------- */
 
-/* y in the tangent space: told ones first; M = 1 (L^-1 . L^-T of what it was). */
+/* The motion in the tangent space: y, first those in equations at rest; scaled so that M = 1. */
 typedef struct {
     size_t m, told;
     double *M, *G, *H; /* [m * m] */
 } motion;
 
-/* The symbols at the place. */
+/* Set the values of the symbols at the equilibrium. */
 static qdot_status
 put_place(qdot_stability_numbers *x, const qdot_equilibrium *e)
 {
@@ -238,7 +238,7 @@ eigenvalue_range(const double *X, size_t m, size_t k, double *least, double *mos
     return fine;
 }
 
-/* The part of X that a transposition turns (sign 1: keeps) the sign of, its largest entry. */
+/* The largest entry of (X + sign X^T)/2, the symmetric (1) or antisymmetric (-1) part. */
 static double
 part_of_symmetry(const double *X, size_t m, int sign)
 {
@@ -376,7 +376,7 @@ verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motio
     return stability_by_roots(x, h, g, definite);
 }
 
-/* The verdict where the symbols say; the roots of the linear motion, if asked for. */
+/* Judge stability at the present values of the symbols; the roots of the linear motion, if asked for. */
 static qdot_status
 judge_there(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_stability *verdict,
             qdot_linear_roots *all)

@@ -36,11 +36,11 @@ typedef struct {
 } qdot_judgement_point;
 
 qdot_judgement_point qdot_judgement_mark(const qdot_judgement *j);
-/* Forget what was noted since then; or conditions alone: what was refuted needs none. */
+/* Drop what was recorded since the mark; or only its conditions, as a refuted claim needs none. */
 void qdot_judgement_back_to(qdot_judgement *j, qdot_judgement_point m);
 void qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m);
 
-/* Ask e > 0: true, false, or a condition that is noted. */
+/* Ask whether e > 0: true, false, or a condition, which is recorded. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_ask(qdot_judgement *j, qdot_expr e, qdot_expr *answer);
 /* Ask that all e [n] are positive, one after another. NEGATIVE_SOMEWHERE where one is proved below 0
  * whatever the parameters. e is simplified. */
@@ -55,15 +55,15 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_is_definite(qdot_judgement *j, size_t
                                                        const qdot_expr *A, bool *yes);
 /* A^T = A, or with sign -1 A^T = -A. */
 bool qdot_judgement_is_symmetric(qdot_judgement *j, size_t n, const qdot_expr *A, int sign);
-/* Whether the symmetric part of Gamma is proved not negative: none, or diagonal of known signs. */
+/* Whether the symmetric part of Gamma is proved not negative: zero, or diagonal with known signs. */
 bool qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma);
 /* Whether e != 0, with `above` e > 0, is proved wherever the facts and the noted conditions hold. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above,
                                                    bool *yes);
-/* Leave out conditions that follow of others. known [n]: scalars that are positive without any. */
+/* Drop conditions that follow from others. known [n]: expressions that are positive in any case. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_drop_implied(qdot_judgement *j, size_t n);
 
-/* Whether what was claimed to be positive is so all along a family of places (stability-exact.c). */
+/* Whether what was claimed to be positive is so along a whole family of equilibria (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_judgement_confirm(qdot_judgement *j, bool *yes);
 
 /* *leading: the term of lowest order in eps > 0 of F, near eps = 0, where |u|, sign u and the like are what they are

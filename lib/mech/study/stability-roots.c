@@ -1,4 +1,4 @@
-/* stability-roots.c -- whether the linear motion about a place grows, decays or stays bounded. */
+/* stability-roots.c -- whether the linear motion near an equilibrium grows, decays or stays bounded. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/node.h"
@@ -58,7 +58,7 @@ hurwitz(qdot_judgement *j, const block *b, qdot_definite *how)
     return qdot_judgement_all_positive(j, 6, a, how);
 }
 
-/* Whether e != 0 is proved, factor by factor: what the places divide by is not 0. */
+/* Whether e != 0 is proved factor by factor; divisors of the equilibrium are known not to vanish. */
 static qdot_status
 is_nonzero(qdot_judgement *j, qdot_expr e, bool *yes)
 {
@@ -247,7 +247,7 @@ block_motion(qdot_judgement *j, const block *x, motion *what)
 
 /* --- all blocks --------------------------------------------------------------------------- */
 
-/* of [n]: the number of the block of each y; how many there are. */
+/* of [n]: the number of the block of each y; returns the number of blocks. */
 static size_t
 number_blocks(const qdot_linear_motion *m, size_t *of)
 {
@@ -273,7 +273,7 @@ number_blocks(const qdot_linear_motion *m, size_t *of)
     return count;
 }
 
-/* Block k; its matrices stand one behind another from x->M on. */
+/* Copy block k; its matrices follow one another from x->M on. */
 static void
 pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
 {
@@ -291,7 +291,7 @@ pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
     x->H = x->Gamma + x->n * x->n;
 }
 
-/* Whether the motion of one block grows; decided without the conditions noted for other blocks. */
+/* Whether the motion of one block grows, decided without the conditions recorded for other blocks. */
 static qdot_status
 one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes)
 {
@@ -311,7 +311,7 @@ one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes
     return QDOT_OK;
 }
 
-/* GROWS if one block does; else the least of what all do, under the conditions of all. */
+/* GROWS if one block grows; otherwise the weakest verdict of all blocks, under all their conditions. */
 static qdot_status
 whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
 {

@@ -1,4 +1,4 @@
-/* stability-signs.c -- what must be positive for a verdict: proved, or noted as a condition. */
+/* stability-signs.c -- expressions that must be positive for a verdict: proved, or recorded as conditions. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -25,7 +25,7 @@ claim(qdot_judgement *j, qdot_expr e)
                : QDOT_OK;
 }
 
-/* Ask e > 0: true, false, or a condition that is noted. */
+/* Ask whether e > 0: true, false, or a condition, which is recorded. */
 qdot_status
 qdot_judgement_ask(qdot_judgement *j, qdot_expr e, qdot_expr *answer)
 {
@@ -45,7 +45,7 @@ qdot_judgement_mark(const qdot_judgement *j)
     return (qdot_judgement_point){j->when.n, j->known.n, j->claims.n};
 }
 
-/* Forget the conditions since then: what was refuted needs none. */
+/* Drop the conditions recorded since the mark: a refuted claim needs none. */
 void
 qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m)
 {
@@ -175,7 +175,7 @@ qdot_judgement_is_symmetric(qdot_judgement *j, size_t n, const qdot_expr *A, int
     return true;
 }
 
-/* Whether the symmetric part of Gamma is proved not negative: none, or diagonal of known signs. */
+/* Whether the symmetric part of Gamma is proved not negative: zero, or diagonal with known signs. */
 bool
 qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma)
 {

@@ -1,4 +1,4 @@
-/* stability.c -- judges the stability of equilibria: the facts that all of them share. */
+/* stability.c -- judges the stability of equilibria: facts common to all of them. */
 #include "mech/study/stability.h"
 
 #include "expr/calculus.h"

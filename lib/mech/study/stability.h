@@ -17,7 +17,7 @@ typedef struct {
     bool timed;         /* the equations depend on t */
     bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
-    /* dry friction, as in qdot_rest; nil: there is none */
+    /* dry friction, as in qdot_rest; nil if there is none */
     qdot_expr forces, friction, slips;
     qdot_expr by_signs; /* the forces with their jumps as signs; nil: they are not known */
     qdot_expr nonzero; /* a LIST of what the places divide by; nil: nothing */
@@ -45,11 +45,12 @@ qdot_stability_has_kink(uint32_t op)
  * others a family of rests is alike. */
 bool qdot_stability_is_told(const qdot_judge *judge, size_t i);
 
-/* A place known exactly, holonomic constraints (stability-exact.c). */
+/* Judge an equilibrium known exactly, with holonomic constraints only (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_exact(qdot_judge *judge,
                                                        qdot_equilibrium *e);
 
-/* A rest that dry friction holds. *judged is false where it says nothing (stability-friction.c). */
+/* Judge an equilibrium held by dry friction. *judged is false if this gives no answer
+ * (stability-friction.c). */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_held(qdot_judge *judge, qdot_equilibrium *e,
                                                       bool *judged);
 
@@ -58,12 +59,12 @@ QDOT_MUST_CHECK qdot_status qdot_stability_judge_held(qdot_judge *judge, qdot_eq
 QDOT_MUST_CHECK qdot_status qdot_stability_numbers_new(const qdot_judge *judge,
                                                        qdot_stability_numbers **out);
 void qdot_stability_numbers_free(qdot_stability_numbers *numbers);
-/* e->stability of a place whose values are numbers. */
+/* Set e->stability for an equilibrium with numerical values. */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_numbers(const qdot_judge *judge,
                                                          qdot_stability_numbers *numbers,
                                                          qdot_equilibrium *e);
 
-/* A place: values of coordinates, multipliers, the free parameter [n]. */
+/* An equilibrium: values of coordinates, multipliers, and the free parameter [n]. */
 typedef struct {
     size_t n;
     const qdot_expr *symbols;
@@ -77,7 +78,7 @@ typedef struct {
     double *re, *im;
 } qdot_linear_roots;
 
-/* Judge such a place; the roots there. */
+/* Judge such an equilibrium, and find the roots of its linear motion. */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_at(const qdot_judge *judge,
                                                     qdot_stability_numbers *numbers,
                                                     const qdot_stability_place *at,

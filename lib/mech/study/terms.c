@@ -1,4 +1,4 @@
-/* terms.c -- the terms of a sum by the symbols that they hold. */
+/* terms.c -- separates the terms of a sum by the symbols in them. */
 #include "mech/study/terms.h"
 
 #include "expr/build.h"
