@@ -7,13 +7,13 @@
 #include "ode/taylor.h"
 #include "ode/whole.h"
 
-/* Steps from one look to the next, by the stiff method and by series. */
+/* The number of steps between two comparisons: of the stiff method, and of series. */
 enum { looks = 32, looks_at_series = 512 };
 
-/* By how much series must be faster, and what the method must have spent meanwhile, in expansions. */
+/* The factor by which series must be faster, and the work (expansions) to wait before changing. */
 static const double gain = 4, first_patience = 1000;
 
-/* The work, in about nanoseconds, that must be left where series give way. */
+/* Series are left only if at least this much work (about ns) remains. */
 static const double worth_changing = 3e6;
 
 typedef struct {
@@ -32,7 +32,7 @@ typedef struct {
     bool over;        /* the turn has been ended here */
 } turns;
 
-/* Whether series have been faster for long enough, and there is something left to gain. */
+/* Whether series have been faster for long enough and enough work is left to make a change worthwhile. */
 static qdot_status
 turns_compare_pace(turns *a, double t, const double *y)
 {
@@ -102,7 +102,7 @@ qdot_ode_alternates(const qdot_ode_system *system, const qdot_ode_method *method
     return options->alternates && method->stiff && method->kernel && system->series;
 }
 
-/* One turn, from y at t; *more: another one follows. */
+/* Integrate with one method from y at t, until it ends or is replaced; *more: another method follows. */
 static qdot_status
 take_turn(turns *a, double t, bool first, double *y, qdot_ode_result *result, bool *more)
 {

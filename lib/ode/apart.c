@@ -1,4 +1,4 @@
-/* apart.c -- converts states, options and results between a whole and its parts. */
+/* apart.c -- converts states, options and results between a system and its decoupled parts. */
 #include "ode/apart.h"
 
 #include <string.h>

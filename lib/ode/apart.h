@@ -12,7 +12,8 @@
 
 #include "ode/run.h"
 
-/* Whether the system is integrated part by part: it has parts, and nothing watches its steps. */
+/* Whether the parts of the system are integrated separately: it has parts, and no callback observes
+ * its steps. */
 bool qdot_ode_is_apart(const qdot_ode_system *system, const qdot_ode_options *options);
 
 /* Copy the part's components out of y; copy them back into y. */
@@ -26,7 +27,7 @@ qdot_ode_options qdot_ode_part_options(const qdot_ode_part *part,
 
 /* Add the counts of a part to those of the whole. */
 void qdot_ode_part_add(qdot_ode_result *whole, const qdot_ode_result *part);
-/* If the part ended early, let the whole end there. */
+/* If the part ended early, end the whole integration at that time. */
 void qdot_ode_part_end(qdot_ode_result *whole, const qdot_ode_result *part);
 
 #endif

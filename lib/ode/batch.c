@@ -18,10 +18,10 @@ enum { L = QDOT_LANES, most_rescales = 8, most_tries = 60, line = 64 };
 
 static const int64_t max_steps = 50000000;
 
-/* A projection moves by its own rounding, whatever the tolerance. */
+/* A projection moves a state by about its own rounding error, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
-/* The fraction of the way that a first step goes if the upper half of its series is 0. */
+/* The fraction of the interval for a first step if the upper half of its series is 0. */
 static const double part_of_way = 0.31830988618379067;
 
 /* Groups; counts and flags are integers, a flag has all bits set or none. */
@@ -75,7 +75,7 @@ typedef struct {
 
 /* --- members come and go ------------------------------------------------------------ */
 
-/* Put lane l at a member's start; without a member it stays as it is and is ignored. */
+/* Put the next member into lane l at its start; without a further member the lane is ignored. */
 static void
 lane_enter(batch *b, size_t l)
 {
@@ -168,7 +168,7 @@ confirm(batch *b)
             a->good[l] = 0;
 }
 
-/* Go back to the start of the step, to try a quarter of it. */
+/* Return to the start of the step, to try a quarter of its length. */
 static void
 reject(batch *b, size_t l)
 {
@@ -215,7 +215,7 @@ lanes_judge(batch *b)
     return again;
 }
 
-/* Try a step of h at most: cut to end on a double, on t1 where that is near. */
+/* Try a step of at most h; its end is rounded to a double, or to t1 if that is near. */
 static void
 lane_try_step(batch *b, size_t l, double h)
 {
@@ -285,7 +285,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
         lane_try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
 }
 
-/* Choose a step for each lane from its series, or another unit. */
+/* Choose the step of each lane from its series, or a new unit of time for the series. */
 static void
 choose_steps(batch *b)
 {
@@ -301,7 +301,7 @@ choose_steps(batch *b)
             choose_step(b, l, steps[l], weight);
 }
 
-/* The end of each lane's step, and the values that will confirm it. */
+/* Evaluate the state at the end of each lane's step, and the slopes that verify it. */
 static void
 lanes_evaluate_ends(batch *b)
 {
@@ -349,7 +349,7 @@ come_near(batch *b)
     }
 }
 
-/* Show the steps that lanes are to try. */
+/* Pass the steps that lanes are about to try to the callback. */
 static qdot_status
 lanes_show(const batch *b)
 {

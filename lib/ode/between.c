@@ -1,4 +1,4 @@
-/* between.c -- values and slopes at three places, and the polynomial through them. */
+/* between.c -- the state inside a step, by a polynomial through values and slopes at three times. */
 #include "ode/between.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
  * tolerances at most. */
 static const double most = 4;
 
-/* The largest |x^2 (1 - x)^2 (x - 1/2)| in 0 ... 1, over its slope in the middle, 1/16. */
+/* The largest |x^2 (1 - x)^2 (x - 1/2)| in 0 ... 1, divided by its slope in the middle, 1/16. */
 static const double largest = 0.1432;
 
 static void

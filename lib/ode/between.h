@@ -19,7 +19,7 @@
 
 enum { QDOT_BETWEEN_DEGREE = 5 };
 
-/* Whether steps of the method are looked at: its order is at most that of the polynomial. */
+/* Whether steps of the method can be interpolated: its order is at most that of the polynomial. */
 static inline bool
 qdot_between_fits(const qdot_ode_method *method)
 {

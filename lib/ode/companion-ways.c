@@ -1,4 +1,4 @@
-/* companion-ways.c -- by which ways companions are integrated, from where, and what they may cost. */
+/* companion-ways.c -- the methods by which companions are integrated, their starts, and their cost limits. */
 #include <math.h>
 #include <stdint.h>
 
@@ -12,7 +12,8 @@ static const double unit = 0x1p-53;
 /* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
 static const double derived = 4;
 
-/* Of the run's work: what each of the two may cost. The rest of QDOT_COMPANION_MOST is for the horizon. */
+/* The cost allowed for each companion, relative to the run. The rest of QDOT_COMPANION_MOST is for
+ * the horizon. */
 static const double shares[] = {1.55, 1.3};
 
 /* Of QDOT_COMPANION_LEAST: what a way may take before it leads anywhere, so that the others have the
@@ -22,14 +23,14 @@ static const double shares[] = {1.55, 1.3};
 static const double at_first = 0.8, at_first_stiff = 0.25, at_first_multistep = 0.75;
 static const double beside_stiff = 0.4;
 
-/* The smallest error stated is 2u sqrt(steps), u = 2^-53; the root counts at most this. */
+/* The smallest error stated is 2u sqrt(steps), u = 2^-53, where the root counts at most this. */
 static const double most_floor = 32;
 
 /* Nearer to its companion_tol a stiff method of ours meets the rounding of most scenes, and its steps
  * become many; a coarse run is this far above it, so as not to share the run's rounding. */
 static const double above_rounding = 10, beyond_rounding = 10;
 
-/* How much coarser or finer than the run these ways are. */
+/* Factors by which tolerances of companions are coarser or finer than the run's. */
 static const double coarser = 4, finer[] = {16, 32};
 
 /* What both companions by Taylor series should cost, of the work of the run, and which powers of their
@@ -54,7 +55,7 @@ qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *meth
                                                                                       : method->partner);
 }
 
-/* The work of a run by Taylor series under that tolerance, relative to others of the system. */
+/* The relative work of a run by Taylor series with that tolerance. */
 static double
 work_of(const qdot_ode_series *series, double tol, int more)
 {
@@ -63,7 +64,8 @@ work_of(const qdot_ode_series *series, double tol, int more)
     return qdot_ode_expansion_work(series, p) * exp(-log(qdot_step_aim(tol, false)) / p);
 }
 
-/* Of a run by Taylor series under tol: the tightest tolerance of these that both companions can afford. */
+/* For a run by Taylor series with tolerance tol: the tightest of these tolerances that both
+ * companions can afford. */
 static double
 affordable(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
 {
@@ -178,7 +180,8 @@ doubles_away(size_t number)
     return number == 0 ? 1 : QDOT_COMPANION_FAR;
 }
 
-/* The distance from component i, of that size (scale.h), at which companion `number` of a run in two doubles starts. */
+/* The shift of component i (of that size, see scale.h) at the start of companion `number` of a run
+ * in two doubles. */
 static double
 aside(double tol, double size, size_t i, size_t number)
 {

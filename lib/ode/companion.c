@@ -1,4 +1,4 @@
-/* companion.c -- one or two further runs from which the error of a run is estimated. */
+/* companion.c -- repeats a run once or twice, slightly disturbed, to estimate its error. */
 #include "ode/companion.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static const double reading = 0.12, readings = 3.5;
  * where they step over what a finer one sees; by less than that, the two distances differ by chance. */
 static const double refutes = 10;
 
-/* Differences before the end raise the error to at most this many times the one at the end. */
+/* Differences before the end raise the error to at most this many times that at the end. */
 static const double most_between = 30;
 
 /* Times at which states are compared before the end, as parts of the run. They are irregular, so
@@ -93,7 +93,7 @@ follower_look(double t, const double *y, bool *stop, void *user)
     return QDOT_OK;
 }
 
-/* To t1, or beyond the end of the run, by one way. */
+/* Integrate the companion to t1, or beyond the end of the run, by one method. */
 static void
 run_by(follower *f, const qdot_companion_plan *by)
 {
@@ -159,7 +159,7 @@ follower_give_up(follower *f)
         f->t_left = t;
 }
 
-/* The same by the first way from f->way on that leads there. */
+/* Integrate by the first possible method from f->way on. */
 static void
 run_ways(follower *f)
 {
@@ -423,7 +423,7 @@ follower_judge_cost(follower *f)
     }
 }
 
-/* Its state where the run ended before t1. */
+/* Read the companion's state at the time at which the run ended, if that is before t1. */
 static void
 follower_read_end(follower *f)
 {
@@ -437,7 +437,7 @@ follower_read_end(follower *f)
     }
 }
 
-/* Whether it failed beyond the end of the run, before it heard of that. */
+/* Whether the companion failed beyond the end of the run, before it was told of that end. */
 static bool
 failed_beyond(const follower *f)
 {
@@ -447,7 +447,7 @@ failed_beyond(const follower *f)
     return !f->given_up && tr->count > 0 && way * (tr->t[tr->count - 1] - f->of->t_end) >= 0;
 }
 
-/* Its states at the times between, where the run has shown its own; whether it has them. */
+/* Read the companion's states at the sampled times, if the run has given its own; whether all are available. */
 static bool
 read_between(follower *f)
 {
@@ -465,7 +465,7 @@ read_between(follower *f)
     return status == QDOT_OK;
 }
 
-/* Its end, and whether it shows the states between, too. */
+/* Finish the companion: its end, and (whole) whether its states at the sampled times are known. */
 static bool
 arrive(follower *f, bool whole, qdot_companion_estimate *out)
 {
@@ -488,7 +488,7 @@ arrive(follower *f, bool whole, qdot_companion_estimate *out)
     each = f->meter.work / (double)(f->tr->count > 1 ? f->tr->count - 1 : 1);
     out->work += f->spent + (f->way == QDOT_COMPANION_WAYS ? 0 : f->meter.work);
     out->of_point += each;
-    /* where the first alone makes the error of the end, it does so of all values */
+    /* if only the first companion gives the error of the end, so it does for all values */
     out->kept[f->number] = f->tr->count > 1 && (f->number == 0 || f->arrived || !out->known);
     if (!f->arrived || !whole || !read_between(f))
         return f->number > 0 && f->given_up;
@@ -504,7 +504,7 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
     c->floor = qdot_companion_floor(&c->at[0].system, c->leading, steps);
 }
 
-/* Whether a finer way, given up by its cost, had shown more error of the run than the coarse way does. */
+/* Whether a finer companion, abandoned because of its cost, had shown a larger error than the coarse one. */
 static bool
 is_refuted(const follower *f)
 {
@@ -526,7 +526,7 @@ is_refuted(const follower *f)
     return shown > refutes * fmax(said, c->tol);
 }
 
-/* The error of the end y relative to these scales; `between`: that of states before it, too. */
+/* The error of the end state y relative to these scales; `between`: including states before it. */
 static double
 end_error_of(const qdot_companion *c, const double *scales, const double *y, bool between)
 {
@@ -539,7 +539,7 @@ void
 qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                       double *difference, qdot_companion_estimate *out)
 {
-    /* the neighbour of t1 stands for t1 */
+    /* the neighbouring double of t1 counts as t1 */
     bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1), between = true;
 
     c->t_end = t_end;

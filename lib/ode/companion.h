@@ -79,7 +79,7 @@
 #include "ode/meter.h"
 #include "ode/trajectory.h"
 
-/* How a companion is integrated. */
+/* The method by which a companion is integrated. */
 typedef enum {
     QDOT_COMPANION_SERIES,
     QDOT_COMPANION_PARTNER,
@@ -111,16 +111,16 @@ typedef struct qdot_companion qdot_companion;
  * the run's in 3.5 cases of 100, and below half of it in 0.8; its median is 4.5 times that. If rounding is little
  * beside what moving the start by one double makes, it is 2 of these. */
 double qdot_companion_bound(double apart, double own);
-/* Where there is one companion, `own` counts as so many times `apart`: the bound is 13/4 of that. */
+/* With a single companion, `own` counts as this many times `apart`: the bound is 13/4 of that. */
 #define QDOT_COMPANION_ALONE 0.5
 
 /* The distance of a value x of the run from the middle of theirs [count] of the companions, 1 or 2. */
 double qdot_companion_apart(double x, size_t count, const double *theirs);
 
-/* `own` of their two values. */
+/* The error `own` from the values of two companions. */
 double qdot_companion_own(const double *theirs);
 
-/* The bound for such a value. NaN if one has no value. */
+/* The error bound of a value x, from those of the companions. NaN if one of them has no value. */
 double qdot_companion_bound_of(double x, size_t count, const double *theirs);
 
 typedef struct {
@@ -159,10 +159,10 @@ QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_companion_request *r
  * but not more than 30 times that at the end: if errors die out, as in stiff scenes, the last
  * step may leave far less than those before. *count is 0 for other methods. */
 const double *qdot_companion_times(const qdot_companion *c, size_t *count);
-/* They are these fractions of the way. */
+/* The sampled times, as fractions of the interval. */
 const double *qdot_companion_places(size_t *count);
 
-/* Show the state y [n] of the run at time k of these; copied. */
+/* Give the companion the state y [n] of the run at sampled time k; it is copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
 
 /* Show all states of the run, borrowed until _finish: where a way was given up, the run is compared with
@@ -189,7 +189,7 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
 #define QDOT_COMPANION_MOST 3.0
 #define QDOT_COMPANION_LEAST 1e6
 
-/* What is left of QDOT_COMPANION_MOST for a run of so much work, after so much. */
+/* What is left of the work allowance QDOT_COMPANION_MOST, for a run of that work, after `spent`. */
 double qdot_companion_left(double work, double spent);
 
 /* The meter of companion `number` by that way beside that of a run by `method`, after
@@ -213,7 +213,7 @@ void qdot_companion_limit(qdot_companion *c, uint64_t steps);
  * alike whatever the tolerance, and err alike. */
 double qdot_companion_first_share(size_t number);
 
-/* The least error stated for a run of so many steps of the system; `leading`: one in two doubles. */
+/* The smallest error stated for a run of that many steps; `leading`: for a run in two doubles. */
 double qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_t steps);
 
 /* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1, until they
@@ -223,7 +223,7 @@ double qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
 
-/* Additional orders of a companion by Taylor series (qdot_ode_options.order_more): at most. */
+/* Additional orders of a companion by Taylor series (qdot_ode_options.order_more), and their maximum. */
 int qdot_companion_orders(size_t number);
 #define QDOT_COMPANION_ORDERS 3
 

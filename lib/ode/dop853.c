@@ -25,7 +25,7 @@ ratio_of(double e5, double e3)
     sum += (a) * k[(j) * n + i];                                                         \
     low += (double)(a##L - (long double)(a)) * k[(j) * n + i];
 
-/* Stage `row`, at the state y + h (the terms). */
+/* Evaluate stage `row` at the state y + h * (sum of the terms). */
 #define EVALUATE(row, c, terms)                                                          \
     for (size_t i = 0; i < n; i++) {                                                     \
         double sum = -0.0, low = -0.0;                                                   \

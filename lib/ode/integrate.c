@@ -1,4 +1,4 @@
-/* integrate.c -- integrates a system as a whole or part by part. */
+/* integrate.c -- integrates a system as a whole or its decoupled parts separately. */
 #include "ode/integrate.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "ode/apart.h"
 #include "ode/whole.h"
 
-/* All parts from y at t0 to where the first of them ends. */
+/* An integration of all parts from y at t0 to the time at which the first of them ends. */
 typedef struct {
     const qdot_ode_system *system;
     const qdot_ode_method *method;
@@ -19,7 +19,7 @@ typedef struct {
     qdot_ode_result *result;
 } parts;
 
-/* Integrate part k as far as the whole goes so far. */
+/* Integrate part k to the time that the earlier parts have reached. */
 static qdot_status
 run_part(const parts *p, size_t k, qdot_ode_result *result)
 {

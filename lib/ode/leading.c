@@ -1,4 +1,4 @@
-/* leading.c -- decides which orders are in two doubles, and sums the series with them. */
+/* leading.c -- decides which orders of a series need two doubles, and sums the series with them. */
 #include "ode/leading.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ is_following(const qdot_ode_system *system, size_t i)
     return false;
 }
 
-/* The highest order with a term whose rounding counts; power: s^k at order k. */
+/* The highest order with a term whose rounding error matters; power: s^k at order k. */
 static int
 orders_of_terms(const qdot_ode_leading_step *step, const double *power)
 {

@@ -23,7 +23,7 @@
 
 #include "ode/run.h"
 
-/* Used for tolerances up to this one, for which a double is not enough. */
+/* Two doubles are used for tolerances up to this one, for which a double is not enough. */
 #define QDOT_ODE_LEADING_TOL 1.0001e-14
 
 /* A step from `at` by h + h_low, order p; its series x of system->series, in that unit, has been

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-/* A mark is set when work has grown by this part, and at least by so much. */
+/* A mark is set whenever work has grown by this fraction, and at least by `least` (ns). */
 static const double part = 0.125, least = 5e4;
 
 static const double stands_still = 0.02;
@@ -39,11 +39,11 @@ set_mark(qdot_ode_meter *m)
     atomic_store_explicit(&m->count, k + 1, memory_order_release);
 }
 
-/* Whether the run's work up to t is known, and what it is. */
+/* Whether the run's work up to time t is known; *work. */
 static bool
 work_at(const qdot_ode_meter *run, double t, double *work)
 {
-    /* in this order: what has ended sets no more marks */
+    /* read in this order: a run that has ended sets no more marks */
     const bool ended = atomic_load_explicit(&run->ended, memory_order_acquire);
     const size_t count = atomic_load_explicit(&run->count, memory_order_acquire);
 
@@ -57,7 +57,7 @@ work_at(const qdot_ode_meter *run, double t, double *work)
     return ended;
 }
 
-/* Whether t lies beyond where the run, which has ended, ended. */
+/* Whether t lies beyond the end of the other run, if that has ended. */
 static bool
 is_beyond_end(const qdot_ode_meter *m, double t)
 {

@@ -52,16 +52,16 @@ struct qdot_ode_meter {
     qdot_ode_mark marks[QDOT_ODE_MARKS];
 };
 
-/* Why one has ended; %.2g: the factor. */
+/* The reason why a companion was ended; %.2g: the factor. */
 #define QDOT_ODE_METER_REASON "it would take more than %.2g times the work of this one"
 
-/* Begin to count an integration from t0 towards t1; beside, factor and allowance are kept. */
+/* Begin to count the work of an integration from t0 towards t1; beside, factor and allowance are kept. */
 void qdot_ode_meter_begin(qdot_ode_meter *m, double t0, double t1);
 
-/* It has come to t, for `work` more. QDOT_ELIMIT: it costs too much. */
+/* The integration has reached t with `work` more. QDOT_ELIMIT: it costs too much. */
 QDOT_MUST_CHECK qdot_status qdot_ode_meter_add(qdot_ode_meter *m, double t, double work);
 
-/* It has ended: w(t) of any t that it has not come to is its whole work. */
+/* The integration has ended: w(t) beyond its end is its total work. */
 void qdot_ode_meter_end(qdot_ode_meter *m);
 
 /* Whether it has cost too much beside the run, which has ended. *work: what it had cost when that
@@ -72,7 +72,7 @@ bool qdot_ode_meter_exceeds(const qdot_ode_meter *m, double *work);
  * of what the first half did. */
 bool qdot_ode_meter_is_stuck(const qdot_ode_meter *m);
 
-/* The work of what is counted in these, by a method without series. */
+/* The work (ns) of what `stats` counts, for a method without series. */
 double qdot_ode_work(const qdot_ode_system *system, const qdot_ode_stats *stats);
 
 /* The work of an expansion to order p. */

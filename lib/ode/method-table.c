@@ -1,4 +1,4 @@
-/* method-table.c -- the rows of method.h. */
+/* method-table.c -- the table of integration methods declared in method.h. */
 #include "ode/method.h"
 
 #include <string.h>

@@ -28,16 +28,16 @@ typedef struct qdot_ode_method {
     const void *stepper;    /* const gsl_odeiv2_step_type *const *; else NULL */
     bool series;            /* the system must have Taylor series */
     const struct qdot_ode_kernel *kernel; /* of our own Runge-Kutta methods (stepper.h) */
-    /* of methods by steps of one length (geometric/geometric.h) */
+    /* for methods with constant steps (geometric/geometric.h) */
     const struct qdot_geometric_kernel *geometric;
 } qdot_ode_method;
 
 size_t qdot_ode_method_count(void);
 
-/* Row i of the table, static; NULL beyond its end. */
+/* Row i of the table, static; NULL past its end. */
 const qdot_ode_method *qdot_ode_method_at(size_t i);
 
-/* The row of that name; NULL if there is none (no failure is recorded). */
+/* The method of that name; NULL if there is none (no failure is recorded). */
 const qdot_ode_method *qdot_ode_method_find(const char *name);
 
 #endif

@@ -75,7 +75,7 @@ qdot_precise_inside(const qdot_precise_run *run, size_t k)
 enum { looks = 1 << 14 };
 static const double hopeless = 1e10;
 
-/* Make space for one point more, a chunk at a time, between steps. */
+/* Reserve memory for one more point, chunk by chunk, between steps. */
 static qdot_status
 precise_reserve(qdot_precise_run *run, double max_bytes)
 {
@@ -169,7 +169,7 @@ precise_extend_series(state *s)
 
 /* --- the state from the series ------------------------------------------------------- */
 
-/* y = sum_k x_k h^k, and its slope [n] where that is wanted. */
+/* Evaluate y = sum_k x_k h^k, and its slope [n] unless NULL. */
 static void
 precise_evaluate(const qdot_precise_system *system, int p, mpfr_srcptr h, mpfr_t *y, mpfr_t *slope,
                  mpfr_ptr w)
@@ -223,7 +223,7 @@ precise_sample_inside(const state *s)
     }
 }
 
-/* Whether the slope of the polynomial is that of the equations begun anew at next. */
+/* Whether the slope of the polynomial agrees with the equations evaluated at its end. */
 static bool
 confirms(const state *s)
 {
@@ -315,7 +315,7 @@ precise_too_small(const state *s)
     return qdot_hint("the solution has a singularity there");
 }
 
-/* h and end from the step wanted, cut to end on t1 where that is near; *last tells. */
+/* Set h and the end of the step from the desired length; if near, the end is t1, and *last is set. */
 static void
 cut_step(state *s, double log2_h)
 {
@@ -331,7 +331,7 @@ cut_step(state *s, double log2_h)
     if (log2_h > rest - 1)
         mpfr_div_2ui(s->h, s->rest, 1, RN);
     else {
-        /* few bits: then time is added without rounding as long as it can be */
+        /* use few bits for h, so that times are added without rounding as long as possible */
         double whole = floor(log2_h);
 
         mpfr_set_d(s->h, s->direction * floor(exp2(log2_h - whole + 20)), RN);
@@ -389,7 +389,7 @@ precise_advance(state *s)
     }
 }
 
-/* As that of trajectory.c. */
+/* Stop hopelessly long runs, as in trajectory.c. */
 static qdot_status
 precise_foresee(const state *s)
 {
@@ -505,7 +505,7 @@ qdot_precise_integrate(const qdot_precise_system *system,
 
 /* --- between points ------------------------------------------------------------------ */
 
-/* The last point that is not beyond t. */
+/* The index of the last point at or before t, in the direction of the run. */
 static size_t
 precise_locate(const qdot_precise_run *run, mpfr_srcptr t, bool backwards)
 {

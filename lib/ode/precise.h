@@ -70,7 +70,7 @@ void qdot_precise_run_clear(qdot_precise_run *run);
 /* Point k: t at [0], y at [1 ... n]. */
 mpfr_t *qdot_precise_point(const qdot_precise_run *run, size_t k);
 
-/* The rows between points k and k + 1. */
+/* The rows of doubles between points k and k + 1. */
 const double *qdot_precise_inside(const qdot_precise_run *run, size_t k);
 
 /* The order for a tolerance and the cost of an expansion to order p. */

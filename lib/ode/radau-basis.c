@@ -1,4 +1,4 @@
-/* radau-basis.c -- eigenvalues and eigenvectors of A^-1, found once. */
+/* radau-basis.c -- eigenvalues and eigenvectors of A^-1 of the Radau methods, computed once. */
 #include "ode/radau-basis.h"
 
 #include <complex.h>
@@ -12,7 +12,7 @@ enum { MOST = QDOT_RADAU_MOST };
 
 static qdot_radau_basis bases[QDOT_RADAU_KINDS];
 
-/* The coefficients of N(x). */
+/* The coefficients of the nodal polynomial N(x). */
 static void
 find_nodal(const qdot_radau_basis *b, double *N)
 {
@@ -66,7 +66,7 @@ find_eigenvalues(size_t s, const double *N, double complex *lambda)
     }
 }
 
-/* The real one first, then one of each pair, into the basis. */
+/* Sort the eigenvalues into the basis: first the real one, then one of each conjugate pair. */
 static void
 basis_sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
 {
@@ -85,7 +85,7 @@ basis_sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
     b->spaces = at;
 }
 
-/* Column k of the matrix of all eigenvectors, and of a pair the next one too. */
+/* Column k of the matrix of eigenvectors; for a conjugate pair also the next column. */
 static void
 set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *im)
 {
@@ -108,7 +108,7 @@ set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *i
     }
 }
 
-/* w_k: rows of the inverse of that matrix. */
+/* The left eigenvectors w_k: rows of the inverse of that matrix. */
 static void
 find_vectors(qdot_radau_basis *b, const double *N)
 {
@@ -147,7 +147,7 @@ find_inverse(qdot_radau_basis *b, const qdot_collocation *m)
         }
 }
 
-/* 1/(c_j prod (c_j - c_k)) */
+/* The weights 1/(c_j prod (c_j - c_k)). */
 static void
 find_weights(qdot_radau_basis *b)
 {

@@ -32,17 +32,17 @@ typedef struct {
         [QDOT_RADAU_MOST]; /* L_i(0): values at the nodes times these are that at 0 */
     double weight[QDOT_RADAU_MOST]; /* of interpolation */
     double lambda_re[QDOT_RADAU_SPACES], lambda_im[QDOT_RADAU_SPACES];
-    /* u, for pairs twice; w */
+    /* right eigenvectors u, doubled for conjugate pairs, and left eigenvectors w */
     double right_re[QDOT_RADAU_SPACES][QDOT_RADAU_MOST],
         right_im[QDOT_RADAU_SPACES][QDOT_RADAU_MOST];
     double left_re[QDOT_RADAU_SPACES][QDOT_RADAU_MOST],
         left_im[QDOT_RADAU_SPACES][QDOT_RADAU_MOST];
 } qdot_radau_basis;
 
-/* kind below QDOT_RADAU_KINDS; static. */
+/* The basis of that kind, below QDOT_RADAU_KINDS; static. */
 const qdot_radau_basis *qdot_radau_basis_get(size_t kind);
 
-/* The polynomial that is 0 at 0 and z_i at c_i is sum_i w_i z_i at x: w [stages]. */
+/* Weights w [stages]: the polynomial with value 0 at 0 and z_i at c_i has the value sum_i w_i z_i at x. */
 void qdot_radau_interpolate(const qdot_radau_basis *b, double x, double *w);
 
 #endif

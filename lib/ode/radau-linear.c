@@ -68,7 +68,7 @@ qdot_radau_residual(const qdot_radau_linear *l, double t, const double *y,
     return check_finite(r, l->m, "right-hand side");
 }
 
-/* Order the unknowns anew if entries are not 0 that always were. */
+/* Reorder the unknowns if entries are non-zero that were 0 so far. */
 static void
 look_at_pattern(qdot_radau_linear *l)
 {

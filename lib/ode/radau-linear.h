@@ -34,7 +34,7 @@ typedef struct {
     const qdot_radau_basis *basis; /* for which they are factored */
 } qdot_radau_linear;
 
-/* Errors: QDOT_ENOMEM; clear it in any case. */
+/* Allocate. Errors: QDOT_ENOMEM; clear l in any case. */
 QDOT_MUST_CHECK qdot_status qdot_radau_linear_init(qdot_radau_linear *l,
                                                    const qdot_ode_system *system);
 void qdot_radau_linear_clear(qdot_radau_linear *l);
@@ -45,7 +45,7 @@ QDOT_MUST_CHECK qdot_status qdot_radau_residual(const qdot_radau_linear *l, doub
                                                 const double *y, const double *a,
                                                 const double *z, double *r);
 
-/* Take the slopes at (t, y, a), and the multipliers there. Errors likewise. */
+/* Evaluate the derivatives at (t, y, a), and the multipliers there. Same errors. */
 QDOT_MUST_CHECK qdot_status qdot_radau_slopes(qdot_radau_linear *l, double t,
                                               const double *y, const double *a, double *z);
 
@@ -55,11 +55,11 @@ bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, doub
 /* Solve with space k; im is not read for k = 0. */
 void qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im);
 
-/* b [m]: about what rounding of y, a and z makes of f - M a, of one sign or the other. */
+/* b [m]: an estimate of the rounding error of f - M a caused by y, a and z, with either sign. */
 void qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a,
                       const double *z, double *b);
 
-/* b = M v + Dq q; q NULL: no such term. */
+/* b = M v + Dq q; q NULL: without the second term. */
 void qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q,
                       double *b);
 

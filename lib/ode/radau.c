@@ -37,10 +37,10 @@ static const double agree = 0.1, harmless = 0.1, agree_roundings = 1000, fell_by
  * constraints, whatever these are. */
 static const double by_multipliers = 0.05;
 
-/* After a step whose iteration failed: those that follow, beside it. */
+/* Factors for the steps that follow one whose iteration failed. */
 static const double shorter = 0.6, half = 0.5;
 
-/* An estimate is of so many roundings of f; where it is no more, a step may grow a little. */
+/* A convergence rate that no longer improves; roundings of f in an estimate; an error at which a step grows. */
 static const double stagnates = 0.3, several = 6, grows = 0.03;
 
 typedef struct {
@@ -147,7 +147,7 @@ larger(double a, double b)
 
 /* --- Newton's iteration ----------------------------------------------------------------- */
 
-/* sum_j w_j x_j, one value a stage, `stride` apart; there are 3, 5 or 7 */
+/* sum_j w_j x_j over 3, 5 or 7 stages, whose values are `stride` apart */
 static inline double
 over_stages(size_t stages, const double *w, const double *x, size_t stride)
 {
@@ -182,7 +182,7 @@ is_near(const radau *r)
     return r->before_basis && fabs(r->h) <= far * fabs(r->before_h);
 }
 
-/* The stages by the polynomial of the step before; y throughout if there is none, or none that would do. */
+/* Predict the stages by the polynomial of the last step; y if there is none or it is too far. */
 static void
 predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
@@ -231,7 +231,7 @@ residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
     return QDOT_OK;
 }
 
-/* The change of the velocities, from the residuals, in place of `a`. */
+/* Solve for the change of the velocities, from the residuals; it replaces `a`. */
 static void
 newton_solve(radau *r, const qdot_radau_basis *b)
 {
@@ -252,7 +252,7 @@ newton_solve(radau *r, const qdot_radau_basis *b)
     }
 }
 
-/* Add the change, in `a`, to the stages. Returns its size in tolerances. */
+/* Add the change, in `a`, to the stages. Returns its size in units of the tolerance. */
 static double
 newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
 {
@@ -279,7 +279,7 @@ newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
     return size;
 }
 
-/* What rounding of f may make of the change of a stage, in tolerances. */
+/* The change of a stage by rounding of f, in units of the tolerance. */
 static double
 newton_noise(const qdot_ode_stepper *s, double h)
 {
@@ -297,7 +297,7 @@ newton_noise(const qdot_ode_stepper *s, double h)
     return several * noise;
 }
 
-/* Whether no mass moves with the velocity j: it has no past, and follows at every moment. */
+/* Whether velocity j has no mass, so that it follows the others without memory. */
 static bool
 is_algebraic(const qdot_radau_linear *l, size_t j)
 {
@@ -331,7 +331,8 @@ weigh_algebraic(radau *r, double h)
     }
 }
 
-/* The sum of the sizes of what makes f - M a in row l of stage i: of forces as where slopes were taken. */
+/* The sum of the magnitudes of the terms of f - M a, row l, stage i; forces as where the
+ * derivatives were taken. */
 static double
 defect_terms(const radau *r, size_t i, size_t l)
 {
@@ -382,7 +383,7 @@ raise(double x)
     return sqrt(x * sqrt(x));
 }
 
-/* Whether it converged; the stages, and `a` by them. */
+/* Iterate the stages and their `a`; *converged. */
 static qdot_status
 newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
                bool *converged)
@@ -654,7 +655,7 @@ another(qdot_ode_stepper *s)
     return QDOT_RADAU_KINDS;
 }
 
-/* Rows of F: the stages, then their number. */
+/* Write rows of F for dense output: the stages, then their number. */
 static qdot_status
 dense(qdot_ode_stepper *s, double t, double h, double *F)
 {

@@ -41,10 +41,10 @@
 
 #include "ode/stepper.h"
 
-/* The row `radau` of method.h. */
+/* The kernel of method `radau`. */
 extern const qdot_ode_kernel qdot_radau;
 
-/* For tests: keep to 3, 5 or 7 stages from now on. */
+/* For tests: use only 3, 5 or 7 stages from now on. */
 void qdot_radau_keep_stages(qdot_ode_stepper *s, size_t stages);
 
 #endif

@@ -1,4 +1,4 @@
-/* run.c -- the common beginning and end of integrations. */
+/* run.c -- common beginning and end of all integrations: checks, tolerance, result. */
 #include "ode/run.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #include "ode/method.h"
 #include "ode/system.h"
 
-/* What a run did. */
+/* Counts of an integration. */
 typedef struct {
     uint64_t steps;          /* accepted */
     uint64_t rejected;       /* tried and not accepted, for whatever reason */
@@ -23,7 +23,7 @@ typedef struct {
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
-/* Add what a further part of a run did. */
+/* Add the counts of a further part of a run. */
 static inline void
 qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
 {
@@ -90,7 +90,7 @@ typedef struct {
      * where to store, while `accepted` and `expanded` run, the method of that step; borrowed. */
     bool alternates;
     const qdot_ode_method **now;
-    /* Continue the solution that was entered last (system->following). */
+    /* continue the solution that was begun last (system->following) */
     bool goes_on;
     /* For a system of parts: call `accepted` for each part, with its components. Otherwise such a
      * system is integrated as a whole if `accepted` or `expanded` is set. */
@@ -112,7 +112,7 @@ typedef struct {
     char reason[512]; /* of a failure; else "" */
 } qdot_ode_result;
 
-/* The tolerance and the number of steps tried of these options, or their defaults. */
+/* The tolerance and the maximum number of steps given in the options, or their defaults. */
 static inline double
 qdot_ode_tolerance(const qdot_ode_options *options)
 {
@@ -125,7 +125,7 @@ qdot_ode_most_steps(const qdot_ode_options *options)
     return options->max_steps ? options->max_steps : 50000000;
 }
 
-/* Whether all x [n] are finite: then every 0 x is 0, else NaN. */
+/* Whether all x [n] are finite: then every 0 * x is 0, otherwise NaN. */
 static inline bool
 qdot_ode_all_finite(const double *x, size_t n)
 {
@@ -142,7 +142,7 @@ QDOT_MUST_CHECK qdot_status qdot_ode_check_tolerance(double tol);
 QDOT_MUST_CHECK qdot_status qdot_ode_check_limits(const qdot_ode_system *system, double t0,
                                                   double t1, const double *y);
 
-/* Put how an integration ended, at t with that status, into its result. */
+/* Record in `result` that an integration ended at t with that status. */
 void qdot_ode_end(qdot_ode_result *result, double t, qdot_status status);
 
 /* Begin an integration: enter the solution through y [n] at t (system->following), unless

@@ -1,4 +1,4 @@
-/* stepper.c -- GSL's step objects, or a kernel, behind a state kept as a sum. */
+/* stepper.c -- steps by GSL or by a kernel of ours, with the state kept as a sum of two doubles. */
 #include "ode/stepper.h"
 
 #include <math.h>
@@ -83,7 +83,7 @@ inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user
     return GSL_SUCCESS;
 }
 
-/* The control object: only its error level is ever asked for, by multistep methods. */
+/* GSL's control object; multistep methods only ask it for the error level. */
 typedef struct {
     double tol;
     const double *scales; /* of the system */
@@ -239,7 +239,7 @@ qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y)
         s->method->kernel->restart(s);
 }
 
-/* Ratio of the step tried; INFINITY where anything in it is not finite. */
+/* The error of the step just tried relative to the tolerance; INFINITY if anything is not finite. */
 static double
 stepper_error_ratio(const qdot_ode_stepper *s)
 {
@@ -345,7 +345,7 @@ qdot_ode_stepper_project(qdot_ode_stepper *s, double t, double *ratio)
     return QDOT_OK;
 }
 
-/* Derive the components that are not integrated, at the end of the step, in s->trial. */
+/* Compute the components that are not integrated, at the end of the step, in s->trial. */
 static void
 take_followers(qdot_ode_stepper *s)
 {

@@ -49,7 +49,7 @@ struct qdot_ode_kernel {
     /* The polynomial F [powers x n] through the step just tried, s->trial_dydt known;
      * s->trial is lost. */
     qdot_status (*dense)(qdot_ode_stepper *s, double t, double h, double *F);
-    /* y [n] at the part x of the step, 0 to 1, that began at y0 [n]. */
+    /* Interpolate y [n] at the fraction x of a step, 0 to 1, that began at y0 [n]. */
     void (*at)(size_t n, const double *F, const double *y0, double x, double *y);
 
     /* Of a method that keeps more than stages, in s->own; else NULL: made with the stepper (close
@@ -60,7 +60,7 @@ struct qdot_ode_kernel {
     void (*restart)(qdot_ode_stepper *s);
     void (*accepted)(qdot_ode_stepper *s);
     double (*power)(const qdot_ode_stepper *s); /* NULL: method->error_power */
-    /* Take its next formula, from the last on the first again; returns how many there are. NULL: one. */
+    /* Change to the next formula, after the last to the first; returns their number. NULL: only one. */
     size_t (*another)(qdot_ode_stepper *s);
     bool keeps_step; /* a new size of step is dear */
     bool forward;    /* no step may be read backwards from its end */
@@ -88,7 +88,7 @@ struct qdot_ode_stepper {
     double *stages; /* [stages x n] of a kernel */
     void *own;      /* of a kernel */
 
-    /* If the system projects: the end of the step tried, as a sum, and whether it was moved. */
+    /* If the system projects: the projected end of the step as a sum, and whether it was moved. */
     double *moved, *moved_carry; /* [n] */
     bool projected;
 
@@ -107,7 +107,7 @@ void qdot_ode_stepper_free(qdot_ode_stepper *s);
 /* Begin at y [n], without history. */
 void qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y);
 
-/* f at (t, y [n]) into dydt, counted. QDOT_EDOMAIN if it is not finite. */
+/* Evaluate f at (t, y [n]) into dydt, and count that. QDOT_EDOMAIN if it is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t,
                                                  const double *y, double *dydt);
 
@@ -127,7 +127,7 @@ QDOT_MUST_CHECK qdot_status qdot_ode_stepper_project(qdot_ode_stepper *s, double
 /* Accept the step just tried. */
 void qdot_ode_stepper_accept(qdot_ode_stepper *s);
 
-/* The power of h to which the error of the step just tried is proportional. */
+/* The exponent p such that the error of the step just tried is proportional to h^p. */
 double qdot_ode_stepper_error_power(const qdot_ode_stepper *s);
 
 #endif

@@ -8,14 +8,14 @@
 #include "base/memory.h"
 #include "ode/scale.h"
 
-/* Steps from a place to the next, in all 4000; at first an eighth of that. */
+/* The steps between successive samples, 4000 in total; at first an eighth of these. */
 static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
 static const int eager = 8, windows_eager = 2;
 
-/* To the first: shorter runs need no places. */
+/* Steps before the first sample: shorter runs need none. */
 static const int first_wait = 100;
 
-/* Of the range, what a parabola may be off by. */
+/* The deviation from a parabola, relative to the range, up to which a component is smooth. */
 static const double share = 1e-2;
 
 static const double work_default = 5e9;
@@ -23,7 +23,7 @@ static const double work_default = 5e9;
 /* Explicit methods are stable for h by the fastest rate up to 2 or more; the step of differences, by the size. */
 static const double least_bound = 0.1, difference = 1e-7;
 
-/* A million steps: earlier ones may be short for once. */
+/* Only after this many steps may the run be judged by them alone; earlier they may be short by chance. */
 static const uint64_t patient = 1000000;
 
 void
@@ -33,7 +33,7 @@ qdot_ode_stiffness_clear(qdot_ode_stiffness *s)
     *s = (qdot_ode_stiffness){0};
 }
 
-/* Whether component i lies on the parabola through its first, middle and last place. */
+/* Whether component i lies on the parabola through its first, middle and last sample. */
 static bool
 component_is_smooth(const qdot_ode_stiffness *s, size_t i, const qdot_ode_stiff_step *at)
 {
@@ -67,7 +67,7 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
     return true;
 }
 
-/* |df/dy| by differences of so much to either side, in units of the sizes of components; room [3n]. */
+/* |df/dy| by differences of size `by` to either side, in units of the components' sizes; room [3n]. */
 static qdot_status
 steepness(const qdot_ode_stiff_step *at, double by, double *room, double *slope)
 {
@@ -114,7 +114,7 @@ may_bind(const qdot_ode_stiff_step *at, double h, bool *may)
     return qdot_grave(status);
 }
 
-/* Steps from place k - 1 to k. */
+/* The number of steps from sample k - 1 to k. */
 static int
 steps_to(const qdot_ode_stiffness *s, size_t k)
 {
@@ -131,7 +131,7 @@ steps_between(const qdot_ode_stiffness *s)
     return sum;
 }
 
-/* Keep the state; whether there are places enough to judge. */
+/* Store a sample; *enough: there are enough of them to judge. */
 static qdot_status
 stiffness_keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
 {

@@ -43,7 +43,7 @@ typedef struct {
 
 void qdot_ode_stiffness_clear(qdot_ode_stiffness *s);
 
-/* Where a step ended. */
+/* The end of a step, as the stiffness detector needs it. */
 typedef struct {
     const qdot_ode_system *system; /* NULL: stability may bound any step */
     size_t n;
@@ -57,7 +57,7 @@ typedef struct {
     bool high;     /* steps of a series: a few hundred that lie on a parabola are enough */
 } qdot_ode_stiff_step;
 
-/* Whether the step just taken is one of the few that are looked at. */
+/* Whether the step just taken is one of the few that are sampled. */
 bool qdot_ode_stiffness_is_due(qdot_ode_stiffness *s);
 
 /* Then look. QDOT_ELIMIT: steps are bound by stability, and *stiff, or too many are left;

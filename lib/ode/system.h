@@ -32,7 +32,7 @@ typedef struct {
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
 
-/* `digits` of code, unless all that is solved for is a number. */
+/* value of `digits` in code, unless everything solved for is a number */
 enum { QDOT_ODE_DIGITS = 18 };
 
 /* What expansions cost, in nanoseconds, of which only the ratios matter: one to order p takes about
@@ -51,7 +51,7 @@ typedef struct {
     double worth; /* writing code takes as long as worth/p expansions save by it */
 } qdot_ode_cost;
 
-/* Expansions as machine code. */
+/* Expansions by machine code. */
 typedef struct {
     /* Write it for expansions to order p, before a `begin`, so that others of the same shape, to orders
      * up to `most`, can share it; NULL: none can be. */
@@ -76,12 +76,12 @@ typedef struct {
     size_t checked; /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
                        state holds beyond y enters order 1 */
     qdot_ode_cost cost; /* of its expansions */
-    /* Expansions to order p are going to be many; before them. May be NULL. */
+    /* Called before many expansions to order p. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
     qdot_ode_code code;
     /* Orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
-    /* Then orders 2 ... p. */
+    /* Continue the expansion with orders 2 ... p. */
     qdot_status (*extend)(int p, void *user);
     /* What the coefficients at the point begun last are worth, relative to the state, where
      * that may be less than a double: near a singularity that the solution passes
@@ -91,7 +91,7 @@ typedef struct {
      * place that causes it, from the series; 0 where it lies behind or is not known. Steps
      * go over it, or stay well before. */
     double (*ahead)(void *user);
-    /* A step has gone over the place that `ahead` said last, at time t; may be NULL. */
+    /* Called when a step has passed the time that `ahead` returned last, at time t; may be NULL. */
     void (*crossed)(double t, void *user);
     /* A step of s units, INFINITY for any, or as much of it as no part of f that is not seen where
      * it begins is stepped over in, by an expansion to order p; `least` units are the narrowest part
@@ -109,7 +109,7 @@ typedef struct {
      * it is found there, and kept until another one is entered. Entered twice in a row it is
      * the same solution, by its y. Failures as those of f. */
     qdot_status (*enter)(double t, const double *y, const double *carry, void *user);
-    /* Write them into y, from its others. QDOT_EDOMAIN where they are undefined. */
+    /* Compute the derived components of y from the others. QDOT_EDOMAIN if undefined. */
     qdot_status (*derive)(double t, double *y, void *user);
     void *user; /* borrowed */
 } qdot_ode_following;
@@ -135,7 +135,7 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_mass_form;
 
-/* Canonical momenta p of a system whose state is y = (q, q'). Failures as those of its f. */
+/* Conversion to canonical momenta p for a system with state y = (q, q'). Fails like the system's f. */
 typedef struct {
     qdot_status (*momenta)(double t, const double *q, const double *v, double *p, void *user);
     qdot_status (*velocity)(double t, const double *q, const double *p, double *v, void *user);
@@ -151,7 +151,7 @@ typedef struct {
     /* g [m] at (t, q); dg/dt [m] at (t, q, v) */
     qdot_status (*positions)(double t, const double *q, double *g, void *user);
     qdot_status (*velocities)(double t, const double *q, const double *v, double *w, void *user);
-    /* F [n] += A^T lambda */
+    /* Add the constraint forces: F [n] += A^T lambda. */
     qdot_status (*pull)(double t, const double *q, const double *lambda, double *F, void *user);
     /* S = A M^-1 A^T at (t, q), until the next call; with it nu [m] = S^-1 c [m], of least norm where
      * rows are redundant, and x [n] = M^-1 A^T nu: A x = c. c is lost. */
@@ -160,7 +160,7 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_bonds;
 
-/* A step that is about to be accepted, under a tolerance. */
+/* A step that is about to be accepted, with the tolerance. */
 typedef struct {
     double t, t_end, tol;
     const double *y, *y_end; /* [n] */
@@ -168,7 +168,7 @@ typedef struct {
     uint64_t evaluations; /* out: of f, about */
 } qdot_ode_look;
 
-/* A part of a system that knows nothing of its other parts. */
+/* A decoupled part of a system. */
 typedef struct {
     const struct qdot_ode_system *system; /* borrowed; without parts */
     const size_t *index;                  /* [system->n] its components in the whole */
@@ -185,17 +185,17 @@ typedef struct qdot_ode_system {
     size_t n; /* components, at least 1 */
     /* dydt [n] = f(t, y [n]) */
     qdot_status (*rhs)(double t, const double *y, double *dydt, void *user);
-    /* dfdy [n x n row-major] = df_i/dy_j, dfdt [n] = df/dt; NULL if there is none */
+    /* dfdy [n x n row-major] = df_i/dy_j, dfdt [n] = df/dt; NULL if not available */
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
     void *user; /* borrowed */
-    /* The same with M; NULL if there is no such form; borrowed */
+    /* The Jacobian of the form with M; NULL if there is none; borrowed */
     const qdot_ode_mass_form *mass_form;
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
     const qdot_ode_phase *phase; /* else, for these: its momenta; NULL: there are none; borrowed */
     const qdot_ode_bonds *bonds; /* what holds them; NULL: nothing does; borrowed */
-    /* Taylor coefficients; NULL if there are none; borrowed */
+    /* Taylor coefficients of the solution; NULL if not available; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing
      * of it: dydt is 0 there, and rows of coefficients hold its series, to the order below
@@ -217,14 +217,14 @@ typedef struct qdot_ode_system {
      * the whole (ode/apart.h). */
     const qdot_ode_part *parts;
     size_t n_parts;
-    /* The first orders of the series in two doubles; NULL if there are none; borrowed */
+    /* The first orders of the series in two doubles; NULL if not available; borrowed */
     const qdot_ode_leading *leading;
     /* [n] s_i, positive: errors of y_i are relative to max(s_i, |y_i|) (scale.h). NULL: all are 1;
      * borrowed */
     const double *scales;
 } qdot_ode_system;
 
-/* Statuses by which f says that it does not exist at a point. */
+/* Whether a status means that f is undefined at a point. */
 static inline bool
 qdot_ode_may_be_undefined(qdot_status status)
 {

@@ -1,4 +1,4 @@
-/* taylor-length.c -- the series at a point, and how long a step it allows. */
+/* taylor-length.c -- expands the series at a point, and finds how long a step it allows. */
 #include "ode/taylor.h"
 
 #include <float.h>
@@ -13,7 +13,7 @@ typedef qdot_ode_taylor_run run;
  * from which on it does so in any case. */
 static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
 
-/* The defect is computed in doubles, in which a stiff force has few digits. */
+/* The smallest relative defect used: it is computed in doubles, where a stiff force has few correct digits. */
 static const double least_held = 1e-14;
 
 /* log2 of the step in units: that of the radius which the upper half of the coefficients
@@ -33,7 +33,7 @@ log_step(run *r)
     return qdot_smaller(l, reach.lower);
 }
 
-/* The same from all coefficients: INFINITY if all are 0. */
+/* The step from all coefficients, not only the last ones: INFINITY if all are 0. */
 static double
 log_step_of_all(run *r)
 {
@@ -146,7 +146,7 @@ length_of_step(run *r, double most, double *h)
             if (r->series->near)
                 *h = near_length(r, *h);
             keep_off(r, h, most);
-            /* too small for a double: judge by what is; or a polynomial, of any step */
+            /* coefficients underflow: use those that do not; a polynomial allows any step */
             far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;

@@ -31,7 +31,7 @@ qdot_step_fall(double log_aim, int p)
     return fmax(0, 2.0 / 3 + log_aim / p);
 }
 
-/* log2 of the largest term, over the size of the state, whose rounding may count. */
+/* log2 of the largest term, relative to the state, whose rounding error may matter. */
 static inline double
 qdot_step_term(double log_aim)
 {

@@ -36,7 +36,7 @@ typedef struct {
     qdot_ode_written written;
     double t0, first_unit;
 
-    /* [n], with the room that qdot_series_step wants */
+    /* [n], with the work space that qdot_series_step needs */
     double *y, *carry;           /* the state now */
     double *least;               /* the scales of the system (scale.h) */
     double *scale;               /* 1/max(least, |y|) */

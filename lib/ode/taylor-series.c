@@ -1,14 +1,14 @@
-/* taylor-series.c -- the order of a run, and the series of one of its steps. */
+/* taylor-series.c -- the order of a run by Taylor series, and the series of each step. */
 #include "ode/taylor.h"
 
 #include "num/series.h"
 #include "ode/companion.h"
 #include "ode/taylor-numbers.h"
 
-/* Companions use orders above that of a run. */
+/* The lowest order; companions use orders above that of a run. */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
-/* From order 6 on: z to a tenth, below which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */
+/* For orders from 6 on: 10 z, where z bounds the region with |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */
 static const unsigned char stable[] = {
     5,   17,  33,  12,  14,  19,  33,  50,  26,  28,  35,  49,  65,  42,  45,
     51,  65,  81,  60,  62,  68,  81,  97,  112, 79,  85,  97,  113, 128, 97,

@@ -19,17 +19,17 @@ enum { ARRAYS = 10 };
 
 typedef qdot_ode_taylor_run run;
 
-/* A projection moves by its own rounding, whatever the tolerance. */
+/* A projection moves a state by about its own rounding error, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
 /* A defect that falls by less than this when the step is divided by 4 is noise, if it is less than
  * this of the state over the step. */
 static const double falls = 0.125, most_noise = 1e-5;
 
-/* So many steps taken back show that first orders in two doubles do not fit. */
+/* After this many steps undone, two doubles for the first orders are given up. */
 enum { taken_back = 100 };
 
-/* Tries at one place where f is undefined: a quarter each. */
+/* Attempts at a point where f is undefined, each with a quarter of the step. */
 static const int max_undefined = 60;
 
 /* --- the state from the series ------------------------------------------------------ */
@@ -46,7 +46,7 @@ advance_state(run *r, int order, double s)
     r->kernels->advance(&r->step);
 }
 
-/* Of the arrays as they are now. */
+/* Set the step's pointers to the present arrays. */
 static void
 aim_step(run *r)
 {
@@ -63,7 +63,7 @@ aim_step(run *r)
                                  .terms = r->terms};
 }
 
-/* Accept the step tried. */
+/* Accept the step just tried. */
 static void
 arrive(run *r)
 {
@@ -77,7 +77,7 @@ arrive(run *r)
     r->step.scale = r->next_scale;
 }
 
-/* Continue from a changed state. */
+/* Update the size and the scale of component i after a change of the state. */
 static void
 take_size(run *r, size_t i)
 {
@@ -126,7 +126,7 @@ confirms(const run *r, double h, double part, double old_held)
     return followers_agree(r, part * h, share);
 }
 
-/* That of the whole step, over its length. */
+/* The largest defect of a component at the end of the step, relative to its size, divided by |h|. */
 static double
 defect_of(const run *r, double h)
 {
@@ -164,7 +164,7 @@ confirms_inside(run *r, double h, bool *good)
     return status;
 }
 
-/* Project the state at the end of the step tried. */
+/* Project the state at the end of the step just tried onto the constraints. */
 static qdot_status
 taylor_project(run *r, double t_end, double *moved)
 {
@@ -183,7 +183,7 @@ taylor_project(run *r, double t_end, double *moved)
     return QDOT_OK;
 }
 
-/* Derive the components that are not integrated, at the end of the step. */
+/* Compute the components that are not integrated, at the end of the step. */
 static void
 take_followers(run *r)
 {
@@ -207,7 +207,7 @@ write_code(run *r, double t)
     return qdot_ode_written_next(&r->written, steps, steps * (r->t1 - t) / (t - r->t0));
 }
 
-/* The same by the first step, before it is taken. */
+/* Decide about machine code by the length of the first step, before it is taken. */
 static qdot_status
 judge_first(run *r, double most, double *h)
 {
@@ -222,7 +222,7 @@ judge_first(run *r, double most, double *h)
     return qdot_ode_taylor_run_length(r, most, h);
 }
 
-/* Replace that end by the one with the first orders in two doubles. */
+/* Replace the end of the step by that with the first orders in two doubles. */
 static qdot_status
 advance_in_two(run *r, double t_end)
 {
@@ -350,7 +350,7 @@ taylor_too_small(const run *r)
                      "what double precision can hold");
 }
 
-/* The step wanted, cut to end on a double, on t1 where that is near. */
+/* The end of a step of length h, rounded to a double, or t1 if that is near. */
 static double
 end_of_step(const run *r, double h)
 {
@@ -363,7 +363,7 @@ end_of_step(const run *r, double h)
     return r->direction * (r->t1 - end) > 0 ? end : r->t1;
 }
 
-/* One step from where the run is. */
+/* Make one step from the present state. */
 static qdot_status
 taylor_advance(run *r)
 {
@@ -398,7 +398,7 @@ taylor_advance(run *r)
             if (status == QDOT_OK && good)
                 return QDOT_OK;
         } else if (qdot_ode_may_be_undefined(status)) {
-            /* the point itself was good: only what is beyond it is not */
+            /* the point itself is defined; only points beyond it are not */
             h = fabs(r->unit);
         }
         if (status != QDOT_OK && !qdot_ode_may_be_undefined(status))
@@ -418,11 +418,11 @@ taylor_advance(run *r)
     }
 }
 
-/* The work since it was counted last. */
+/* Count the work since the last count. */
 static qdot_status
 taylor_count_work(run *r)
 {
-    /* what is rejected was begun once more */
+    /* a rejected step includes a second beginning */
     const uint64_t now = r->result->stats.evaluations + r->result->stats.rejected;
     const double work = (double)(now - r->counted) * r->work;
 
@@ -493,7 +493,7 @@ taylor_loop(run *r)
     return QDOT_OK;
 }
 
-/* What a run allocates. */
+/* List the arrays that a run allocates. */
 static void
 list_arrays(run *r, double ***arrays)
 {
@@ -579,7 +579,7 @@ taylor_release(run *r)
     qdot_ode_stiffness_clear(&r->stiffness);
 }
 
-/* Not yet begun. */
+/* A run that has not begun. */
 static run
 run_of(const qdot_ode_system *system, const qdot_ode_options *options, double t0, double t1,
        qdot_ode_result *result)

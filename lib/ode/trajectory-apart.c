@@ -1,9 +1,9 @@
-/* trajectory-apart.c -- trajectories of systems in parts: a track for each part. */
+/* trajectory-apart.c -- trajectories of systems with decoupled parts: a track for each part. */
 #include "base/memory.h"
 #include "ode/apart.h"
 #include "ode/trajectory.h"
 
-/* The points of the finest track, the others read there. */
+/* Make the points of the whole: those of the finest track, with the other tracks read there. */
 static qdot_status
 put_together(qdot_trajectory *tr, const qdot_ode_system *system)
 {
@@ -37,7 +37,7 @@ put_together(qdot_trajectory *tr, const qdot_ode_system *system)
     return status;
 }
 
-/* Integrate the track of part k as far as the whole goes so far. */
+/* Integrate the track of part k to the time that the earlier parts have reached. */
 static qdot_status
 run_track(qdot_trajectory *tr, size_t k, const qdot_ode_part *part,
           const qdot_ode_options *options, const double *y0, double *room)

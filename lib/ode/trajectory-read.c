@@ -1,4 +1,4 @@
-/* trajectory-read.c -- finds the points of a run, and steps from them. */
+/* trajectory-read.c -- finds stored points of a run, and computes states between them. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,7 @@ struct qdot_trajectory_cursor {
     bool known;          /* F was looked for, */
     bool second;         /* in that half, */
     bool good;           /* and found */
-    /* Of a run in parts: */
+    /* For a run in decoupled parts: */
     qdot_trajectory_cursor **tracks; /* [tr->n_tracks] */
     double *own;                     /* [n] a state of one */
 };
@@ -116,7 +116,7 @@ cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
     return open_stepper(c);
 }
 
-/* Open a cursor for each part, with the systems of the only piece. */
+/* Open a cursor for each decoupled part; such runs have a single piece. */
 static qdot_status
 open_tracks(qdot_trajectory_cursor *c)
 {
@@ -213,7 +213,7 @@ walk(qdot_trajectory_cursor *c, double t)
     }
 }
 
-/* From the series about the stored point. */
+/* Read the state from the series about the stored point. */
 static qdot_status
 read_series(qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -247,7 +247,7 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
     double ratio;
     qdot_status status;
 
-    /* where the error by the formula at hand is too large, the step was by another one */
+    /* if the error of this formula is too large, the step was made with another one */
     for (size_t k = 0; k < formulas; k++) {
         qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
         status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
@@ -264,7 +264,7 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
     return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ? QDOT_OK : status;
 }
 
-/* Read by the polynomial; afterwards c->good is false if there is none. */
+/* Read the state from the step's polynomial; c->good is false if it has none. */
 static qdot_status
 read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -282,7 +282,7 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* Derive the components that are not integrated, at the state read. */
+/* Compute the components that are not integrated, at the state read. */
 static qdot_status
 cursor_derive(const qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -366,7 +366,7 @@ read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* The state at t, which lies in the step from point k on or is that point. */
+/* The state at t, in the step from point k on or at that point. */
 static qdot_status
 read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
 {

@@ -15,7 +15,7 @@ static const size_t most_bytes = (size_t)2 << 30;
 enum { looks = 1 << 18 };
 static const double hopeless = 5e10;
 
-/* What `accepted` needs while a run is recorded. */
+/* State of the `accepted` callback that records a run. */
 typedef struct {
     qdot_trajectory *tr;
     const qdot_ode_options *options;
@@ -57,7 +57,7 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     *tr = (qdot_trajectory){0};
 }
 
-/* Initial size of arrays in doubles, so that short runs need not grow them every few steps. */
+/* Initial capacity of arrays in doubles, so that short runs rarely reallocate. */
 enum { first_room = 512 };
 
 static size_t
@@ -66,7 +66,7 @@ at_least(size_t wanted, size_t least)
     return wanted > least ? wanted : least;
 }
 
-/* Make space for one point more. */
+/* Reserve memory for one more point. */
 static qdot_status
 trajectory_make_room(qdot_trajectory *tr, double t)
 {
@@ -101,7 +101,7 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     return QDOT_OK;
 }
 
-/* The last point less its y; NULL: 0. */
+/* Store the low part of the last point; NULL: 0. */
 static qdot_status
 store_low(qdot_trajectory *tr, const double *low)
 {
@@ -115,7 +115,7 @@ store_low(qdot_trajectory *tr, const double *low)
     return QDOT_OK;
 }
 
-/* Stop a run that has made little progress in many steps before it reaches the limit of steps. */
+/* Stop a run that has made little progress in many steps, before it reaches the limit of steps. */
 static qdot_status
 recorder_foresee(const recorder *r, double t)
 {
@@ -206,7 +206,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
                        bool jumped, const qdot_ode_options *options, double t1,
                        const double *y0)
 {
-    /* `accepted` is ours from here on: whether theirs goes by parts has been decided */
+    /* from here on `accepted` is ours: whether parts are integrated separately was decided by the caller's */
     qdot_ode_options own = *options;
     qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
     recorder r = {.tr = tr,

@@ -119,7 +119,7 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, doub
 /* Evaluations of f by reading so far; 0 with series. */
 uint64_t qdot_trajectory_evaluations(const qdot_trajectory_cursor *c);
 
-/* The mode of the piece that the state just read belongs to. */
+/* The mode of the piece to which the state just read belongs. */
 size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 
 /* The series of the step that the last read was within, of the system *of; false: it was by none, or at
@@ -127,7 +127,7 @@ size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 bool qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system **of,
                               qdot_ode_expanded *step);
 
-/* The state of the piece at t, or at its end nearest to t. */
+/* The state of that piece at t, or at its end nearest to t. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);
 
@@ -138,7 +138,7 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_record_apart(qdot_trajectory *tr,
                                                          const qdot_ode_system *system,
                                                          const qdot_ode_options *options,
                                                          double t1, const double *y0);
-/* Append a point; read the state from the tracks alone. */
+/* Append a point; read the state from the tracks only. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,
@@ -155,22 +155,22 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_refine(qdot_trajectory *tr,
  * points is that component, s what t was. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_by_clock(qdot_trajectory *tr, size_t clock);
 
-/* Tell the cursor that the points have been changed. */
+/* Tell the cursor that stored points have been changed. */
 void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 
-/* The piece that stored point k belongs to. */
+/* The piece to which stored point k belongs. */
 size_t qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k);
 
 /* The method of the step from stored point k on. */
 const qdot_ode_method *qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k);
 
-/* The last point of a piece. */
+/* The index of the last point of a piece. */
 size_t qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece);
 
-/* Narrow the times *low ... *high to those that the run covers. */
+/* Restrict the times *low ... *high to those that the run covers. */
 void qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high);
 
-/* Whether it goes back in time. */
+/* Whether the run goes backwards in time. */
 static inline bool
 qdot_trajectory_is_backward(const qdot_trajectory *tr)
 {

@@ -1,4 +1,4 @@
-/* whole.c -- the loop: try, judge, take, choose the next step. */
+/* whole.c -- the loop of an integration: try a step, judge it, accept it, choose the next. */
 #include "ode/whole.h"
 
 #include <float.h>
@@ -27,7 +27,7 @@ static const double worthwhile = 1.2;
  * its steps have far to grow. */
 static const double most_change = 5, most_change_stiff = 25;
 
-/* Steps of so few least ones are bounded by the doubles of t, not by stability. */
+/* Steps of fewer than this many smallest steps are limited by the resolution of t, not by stability. */
 static const double coarse = 64;
 
 /* Tries at one place that fail because f is undefined: each divides the step by 4, so
@@ -109,7 +109,7 @@ first_step(run *r, double distance)
         s->trial[i] = s->y[i] + r->direction * h0 * s->dydt[i];
     if (qdot_ode_stepper_rhs(s, r->t + r->direction * h0, s->trial, s->trial_dydt) !=
         QDOT_OK) {
-        /* nothing is known beyond t: begin with h0, and let the steps find out */
+        /* f is undefined beyond t: begin with h0, the steps will show how far it goes */
         return QDOT_OK;
     }
     for (size_t i = 0; i < n; i++)
@@ -127,7 +127,7 @@ first_step(run *r, double distance)
     return QDOT_OK;
 }
 
-/* The time left to t1 + t1_low, exact near the end. */
+/* The time left to t1 + t1_low, computed exactly near the end. */
 static double
 remaining(const run *r)
 {
@@ -180,7 +180,7 @@ control(run *r, double h, double ratio, bool accepted)
     if (accepted && r->s->method->kernel && r->s->method->kernel->keeps_step && factor >= 1
         && factor < worthwhile)
         factor = 1;
-    /* a step cut short to land on t1 says nothing against the larger one */
+    /* a step shortened to end at t1 does not reduce the next one */
     r->h = accepted ? fmax(h * factor, h < r->h * (1 - 1e-9) ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
 
@@ -208,7 +208,7 @@ whole_undefined(run *r, double h, qdot_status status)
 static qdot_status
 whole_too_small(run *r)
 {
-    /* a place where f is undefined, and not passed yet, is the cause */
+    /* the cause is a point where f is undefined that has not been passed */
     if (r->direction * (r->undefined_at - r->t) >= 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
                          r->last_undefined.message);
@@ -245,7 +245,7 @@ crawls(run *r)
     return r->crawled >= most_crawled;
 }
 
-/* The error of the step tried is small enough: accept it, unless the caller objects. */
+/* The error of the step is small enough: accept it, unless the caller objects. */
 static qdot_status
 whole_accept(run *r, double h, double ratio, bool last, bool *stop)
 {
@@ -277,7 +277,7 @@ whole_accept(run *r, double h, double ratio, bool last, bool *stop)
     return QDOT_OK;
 }
 
-/* Whether the step tried goes over nothing that acts for less than it; else it is shortened. */
+/* Whether the step skips no force that acts for a shorter time; otherwise it is shortened. */
 static qdot_status
 whole_look(run *r, double h, double end, bool *clear)
 {
@@ -345,7 +345,7 @@ whole_advance(run *r, bool *stop)
     return r->h < floor_of_step(r) || crawls(r) ? whole_too_small(r) : QDOT_OK;
 }
 
-/* The work since it was counted last. */
+/* Count the work since the last count. */
 static qdot_status
 whole_count_work(run *r)
 {

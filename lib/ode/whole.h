@@ -1,4 +1,4 @@
-/* whole.h -- an integration by steps of all components together (integrate.h). For ode/ alone. */
+/* whole.h -- integrates all components together, step by step (integrate.h). For ode/ only. */
 #ifndef QDOT_ODE_WHOLE_H
 #define QDOT_ODE_WHOLE_H
 

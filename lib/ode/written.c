@@ -1,4 +1,4 @@
-/* written.c -- compare the estimated number of steps to come with the cost of generating code. */
+/* written.c -- decides when generating machine code pays, by the estimated number of remaining steps. */
 #include "ode/written.h"
 
 #include <math.h>

@@ -26,7 +26,8 @@ typedef struct {
     bool first;    /* no decision by the first step has been made yet */
 } qdot_ode_written;
 
-/* Begin a run whose expansions have order p; `most`: as in qdot_ode_written; past: steps of such runs before. */
+/* Begin a run whose expansions have order p; `most`: as in qdot_ode_written; past: steps of earlier
+ * such runs. */
 qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p, int most, double past);
 
 /* Generate the code now, whatever it costs. */
@@ -37,7 +38,7 @@ QDOT_MUST_CHECK qdot_status qdot_ode_written_now(qdot_ode_written *written);
 QDOT_MUST_CHECK qdot_status qdot_ode_written_first(qdot_ode_written *written, double left,
                                                    bool *again);
 
-/* Decide after `steps` steps, with about `left` to follow; before the next expansion begins. */
+/* Decide after `steps` steps, with about `left` to follow; call before the next expansion begins. */
 QDOT_MUST_CHECK qdot_status qdot_ode_written_next(qdot_ode_written *written, double steps,
                                                   double left);
 

@@ -1,4 +1,4 @@
-/* constant-steps.c -- integrates by steps of one length, which a trial finds. */
+/* constant-steps.c -- integrates by steps of constant length, found by a trial. */
 #include "ode/geometric/geometric.h"
 
 #include <float.h>
@@ -15,7 +15,7 @@
 
 enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16, most_undefined = 60 };
 
-/* The trial aims at this part of the tolerance; its shortest step times `safe` is taken. */
+/* The trial aims at this part of the tolerance; the step is its shortest one times `safe`. */
 static const double aim = 0.5, safe = 0.9, most_growth = 5;
 
 /* At a singular place the steps of the trial are so much shorter than others: this part of the longest
@@ -23,10 +23,10 @@ static const double aim = 0.5, safe = 0.9, most_growth = 5;
  * of a window is so much longer than that of the one before. */
 static const double singular = 1e4, of_longest = 0.1, growing = 1.1;
 
-/* If no more than this part of an interval is left, that is rounding of times, and no step is made for it. */
+/* A remainder of less than this part of an interval is rounding of times: no step is made for it. */
 static const double sliver = 1e-12;
 
-/* Differences of states below this, relative to max(1, |y_i|), are rounding. */
+/* Differences of states below this, relative to max(1, |y_i|), are rounding errors. */
 static const double rounding = 8 * DBL_EPSILON;
 
 typedef struct {
@@ -52,7 +52,7 @@ qdot_geometric_velocity(qdot_geometric *g, double t, const double *q, const doub
     return QDOT_OK;
 }
 
-/* The forces themselves. */
+/* Evaluate the forces themselves, without checks. */
 static qdot_status
 forces_evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *F)
 {
@@ -78,7 +78,7 @@ qdot_geometric_force(qdot_geometric *g, double t, const double *q, const double 
                : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
 }
 
-/* (q, q') of the state at t, into y [2n]. QDOT_EDOMAIN if it is not finite. */
+/* Write (q, q') of the state at t into y [2n]. QDOT_EDOMAIN if it is not finite. */
 static qdot_status
 write_state(qdot_geometric *g, double t, double *y)
 {
@@ -156,7 +156,7 @@ step_measure(run *r, double h, double *ratio)
     return QDOT_OK;
 }
 
-/* The factor by which the length of a step with that ratio is changed. */
+/* The factor by which the step is changed for an error ratio. */
 static double
 factor_of(const run *r, double ratio)
 {
@@ -165,7 +165,7 @@ factor_of(const run *r, double ratio)
     return fmin(most_growth, fmax(0.1, f));
 }
 
-/* A length to try first: what changes the state by a hundredth, at most all. */
+/* A step length to try first: one that changes the state by a hundredth, or the whole distance if shorter. */
 static qdot_status
 first_length(run *r, double distance)
 {
@@ -196,7 +196,7 @@ least_length(const run *r)
     return 16 * DBL_EPSILON * fmax(fabs(r->t), DBL_MIN / DBL_EPSILON);
 }
 
-/* The run ends at r->t, for the reason of the last error. */
+/* End the run at r->t, with the last error as reason. */
 static qdot_status
 stopped(const run *r)
 {
@@ -206,7 +206,7 @@ stopped(const run *r)
     return why.hint[0] ? qdot_hint("%s", why.hint) : QDOT_EFAILED;
 }
 
-/* The lengths of the trial. */
+/* The step lengths of the trial. */
 typedef struct {
     double first, shortest, longest;
     double now, before; /* the shortest of the window at hand, and of the one before */
@@ -235,7 +235,7 @@ goes_on(lengths *l, int k)
     return k < (l->grows ? most_trial : trial_steps);
 }
 
-/* Steps of varying lengths from the start, which these are noted of. */
+/* Make steps of variable length from the start, and record their lengths. */
 static qdot_status
 try_lengths(run *r, lengths *l)
 {
@@ -267,7 +267,7 @@ try_lengths(run *r, lengths *l)
     return QDOT_OK;
 }
 
-/* The length that the trial shows. */
+/* Choose the constant length from the lengths of the trial. */
 static void
 choose_length(run *r, const lengths *l)
 {
@@ -282,7 +282,7 @@ choose_length(run *r, const lengths *l)
     r->length = r->h < length ? length : 0;
 }
 
-/* Find the length by a trial, after which the state is that of the start. */
+/* Find the step length by a trial, after which the state is reset to the start. */
 static qdot_status
 find_step_length(run *r)
 {
@@ -295,7 +295,7 @@ find_step_length(run *r)
         memcpy(start, r->g.y, 4 * r->g.n * sizeof *start);
         status = try_lengths(r, &l);
     }
-    /* what ends the trial ends the run, there */
+    /* if the trial stops at an error so does the run, at the same time */
     if (qdot_ode_may_be_undefined(status))
         status = r->h > 0 ? QDOT_OK : stopped(r);
     if (start && status == QDOT_OK) {
@@ -349,7 +349,7 @@ step_accept(run *r, double h, bool last, bool *stop)
     return QDOT_OK;
 }
 
-/* A step of signed length h whose error nobody asks for. */
+/* Make a step of signed length h without estimating its error. */
 static qdot_status
 step_plainly(run *r, double h)
 {
@@ -364,7 +364,7 @@ step_plainly(run *r, double h)
     return status;
 }
 
-/* The step after one from near a singular place, until the length of the others is reached. */
+/* After a step shortened near a singularity: let steps grow back to the constant length. */
 static void
 step_grow(run *r, double h, double ratio)
 {
@@ -412,7 +412,7 @@ constant_steps_count_work(run *r)
     return qdot_ode_meter_add(r->options->meter, r->t, more);
 }
 
-/* Whether so many steps are allowed. */
+/* Fail if the run would take more steps than allowed. */
 static qdot_status
 step_check_length(const run *r)
 {
@@ -465,7 +465,7 @@ constant_steps_check(const run *r, double t0, const double *y)
     return qdot_ode_check_limits(r->g.system, t0, r->t1, y);
 }
 
-/* All arrays in one. */
+/* Allocate all arrays in one block. */
 static qdot_status
 constant_steps_allocate(run *r, double **all)
 {
@@ -488,7 +488,7 @@ constant_steps_allocate(run *r, double **all)
     return QDOT_OK;
 }
 
-/* Begin at y: with its momenta, if the system has such. */
+/* Begin at y, converted to momenta if the system has canonical ones. */
 static qdot_status
 constant_steps_begin_at(run *r, const double *y)
 {

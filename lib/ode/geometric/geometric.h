@@ -44,7 +44,7 @@ struct qdot_geometric_kernel {
     int stages;        /* of a method of collocation; else 0 */
     size_t rows, more; /* work space: rows of n doubles, and doubles */
     size_t of_bonds;   /* and doubles for each constraint; 0: it knows none */
-    /* Fill what g->work holds all along; NULL: nothing. */
+    /* Fill the constant part of g->work; NULL: there is none. */
     void (*begin)(qdot_geometric *g);
     /* Advance g->y + g->low from t by h; on a failure they are undefined. QDOT_EDOMAIN where an
      * iteration does not converge. */
@@ -63,10 +63,10 @@ struct qdot_geometric {
     uint64_t evaluations;
 };
 
-/* v [n] at (t, q, p). Failures as those of qdot_ode_system. */
+/* The velocity v [n] at (t, q, p). Fails like the functions of qdot_ode_system. */
 QDOT_MUST_CHECK qdot_status qdot_geometric_velocity(qdot_geometric *g, double t, const double *q,
                                                     const double *p, double *v);
-/* F [n] at (t, q, v). QDOT_EDOMAIN if it is not finite. */
+/* The force F [n] at (t, q, v). QDOT_EDOMAIN if it is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_geometric_force(qdot_geometric *g, double t, const double *q,
                                                  const double *v, double *F);
 
@@ -78,7 +78,7 @@ QDOT_MUST_CHECK qdot_status qdot_geometric_integrate(const qdot_ode_system *syst
                                                      double t1, double *y,
                                                      qdot_ode_result *result);
 
-/* The rows of method.h. */
+/* The kernels of geometric methods, for the table of method.h. */
 extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* splitting.c */
 extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12; /* gauss.c */
 extern const qdot_geometric_kernel qdot_variational; /* variational.c */

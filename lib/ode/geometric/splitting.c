@@ -39,7 +39,7 @@ advance_by_forces(size_t n, double *x, double *low, double a, double b, const do
         qdot_sum_advance_by(&x[i], &low[i], a * d[i], b * d[i]);
 }
 
-/* Stages of these lengths, the middle one longer by `rest`; work: F at the state. */
+/* Stages with these lengths, the middle one longer by `rest`; work: F at the state. */
 static qdot_status
 splitting_stages(qdot_geometric *g, double t, int stages, const double *length, double rest)
 {

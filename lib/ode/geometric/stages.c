@@ -1,4 +1,4 @@
-/* stages.c -- coefficients of a method of stages, its first guess, its iteration. */
+/* stages.c -- implicit stages of a collocation method: coefficients, first guess, iteration. */
 #include "ode/geometric/stages.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 enum { most_iterations = 60, least_iterations = 3 };
 
-/* Where changes stop to fall above this, relative to the positions, the iteration does not converge. */
+/* The iteration does not converge if changes stop decreasing above this, relative to the positions. */
 static const double converged = 1e-10;
 
 /* A coordinate that is nothing but rounding of the others never settles: below this fraction of its scale

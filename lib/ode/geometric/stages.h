@@ -16,7 +16,7 @@
 #include "num/sum.h"
 #include "ode/geometric/geometric.h"
 
-/* Work space, the first of that of a kernel. */
+/* Work space of the stages, the first part of a kernel's. */
 typedef struct {
     size_t s, n;
     double *a, *b, *c, *ahead; /* [2 x s x s], [2 x s], [s], [s x s] L_j(1 + c_i) */
@@ -25,13 +25,13 @@ typedef struct {
     double *rest;              /* what follows */
 } qdot_stages;
 
-/* How much it is, in rows of n doubles and in doubles. */
+/* The size of the work space: in rows of n doubles, and in further doubles. */
 #define QDOT_STAGES_ROWS(s) (3 * (s) + 1)
 #define QDOT_STAGES_MORE(s) (3 * (s) * (s) + 3 * (s))
 
 qdot_stages qdot_stages_of(const qdot_geometric *g);
 
-/* a, b, c, ahead */
+/* Fill the coefficients a, b, c, ahead. */
 void qdot_stages_begin(const qdot_stages *w, const qdot_collocation *m);
 
 /* F and W to begin with, and X of these: from the polynomials of the step before, where it had the

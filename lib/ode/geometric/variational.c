@@ -31,7 +31,8 @@
 #include "num/lu.h"
 #include "ode/geometric/stages.h"
 
-/* Places; how often changes may not fall: multipliers and positions correct each other. */
+/* The number of nodes; how many times changes may fail to decrease, as multipliers and positions
+ * correct each other. */
 enum { stages = 6, patience = 2 };
 
 /* Work space after that of stages.h; m constraints. */
@@ -127,7 +128,7 @@ stage_add_reactions(const qdot_geometric *g, const step_state *w, double t, size
     return w->m ? bonds->pull(t, w->at.X + i * w->at.n, lambda, F, bonds->user) : QDOT_OK;
 }
 
-/* The multipliers from what is missing in the constraints at stages 2 .. s, which are moved there. */
+/* Compute multipliers from the constraint residuals at stages 2 .. s, and move these onto the constraints. */
 static qdot_status
 correct(const qdot_geometric *g, const step_state *w, double t, double h)
 {
@@ -152,7 +153,7 @@ correct(const qdot_geometric *g, const step_state *w, double t, double h)
     return QDOT_OK;
 }
 
-/* G [s - 1] */
+/* Compute the total forces G [s - 1], with constraint reactions. */
 static qdot_status
 add_pulls(const qdot_geometric *g, const step_state *w, double t, double h)
 {
