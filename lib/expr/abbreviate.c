@@ -1,4 +1,4 @@
-/* abbreviate.c -- names for the parts that an expression repeats. */
+/* abbreviate.c -- finds the parts that an expression repeats, and names them. */
 #include "expr/abbreviate.h"
 
 #include <stdio.h>

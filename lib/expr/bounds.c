@@ -1,9 +1,9 @@
-/* bounds.c -- the sign of a sum by the bounds of its terms, in exact numbers. */
+/* bounds.c -- the sign of a sum from rational bounds of its terms. */
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
 
-/* One bound of a value: a rational, where there is one; `open`: not reached. */
+/* One bound of a value: a rational if known; `open`: the value does not reach it. */
 struct bound {
     fmpq x;
     bool known, open;
@@ -17,7 +17,8 @@ set(struct bound *b, int64_t n, int64_t d, bool open)
     b->open = open;
 }
 
-/* A declared bound: a rational, or a rational times pi by a fraction beyond it. `up`: an upper one. */
+/* A declared bound as a rational; a multiple of pi is replaced by a rational slightly beyond it.
+ * `up`: an upper bound. */
 static void
 bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
 {
@@ -43,7 +44,8 @@ bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bo
     }
 }
 
-/* An end of a function's values; of a multiple of pi a fraction beyond it. `up`: the upper one. */
+/* An end of a function's range; a multiple of pi is replaced by a rational slightly beyond it.
+ * `up`: the upper end. */
 static void
 bound_end(const qdot_fun_end *end, bool up, struct bound *b)
 {
@@ -57,7 +59,7 @@ bound_end(const qdot_fun_end *end, bool up, struct bound *b)
         set(b, 333 * end->number, 212, true);
 }
 
-/* Of a function of real arguments, whatever these are. */
+/* The bounds of a function's values for any real arguments. */
 static void
 of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
 {
@@ -101,7 +103,8 @@ bound_square(struct bound *b, const struct bound *end)
     b->open = end->open;
 }
 
-/* Of s^2, s a symbol within bounds: of two of opposite signs the larger square is the upper one. */
+/* The bounds of s^2 for a symbol s with bounds: if these have opposite signs the larger square is
+ * the upper bound. */
 static void
 of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct bound *hi)
 {
@@ -134,7 +137,7 @@ of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct 
     fmpq_clear(&most.x);
 }
 
-/* Of a term without its coefficient. */
+/* The bounds of a term without its coefficient. */
 static void
 of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
 {
@@ -196,7 +199,7 @@ shorten(struct bound *b, bool up)
     b->open = true;
 }
 
-/* sum <- sum + c b, where both are known; an upper bound where `up`. */
+/* sum <- sum + c b if both are known; an upper bound if `up`. */
 static void
 bound_add(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
 {

@@ -30,7 +30,7 @@ qdot_expr qdot_vector(qdot_pool *pool, uint32_t n, const qdot_expr *components);
 qdot_expr qdot_matrix(qdot_pool *pool, uint32_t rows, uint32_t columns,
                       const qdot_expr *entries);
 qdot_expr qdot_list(qdot_pool *pool, uint32_t n, const qdot_expr *members);
-/* The same kind and op with other args, canonical again. */
+/* The node with the same kind and op but other args, made canonical. */
 qdot_expr qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args);
 
 #endif

@@ -11,7 +11,7 @@
 
 /* --- derivations --------------------------------------------------------------------------- */
 
-/* `of` is 0 on symbols that neither are among `holds` nor touch `touches`. */
+/* A derivation: `of` is 0 on symbols that are neither among `holds` nor touch `touches`. */
 typedef struct {
     qdot_pool *pool;
     const qdot_walk *w;
@@ -52,7 +52,7 @@ derive_sum(derivation *d, qdot_expr e)
     }
 }
 
-/* Leibniz: d(b^x) = x b^(x-1) db + b^x log(b) dx, the other factors beside it. */
+/* The product rule: d(b^x) = x b^(x-1) db + b^x log(b) dx, times the other factors. */
 static void
 derive_product(derivation *d, qdot_expr e)
 {
@@ -101,7 +101,7 @@ derive_ufun(derivation *d, qdot_expr e)
     }
 }
 
-/* if(condition, yes, no); a factor where the other one is 0. */
+/* if(condition, yes, no); if one branch is 0, the other times a factor 1 or 0. */
 static qdot_expr
 choice(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
 {
@@ -331,7 +331,7 @@ replacement(qdot_pool *pool, qdot_expr node, void *user)
     return QDOT_NIL;
 }
 
-/* Many replacements: found by bisection. */
+/* Look a node up among many sorted replacements by bisection. */
 static qdot_expr
 replacement_sorted(qdot_pool *pool, qdot_expr node, void *user)
 {

@@ -28,7 +28,7 @@ qdot_expr qdot_expand(qdot_pool *pool, qdot_expr e);
 /* e as a sum over powers of x (a symbol or any node): expanded in x only. */
 qdot_expr qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x);
 
-/* Coefficient of x^n in e, e polynomial in x: collected first. QDOT_EDOMAIN if it is not. */
+/* Coefficient of x^n in e, a polynomial in x, after collecting powers. QDOT_EDOMAIN if e is none. */
 qdot_expr qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n);
 
 /* Whether e holds floor, mod, sign or `if` of something that moves with one of `holds`

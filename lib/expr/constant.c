@@ -24,7 +24,7 @@ qdot_constant_is(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & ~(QDOT_HAS_FUN | 1u << QDOT_CONST)) == 0;
 }
 
-/* The application's function at its declared arguments, whatever it is applied to here. */
+/* Append the function as declared, x(s, t), whatever arguments it is applied to here. */
 static void
 add_function(const qdot_pool *pool, qdot_expr e, qdot_text *text)
 {
@@ -68,7 +68,7 @@ qdot_constant_unset(const qdot_pool *pool, qdot_expr e)
     return QDOT_EUNSET;
 }
 
-/* Whether `set` can give it a value. */
+/* Whether the statement `set` can give e a value. */
 static bool
 is_settable(const qdot_pool *pool, qdot_expr e)
 {
@@ -76,7 +76,7 @@ is_settable(const qdot_pool *pool, qdot_expr e)
            qdot_expr_is_class(pool, e, QDOT_MOMENTUM);
 }
 
-/* One function at different arguments. */
+/* Whether both are applications of one function, perhaps to different arguments. */
 static bool
 is_same_function(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -262,7 +262,7 @@ ball_of(const evaluation *v, qdot_expr e)
     return v->ball + qdot_walk_index(&v->walk, e);
 }
 
-/* What has no value in all of the expression. */
+/* Fail with a list of all symbols in the expression that have no value. */
 static qdot_status
 refuse_unset(const evaluation *v)
 {
@@ -347,7 +347,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
     return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
 }
 
-/* The side of `value` on which the ball lies; 0 if the ball contains it. */
+/* The side of `value` on which the ball lies, -1 or 1; 0 if the ball contains it. */
 static int
 ball_side_of(const arb_t ball, double value)
 {
@@ -364,7 +364,7 @@ ball_side_of(const arb_t ball, double value)
     return side;
 }
 
-/* Whether every number of the ball rounds to one double, *value. */
+/* Whether all numbers of the ball round to the same double, *value. */
 static bool
 decided(const arb_t ball, double *value)
 {
@@ -384,7 +384,7 @@ decided(const arb_t ball, double *value)
     return a == b;
 }
 
-/* Say why `e`, whose last ball is not a number's, has no value. */
+/* Fail with the reason why `e`, whose ball is not finite, has no value. */
 static qdot_status
 no_value(const qdot_pool *pool, qdot_expr e, const char *why)
 {
@@ -434,7 +434,7 @@ constant_evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *
     y = ball_of(v, e);
     if (!arb_is_finite(y))
         return no_value(v->pool, e, "is undefined or not real");
-    /* Between two doubles to 4096 bits, or a jump that is met exactly. */
+    /* the value lies between two doubles to 4096 bits, or exactly at a jump */
     *value = arf_get_d(arb_midref(y), ARF_RND_NEAR) + 0.0;
     if (arb_rel_accuracy_bits(y) < 60)
         return no_value(v->pool, e, "could not be decided in 4096 bits");
@@ -509,7 +509,7 @@ qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, doub
     return status;
 }
 
-/* Whether the ball is known to `bits`, or is 0 to many more. */
+/* Whether the ball has a relative accuracy of `bits`, or is 0 to many more bits. */
 static bool
 ball_is_known(const arb_t ball, slong bits)
 {

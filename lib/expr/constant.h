@@ -16,11 +16,11 @@ bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
  * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
 QDOT_MUST_CHECK qdot_status qdot_constant_double(qdot_pool *pool, qdot_expr e, double *value);
 
-/* The same, and *side, the sign of the exact value less *value: -1, 0 or 1. */
+/* The same; *side is the sign of the exact value minus *value: -1, 0 or 1. */
 QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side);
 
-/* The same, and *low: e = *value + *low to about twice the precision. */
+/* The same; *low: e = *value + *low to about twice the precision. */
 QDOT_MUST_CHECK qdot_status qdot_constant_split(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side, double *low);
 
@@ -32,7 +32,7 @@ QDOT_MUST_CHECK qdot_status qdot_constant_real(qdot_pool *pool, qdot_expr e, mpf
 /* x as an exact rational number; nil: not finite, or a failure of the pool. */
 qdot_expr qdot_constant_of_real(qdot_pool *pool, mpfr_srcptr x);
 
-/* Fail with QDOT_EUNSET for the symbol or application `e` that has no value. */
+/* Fail with QDOT_EUNSET for the symbol or function application `e` that has no value. */
 qdot_status qdot_constant_unset(const qdot_pool *pool, qdot_expr e);
 /* The same for all parameters, momenta and applications among e [n] at once; for the first where it
  * is something else. QDOT_OK: n is 0. */

@@ -32,7 +32,7 @@ is_truth(const qdot_pool *pool, qdot_expr e)
            NODE(pool, e)->kind == QDOT_LOGIC;
 }
 
-/* An equation between numbers is an equation still, but among and, or, not it is true or false. */
+/* An equation between numbers as an operand of and, or, not: true or false. */
 static qdot_expr
 decided(const qdot_pool *pool, qdot_expr e)
 {

@@ -96,7 +96,7 @@ sine_of_twelfths(qdot_pool *pool, long k)
     }
 }
 
-/* sin(k pi/12), any k. */
+/* sin(k pi/12) for any integer k. */
 static qdot_expr
 sine_at(qdot_pool *pool, long k)
 {
@@ -106,7 +106,7 @@ sine_at(qdot_pool *pool, long k)
     return sine_of_twelfths(pool, k <= 6 ? k : 12 - k);
 }
 
-/* a/b, b one of the values above; their sums are never divided by. */
+/* a/b, where b is one of the values above; sums among them are never divisors. */
 static qdot_expr
 quotient_of_values(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 {
@@ -165,7 +165,7 @@ shifted(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
     return rows[row][quarters].sign < 0 ? qdot_neg(pool, e) : e;
 }
 
-/* f(-x) by f(x). */
+/* f(x) with a leading minus of x taken out by parity. */
 static qdot_expr
 without_pi(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
@@ -348,7 +348,7 @@ absolute(qdot_pool *pool, qdot_expr x)
     return e;
 }
 
-/* A product without its factors that are positive. */
+/* A product without its positive factors. */
 static qdot_expr
 without_positive(qdot_pool *pool, qdot_expr x)
 {

@@ -7,7 +7,7 @@
 
 #include "expr/function.h"
 
-/* Traits of a function of one real argument f; of atan2 QDOT_FUN_ARC alone. */
+/* Traits of a function f of one real argument; atan2 only has QDOT_FUN_ARC. */
 enum {
     QDOT_FUN_ODD = 1,      /* f(-x) = -f(x) */
     QDOT_FUN_EVEN = 2,     /* f(-x) = f(x) */
@@ -19,7 +19,7 @@ enum {
     QDOT_FUN_POLE = 128    /* grows beyond all bounds at a finite place */
 };
 
-/* An end of the values of a function: number, or number pi/2 where `angle`. */
+/* An end of the range of a function: number, or number pi/2 if `angle`. */
 typedef struct {
     bool known; /* there is one */
     bool open;  /* it is no value itself */
@@ -36,19 +36,19 @@ typedef struct {
     qdot_fun_id inverse; /* x = inverse(v) solves f(x) = v, of an even f also -x; QDOT_FUNCTION_KINDS: none */
 } qdot_fun_facts;
 
-/* What is known of a function; of `hold` nothing but its name and its one argument. */
+/* What is known of a function; of `hold` only its name and that it has one argument. */
 const qdot_fun_facts *qdot_fun_facts_of(qdot_fun_id id);
 
-/* All its values are between *lo and *hi, doubles next to the ends of its row; infinite: there is no end. */
+/* *lo, *hi: doubles just outside the ends of the range of the function; infinite if it has no end. */
 void qdot_fun_ends(qdot_fun_id id, double *lo, double *hi);
 
 /* Whether a function has all of the traits. */
 bool qdot_fun_is(qdot_fun_id id, unsigned traits);
 
-/* Whether e is a function that has all of the traits. */
+/* Whether e is a function with all of these traits. */
 bool qdot_expr_is_function_that(const qdot_pool *pool, qdot_expr e, unsigned traits);
 
-/* Whether e is that function of something. */
+/* Whether e is an application of that function. */
 bool qdot_expr_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id);
 
 /* The first node of e, children before parents, that is one of the functions ids [n] and holds x (nil: any). Nil: there

@@ -9,9 +9,9 @@
 
 #include "expr/id.h"
 
-/* The rational of a NUM; NULL for any other kind. It stays where it is as long as the pool. */
+/* The rational value of a NUM; NULL for any other kind. It stays valid as long as the pool. */
 const fmpq *qdot_expr_rational(const qdot_pool *pool, qdot_expr e);
-/* Whether e is an integer that fits; *value it. */
+/* Whether e is an integer that fits a long; *value is the integer. */
 bool qdot_expr_to_int(const qdot_pool *pool, qdot_expr e, long *value);
 
 qdot_expr qdot_expr_int(qdot_pool *pool, long n);
@@ -19,7 +19,7 @@ qdot_expr qdot_expr_ratio(qdot_pool *pool, long n, long d);
 qdot_expr qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x);
 /* "9.81" is 981/100, "1e-3" is 1/1000; more than 10^6 digits: QDOT_ELIMIT. */
 qdot_expr qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length);
-/* The rational that a finite double is. */
+/* The rational that equals a finite double exactly. */
 qdot_expr qdot_expr_of_double(qdot_pool *pool, double x);
 
 #endif

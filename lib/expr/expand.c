@@ -1,4 +1,4 @@
-/* expand.c -- products over sums multiplied out; powers of one symbol collected. */
+/* expand.c -- multiplies out products of sums; collects powers of one symbol. */
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -32,7 +32,7 @@ expand_term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
     return qdot_mul(pool, ARGS(pool, e)[2 + 2 * i], ARGS(pool, e)[1 + 2 * i]);
 }
 
-/* a b, both expanded, expanded. */
+/* The expanded product of two expanded expressions. */
 static qdot_expr
 multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 {
@@ -89,7 +89,7 @@ distribute(qdot_pool *pool, qdot_expr e, uint64_t *work)
                : multiply_expanded(pool, ARGS(pool, e)[0], rest, work);
 }
 
-/* A product of parts that are expanded already. */
+/* The expanded form of a product whose factors have been expanded. */
 static qdot_expr
 expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w, uint64_t *work)
 {
@@ -163,7 +163,7 @@ struct group {
 
 typedef qdot_vec(struct group) groups;
 
-/* term = coefficient * x^k: the power of x in it, and the rest. */
+/* Split a term into coefficient * x^k: *power is x^k, the result the coefficient. */
 static qdot_expr
 split_power(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *power)
 {
@@ -242,7 +242,7 @@ qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x)
     return qdot_value_map(pool, e, collect_scalar, &x);
 }
 
-/* Whether power is x^n, n = 0, 1, 2 ... (ONE: n = 0). */
+/* Whether power is x^n with n = 0, 1, 2 ... (ONE: n = 0). */
 static bool
 is_whole_power(const qdot_pool *pool, qdot_expr power, qdot_expr x)
 {

@@ -1,4 +1,4 @@
-/* expr.h -- all of expressions, for who wants all: tests. Within lib/ each file includes the parts that it uses. */
+/* expr.h -- all of expr/ at once, for tests. Within lib/ each file includes the parts that it uses. */
 #ifndef QDOT_EXPR_EXPR_H
 #define QDOT_EXPR_EXPR_H
 

@@ -8,10 +8,11 @@
 #include "expr/function.h"
 #include "num/arb.h"
 
-/* y encloses f(x) for every x of the ball, rounded to `bits`; y may be x. sign of a ball that holds 0 is [-1, 1]. */
+/* y encloses f(x) for every x of the ball, rounded to `bits`; y may be x. The sign of a ball that
+ * contains 0 is [-1, 1]. */
 typedef void qdot_fun_ball(arb_t y, const arb_t x, slong bits);
 
-/* The function in balls; NULL: it takes several arguments. */
+/* The function in ball arithmetic; NULL if it takes several arguments. */
 qdot_fun_ball *qdot_fun_ball_of(qdot_fun_id id);
 
 #endif

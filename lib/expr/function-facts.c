@@ -1,4 +1,4 @@
-/* function-facts.c -- the rows of function.def: names of the elementary functions, what is known of each. */
+/* function-facts.c -- the rows of function.def: the names of the elementary functions and their properties. */
 #include "expr/elementary.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ qdot_fun_facts_of(qdot_fun_id id)
     return table + id;
 }
 
-/* k pi/2 rounded towards 0 by M_PI_2, so the next double outward is beyond it. */
+/* An end as a double: k M_PI_2 is less than k pi/2 in magnitude, so the next double outward lies beyond it. */
 static double
 fun_end(const qdot_fun_end *end, double none)
 {

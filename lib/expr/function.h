@@ -24,7 +24,7 @@ qdot_expr qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x);
  * two terms, so that a + b is computed once, and exp(-hold(log(a))) an exponential. For a
  * number, a symbol or another function: e itself. Only in equations for numerical runs. */
 qdot_expr qdot_hold(qdot_pool *pool, qdot_expr e);
-/* By name: false if there is none. */
+/* Find a function by its name; false if there is none. */
 bool qdot_fun_find(const char *name, qdot_fun_id *id);
 const char *qdot_fun_name(qdot_fun_id id);
 

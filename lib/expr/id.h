@@ -43,7 +43,7 @@ typedef enum {
     QDOT_LIST     /* args: members, 0 or more */
 } qdot_kind;
 
-/* Always the same ids. */
+/* Nodes with fixed ids. */
 #define QDOT_ZERO 1u
 #define QDOT_ONE 2u
 #define QDOT_MINUS_ONE 3u
@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_pool_check(qdot_pool *pool);
 /* Record a failure in the pool (the thread's last error); returns nil. */
 qdot_expr qdot_pool_fail(qdot_pool *pool);
 
-/* Whether a failure is pending: for loops that want to stop early. */
+/* Whether a failure is pending, so that a loop can stop early. */
 bool qdot_pool_failed(const qdot_pool *pool);
 
 /* Allow at most `work` further constructor calls (a node of n args counts 1 + n/16), then

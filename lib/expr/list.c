@@ -1,4 +1,4 @@
-/* list.c -- a list and more members. */
+/* list.c -- appends members to a list. */
 #include "expr/list.h"
 
 #include "base/memory.h"

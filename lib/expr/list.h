@@ -7,7 +7,7 @@
 
 #include "expr/id.h"
 
-/* The members of the list (nil: none), then more [n]. On failure nil, and the pool has failed. */
+/* A list with the members of `list` (nil: none), then more [n]. On failure nil, and the pool has failed. */
 qdot_expr qdot_list_appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *more);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "expr/id.h"
 
-/* What is known of a sign; a set. Zero is QDOT_GE0 | QDOT_LE0. */
+/* A set of bits that tell what is known of a sign. Zero is QDOT_GE0 | QDOT_LE0. */
 enum { QDOT_GE0 = 1, QDOT_LE0 = 2, QDOT_NE0 = 4 };
 #define QDOT_POS (QDOT_GE0 | QDOT_NE0)
 #define QDOT_NEG (QDOT_LE0 | QDOT_NE0)
@@ -27,7 +27,7 @@ typedef struct {
 } qdot_node;
 
 const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
-/* The bits QDOT_GE0, QDOT_LE0, QDOT_NE0 that its node knows of e; nil: 0. */
+/* What the node of e knows of its sign, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; nil: 0. */
 uint8_t qdot_expr_sign(const qdot_pool *pool, qdot_expr e);
 /* The args [n]; valid until the next constructor call. */
 const qdot_expr *qdot_expr_args(const qdot_pool *pool, qdot_expr e);
@@ -36,7 +36,7 @@ qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);
 uint32_t qdot_expr_count(const qdot_pool *pool, qdot_expr e);
 
 bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* NUM ... UFUN, no words */
-/* Total, structural order, the same on every machine: <0, 0, >0. The order of factors. */
+/* The canonical order of factors: total, structural, the same on every machine; returns <0, 0, >0. */
 int qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 
 /* Whether a minus sign would be printed in front. */

@@ -43,7 +43,7 @@ qdot_expr_int(qdot_pool *pool, long n)
                      : qdot_expr_ratio(pool, n, 1);
 }
 
-/* digits * 10^exponent where that is a quotient of words; false: it is not. */
+/* digits * 10^exponent if it is a quotient of machine words; false if not. */
 static bool
 small_decimal(qdot_pool *pool, const char *digits, size_t n, long exponent, qdot_expr *e)
 {

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Where a factor stands in a product: parameters, time, coordinates, velocities ... */
+/* The rank of a factor in a product: parameters, time, coordinates, velocities ... */
 static int
 level(uint32_t holds)
 {
@@ -26,7 +26,7 @@ level(uint32_t holds)
                                        QDOT_HAS_MULTIPLIER | QDOT_HAS_ACCELERATION |
                                        QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM;
 
-    /* coordinates and parameters are the most: the rows above them first, as one */
+    /* test coordinates and parameters, the most frequent, before the rows above them */
     for (size_t i = holds & above_coordinates ? 0 : 6; i < sizeof rows / sizeof *rows;
          i++)
         if (holds & rows[i].mask)
@@ -74,7 +74,7 @@ compare_symbols(const qdot_symbol *a, const qdot_symbol *b)
     return three(a->order, b->order);
 }
 
-/* What is deeper than anyone writes stands last, the deepest at the end. */
+/* The height of a node if it exceeds 64, else 64: very deep nodes come last, the deepest at the end. */
 static uint32_t
 deep(const qdot_node *node)
 {
@@ -144,7 +144,7 @@ factors(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e)->kind == QDOT_PROD ? (NODE(pool, e)->n - 1) / 2 : 1;
 }
 
-/* A root of a sum: among terms it stands behind symbols, a + d - sqrt(...). */
+/* Whether base^exponent is a root of a sum: among terms it comes after symbols, a + d - sqrt(...). */
 static bool
 is_root_of_sum(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
 {

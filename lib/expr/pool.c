@@ -123,7 +123,7 @@ rehash(qdot_pool *pool)
     return QDOT_OK;
 }
 
-/* Append a node and enter it in the table. */
+/* Append a node and enter it in the hash table. */
 static qdot_expr
 pool_append(qdot_pool *pool, const qdot_node *node)
 {
@@ -159,7 +159,7 @@ qdot_pool_interrupted(qdot_pool *pool)
     return true;
 }
 
-/* Whether work may go on: counts the budget (a node of many args as several), looks for Ctrl-C. */
+/* Whether to continue: counts against the budget (more for a node with many args), and tests for Ctrl-C. */
 static bool
 may_work(qdot_pool *pool, uint32_t args)
 {
@@ -264,7 +264,7 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
     return true;
 }
 
-/* Room in the pool's own memory, which never moves; NULL where there is none. */
+/* Memory of the pool itself, which never moves; NULL if there is none. */
 static void *
 pool_room(qdot_pool *pool, size_t bytes)
 {
@@ -432,7 +432,7 @@ qdot_symbol_is_known(const qdot_pool *pool, const char *name)
     return qdot_symbol_is_declared(pool, name) || has_symbol(pool, QDOT_FORMAL, name);
 }
 
-/* A symbol that belongs to a coordinate: its name by a pattern round the coordinate's. */
+/* A symbol that belongs to a coordinate, named by the coordinate's name between two texts. */
 static qdot_expr
 symbol_about(qdot_pool *pool, qdot_class class, qdot_expr coordinate, uint32_t order,
              const char *before, const char *after)

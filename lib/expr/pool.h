@@ -1,4 +1,4 @@
-/* pool.h -- the members of a pool, and functions that only the files of expr/ use. */
+/* pool.h -- the fields of a pool, and functions for the files of expr/ only. */
 #ifndef QDOT_EXPR_POOL_H
 #define QDOT_EXPR_POOL_H
 
@@ -29,23 +29,23 @@ struct qdot_pool {
     uint32_t domains;             /* how often the domain of a symbol changed */
 };
 
-/* The node with these args, made if new; args may lie in the pool. Nil on failure. */
+/* The node with these args, created if new; args may point into the pool. Nil on failure. */
 qdot_expr qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
                            const qdot_expr *args, uint8_t sign);
-/* Record `status` with its message and return nil. */
+/* Record the failure `status` with its message, and return nil. */
 qdot_expr qdot_pool_refuse(qdot_pool *pool, qdot_status status, const char *format, ...)
     QDOT_PRINTF(3, 4);
 
 /* Order of terms in a sum: accelerations, velocities ... first, then as a book sorts. */
 int qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 
-/* e without its coefficient, and *c that coefficient, of any scalar. */
+/* e without its numerical coefficient; and for any scalar also the coefficient c. */
 qdot_expr qdot_expr_strip(qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_unscale(qdot_pool *pool, qdot_expr e, fmpq_t c);
 
-/* -1 times a SUM with every coefficient negated, so that -(a - b) is b - a. */
+/* -1 times a SUM, with every coefficient negated, so that -(a - b) becomes b - a. */
 qdot_expr qdot_sum_turned(qdot_pool *pool, qdot_expr sum);
-/* Whether e as a factor combines only with factors of the same base. */
+/* Whether e as a factor only combines with factors of the same base. */
 bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
 
 /* A difference among the factors of e that can take a minus sign before them: -m*(a - b) is
@@ -65,7 +65,7 @@ bool qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n
 bool qdot_number_root(qdot_pool *pool, const fmpq_t b, const fmpq_t e, fmpq_t c,
                       qdot_expr *base, qdot_expr *exponent);
 
-/* Sign of a product or sum from its canonical args. */
+/* The sign of a product or sum, from its canonical args. */
 uint8_t qdot_sign_of_product(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 /* Sign of a sum from the exact bounds of its terms (bounds.c): 2 - cos u > 0, cosh v - cos u
@@ -73,11 +73,11 @@ uint8_t qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *arg
 uint8_t qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *args);
 
-/* d f(args) / d args[i]. */
+/* The partial derivative d f(args) / d args[i]. */
 qdot_expr qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n,
                               const qdot_expr *args, uint32_t i);
 
-/* Operations in the node e from those of its children, at most QDOT_SIZE_LARGE. */
+/* The operations in node e, from those of its children, at most QDOT_SIZE_LARGE. */
 uint32_t qdot_size_kept(const qdot_pool *pool, qdot_expr e);
 
 struct qdot_walk;
@@ -87,7 +87,7 @@ QDOT_MUST_CHECK qdot_status qdot_walk_begin_where(const qdot_pool *pool, qdot_ex
                                                   uint32_t holds, uint32_t touches,
                                                   struct qdot_walk *w);
 
-/* As qdot_walk_map, into those nodes only: the others stay as they are. */
+/* As qdot_walk_map, but only nodes with these properties are visited; others stay unchanged. */
 qdot_expr qdot_walk_map_where(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
                               qdot_expr (*leaf)(qdot_pool *pool, qdot_expr node, void *user),
                               void *user);
@@ -105,7 +105,7 @@ bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
 #define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))
 #define RATIONAL(pool, e) ((const fmpq *)(pool)->numbers.at[(pool)->nodes.at[e].at])
-/* qdot_expr_rational, qdot_pool_failed without a call */
+/* qdot_expr_rational and qdot_pool_failed as macros */
 #define NUMBER(pool, e)                                                                  \
     ((e) != QDOT_NIL && NODE(pool, e)->kind == QDOT_NUM ? RATIONAL(pool, e) : NULL)
 #define FAILED(pool) ((pool)->error.status != QDOT_OK)

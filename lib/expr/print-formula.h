@@ -8,7 +8,7 @@
 #include "expr/print-name.h"
 #include "formula/formula.h"
 
-/* The notation that a style is written from. */
+/* The formula notation in which a style is written. */
 qdot_notation_kind qdot_print_notation(qdot_style style);
 
 /* Append e as a child of the parent; `in` a LIST of symbols if it is a series in them, else nil. Errors: QDOT_EINVAL

@@ -46,7 +46,7 @@ qdot_print_function(printer *p, qdot_expr e, int context)
 
 /* --- undefined functions ------------------------------------------------------------------------ */
 
-/* (s, t): the arguments, or the declared ones. */
+/* Print the arguments (s, t) of an application, or the declared ones. */
 static void
 print_arguments(printer *p, qdot_expr e, bool declared)
 {
@@ -67,7 +67,7 @@ derivative_order(const qdot_pool *pool, qdot_expr e, uint32_t i)
     return (uint32_t)order;
 }
 
-/* subs(diff(x(s, t), s, 2), s = a), the shortest text that parses back. */
+/* Print subs(diff(x(s, t), s, 2), s = a), the shortest text that parses back. */
 static void
 derivative_plain(printer *p, qdot_expr e, bool moved)
 {
@@ -106,7 +106,7 @@ derivative_plain(printer *p, qdot_expr e, bool moved)
     qdot_print_text(p, ")");
 }
 
-/* The order of a derivative above `sign`, or else above e: ∂², s². */
+/* Print the order of a derivative as a superscript of `sign`, or of e: ∂², s². */
 static void
 with_order(printer *p, qdot_formula_sign sign, qdot_expr e, uint32_t order)
 {
@@ -123,7 +123,7 @@ with_order(printer *p, qdot_formula_sign sign, qdot_expr e, uint32_t order)
     p->at = outer;
 }
 
-/* ∂²x/∂s ∂t, where that is drawn; at other arguments these behind it. */
+/* Print ∂²x/∂s ∂t, drawn if possible; other arguments than the declared ones follow. */
 static void
 derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int context)
 {

@@ -1,4 +1,4 @@
-/* print-name.h -- styles, names alone, how numbers are printed. */
+/* print-name.h -- output styles, and printing of single names and numbers. */
 #ifndef QDOT_EXPR_PRINT_NAME_H
 #define QDOT_EXPR_PRINT_NAME_H
 
@@ -7,10 +7,10 @@
 #include "base/text.h"
 #include "expr/id.h"
 
-/* print.h says what they are. */
+/* The output styles; described in print.h. */
 typedef enum { QDOT_PLAIN, QDOT_UNICODE, QDOT_LATEX, QDOT_MATHML } qdot_style;
 
-/* A name alone (a label, a family member) in that style: theta1 is θ₁. */
+/* Append a name (a label, a family member) in that style: theta1 becomes θ₁. */
 void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_text *out);
 
 /* Whether e is a symbol that stands for a number of a run, such as `0.25#3`: what is behind # keeps it apart from

@@ -17,7 +17,7 @@ static const struct {
     {1, 6, "⅙"}, {5, 6, "⅚"}, {1, 8, "⅛"}, {3, 8, "⅜"}, {5, 8, "⅝"}, {7, 8, "⅞"},
 };
 
-/* The sign for |x|, NULL if there is none. */
+/* The character for the fraction |x|, such as ½; NULL if there is none. */
 static const char *
 glyph(const fmpq_t x)
 {
@@ -34,10 +34,10 @@ struct decimal {
     ulong factor, times, places;
 };
 
-/* The most digits of a decimal number that are longer than its fraction. */
+/* A decimal number longer than its fraction is written only up to this many digits. */
 enum { LONGEST_DECIMAL = 40 };
 
-/* How often q holds 5 and 2, taken out of it. Small ones do not ask for FLINT, which is loaded late. */
+/* The exponents of 5 and 2 in q; whether nothing else is left. Small q avoid FLINT, which is loaded late. */
 static bool
 fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
 {
@@ -66,7 +66,7 @@ fives_and_twos(const fmpz_t q, ulong *fives, ulong *twos)
     return all;
 }
 
-/* How many digits n has, or one more. */
+/* The number of digits of n, or one more. */
 static size_t
 count_digits(const fmpz_t n)
 {
@@ -79,7 +79,7 @@ count_digits(const fmpz_t n)
     return count;
 }
 
-/* Whether x = p/q is written so: q holds a factor 5 and beside it 2 alone. */
+/* Whether x = p/q is written as a decimal: q has a factor 5 and otherwise only factors 2. */
 static bool
 as_decimal(const fmpq_t x, struct decimal *d)
 {
@@ -147,10 +147,10 @@ integer(const fmpz_t n, qdot_text *out)
         qdot_free(digits);
 }
 
-/* Zeros behind the point before a power of ten is written. */
+/* With more zeros after the point than this a power of ten is written. */
 enum { MOST_ZEROS = 3 };
 
-/* The digits of |n| factor^times. */
+/* Append the digits of |n| factor^times. */
 static void
 decimal_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
 {
@@ -198,7 +198,7 @@ line_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text *
         qdot_text_format(out, "e-%lu", places - n + 1);
 }
 
-/* The same drawn: 6.67 10^-11. */
+/* Append a decimal number as a drawn formula: 6.67 10^-11. */
 static void
 drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small)
 {
@@ -220,7 +220,7 @@ drawn_decimal(printer *p, const char *digits, size_t n, ulong places, bool small
     qdot_formula_add_tail(f, row, QDOT_TEXT_NUMBER, from);
 }
 
-/* x as a decimal number, with its sign; bracket as of qdot_print_number. */
+/* Print x as a decimal number with its sign; bracket as for qdot_print_number. */
 static void
 print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
 {
@@ -256,7 +256,7 @@ print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
     p->at = outer;
 }
 
-/* The digits of |n|. */
+/* Append the digits of |n|. */
 static void
 print_size(printer *p, const fmpz_t n)
 {

@@ -1,4 +1,4 @@
-/* print-parts.h -- inside the printers: what is still to be opened, and the node that it goes to. */
+/* print-parts.h -- internal to the printers: parts still to be printed, and the nodes to which they belong. */
 #ifndef QDOT_EXPR_PRINT_PARTS_H
 #define QDOT_EXPR_PRINT_PARTS_H
 
@@ -8,10 +8,10 @@
 #include "expr/print-name.h"
 #include "formula/formula.h"
 
-/* How tightly the context of a part binds: decides whether it needs brackets. */
+/* The precedence of the context of a part, which decides whether it needs brackets. */
 enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3 };
 
-/* An expression in its context; `coefficient` not nil: times it (a NUM). */
+/* An expression to print in its context, multiplied by `coefficient` (a NUM) unless that is nil. */
 struct part {
     qdot_expr e, coefficient;
     int context;
@@ -31,7 +31,7 @@ typedef struct {
     qdot_status status;
 } printer;
 
-/* Whether e has the difference that keeps its sign as its denominator. */
+/* Whether the denominator of e is the difference whose sign must be kept. */
 static inline bool
 is_over_below(const printer *p, qdot_expr e)
 {
@@ -43,7 +43,7 @@ is_over_below(const printer *p, qdot_expr e)
     return false;
 }
 
-/* The difference among the factors of e that takes a minus sign before them (pool.h). */
+/* The difference among the factors of e into which a minus sign can be absorbed (pool.h). */
 static inline qdot_expr
 turnable(const printer *p, qdot_expr e)
 {
@@ -58,7 +58,8 @@ is_drawn(const printer *p)
     return p->notation == QDOT_NOTATION_DRAWN;
 }
 
-/* x is the next child: a number or a name at once, else an empty node that is opened later. (print.c) */
+/* Append x as the next child: numbers and names at once, otherwise an empty node to be filled
+ * later. (print.c) */
 void qdot_print_part(printer *p, struct part x);
 
 static inline void
@@ -73,10 +74,10 @@ print_sign(printer *p, qdot_formula_sign sign)
     qdot_formula_add_sign(p->out, p->at, sign);
 }
 
-/* A text as it stands, of a script or a line. */
+/* Append text unchanged, in a script or a line. */
 void qdot_print_text(printer *p, const char *text);
 
-/* A new child, to which children are appended from here on, until p->at is set to what is returned. */
+/* Begin a child to which further children are appended, until p->at is set back to the returned value. */
 static inline qdot_formula_id
 print_begin(printer *p, qdot_formula_kind kind, unsigned what, unsigned flags)
 {
@@ -86,21 +87,21 @@ print_begin(printer *p, qdot_formula_kind kind, unsigned what, unsigned flags)
     return outer;
 }
 
-/* Round brackets, if they are needed. */
+/* Begin round brackets if they are needed. */
 static inline qdot_formula_id
 print_begin_bracket(printer *p, bool needed)
 {
     return needed ? print_begin(p, QDOT_FORMULA_BRACKET, QDOT_BRACKET_ROUND, 0) : p->at;
 }
 
-/* What is one child of several: a row where that is drawn. */
+/* Begin one of several children: a row in drawn formulas. */
 static inline qdot_formula_id
 print_begin_row(printer *p)
 {
     return print_begin(p, is_drawn(p) ? QDOT_FORMULA_ROW : QDOT_FORMULA_SPAN, 0, 0);
 }
 
-/* The same for what has one child only, which needs no node in a line. */
+/* Begin an only child, which needs no node of its own in a line. */
 static inline qdot_formula_id
 print_begin_one(printer *p)
 {
@@ -117,7 +118,7 @@ children(printer *p, qdot_expr e, uint32_t from, uint32_t to)
     }
 }
 
-/* A name that is no symbol, that of a function. (print-symbol.c) */
+/* Print a name that belongs to no symbol, such as a function's. (print-symbol.c) */
 void qdot_print_spelled(printer *p, const char *name);
 void qdot_print_symbol_parts(printer *p, qdot_expr e);
 /* p/q; bracket 1: a negative number in brackets, 2: a fraction too. (print-number.c) */

@@ -18,7 +18,7 @@ struct root {
     fmpq_t c, number; /* what stands before the whole, and under the root */
 };
 
-/* Whether b^e stands below the fraction bar. */
+/* Whether b^e belongs in the denominator. */
 static bool
 below(const qdot_pool *pool, qdot_expr e)
 {
@@ -30,7 +30,7 @@ below(const qdot_pool *pool, qdot_expr e)
 
 /* --- powers ----------------------------------------------------------------------------------- */
 
-/* The size of a number that is no node. */
+/* Print |n/d| for integers that are no nodes. */
 static void
 say_number(printer *p, const fmpz_t n, const fmpz_t d)
 {
@@ -44,7 +44,7 @@ say_number(printer *p, const fmpz_t n, const fmpz_t d)
     fmpq_clear(x);
 }
 
-/* A number as an exponent, in LaTeX with a slash: r^{1/3}; size: without its sign. */
+/* Print a number as an exponent, in LaTeX with a slash: r^{1/3}; size: its absolute value. */
 static void
 number_exponent(printer *p, const fmpq *x, bool size)
 {
@@ -73,7 +73,7 @@ number_exponent(printer *p, const fmpq *x, bool size)
     fmpq_clear(c);
 }
 
-/* The exponent, negated where it stands below; without brackets in a line if it is bare. */
+/* Print the exponent, negated in a denominator; in a line a bare one gets no brackets. */
 static void
 exponent_part(printer *p, qdot_expr e, bool turned, bool bare)
 {
@@ -106,7 +106,7 @@ exponent_is_integer(const qdot_pool *pool, qdot_expr e, bool turned)
     return x != NULL && fmpz_is_one(fmpq_denref(x)) && (qdot_rational_sgn(x) > 0 || turned);
 }
 
-/* An exponent, its sign turned where it stands below. */
+/* Print an exponent, with its sign reversed in a denominator. */
 static void
 print_exponent(printer *p, qdot_expr e, bool turned)
 {
@@ -135,7 +135,7 @@ is_circular(const qdot_pool *pool, qdot_expr e)
     return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op <= QDOT_COT;
 }
 
-/* sin(x)^2 as sin²(x). */
+/* Print sin(x)^2 as sin²(x). */
 static void
 power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
 {
@@ -167,7 +167,7 @@ exponent_is_even(const fmpq *x)
     return x != NULL && fmpz_is_one(fmpq_denref(x)) && fmpz_is_even(fmpq_numref(x));
 }
 
-/* What √ may stand before without brackets. */
+/* Whether e can follow √ without brackets. */
 static bool
 is_bare(const qdot_pool *pool, qdot_expr e)
 {
@@ -218,7 +218,7 @@ print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool 
 
 /* --- one root ----------------------------------------------------------------------------------- */
 
-/* Whether b^x, x half an odd number, comes out of a root of a product by itself. */
+/* Whether b^x, x half an odd number, is taken out of a root of a product by the constructors. */
 static bool
 comes_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
@@ -229,7 +229,7 @@ comes_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
            (NODE(pool, b)->sign & QDOT_GE0);
 }
 
-/* What may stay under it: one such factor, as it is. */
+/* Whether a factor stays under a root when a product is read back: one factor of unknown sign. */
 static bool
 stays(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
@@ -325,7 +325,7 @@ under_root(printer *p, qdot_expr b, qdot_expr x, int context)
     p->at = outer;
 }
 
-/* One side of the fraction under the root. */
+/* Print the numerator or denominator of the fraction under the root. */
 static void
 root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t count,
           bool fraction)
@@ -387,7 +387,7 @@ open_root(printer *p, qdot_expr e, const struct root *r)
 
 /* --- products --------------------------------------------------------------------------------- */
 
-/* How many of the factors stand below (or above) the bar, the root as one. */
+/* The number of factors in the denominator (or numerator), with the root as one. */
 static uint32_t
 count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool down)
 {
@@ -401,7 +401,7 @@ count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool dow
     return count;
 }
 
-/* What joins a number to the factor b^e after it. */
+/* The sign between a number and the factor b^e after it. */
 static qdot_formula_sign
 joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
@@ -488,7 +488,8 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     bool fraction = !decimal && !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, &r, false),
              down = count_factors(pool, e, &r, true);
-    /* the number's denominator: 1/2*m/r, but 1/(2*r) where nothing else stands above, h/(2*pi) */
+    /* where the number's denominator goes: 1/2*m/r, but 1/(2*r) if the numerator is otherwise
+     * empty, and h/(2*pi) */
     bool inside = fraction && down > 0 && (up == 0 || drawn || has_pi_below(pool, e));
     bool number = up == 0 || decimal || !fmpz_is_pm1(fmpq_numref(x)) ||
                   (fraction && !inside);

@@ -82,7 +82,7 @@ qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_
 
 /* --- symbols ---------------------------------------------------------------------------------- */
 
-/* Where the digits end in the name of a symbol that stands for a number; NULL: it stands for none. */
+/* The end of the digits in the name of a symbol that represents a number; NULL for other symbols. */
 static const char *
 number_end(const qdot_symbol *s)
 {
@@ -126,7 +126,7 @@ number_name(printer *p, const char *name, size_t length)
     p->at = outer;
 }
 
-/* A symbol about a coordinate: p with the coordinate below, dq, delta q. */
+/* Print a symbol derived from a coordinate: p with the coordinate as index, dq, delta q. */
 static void
 about_coordinate(printer *p, const qdot_symbol *s, const char *name)
 {

@@ -176,7 +176,7 @@ arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
     return count;
 }
 
-/* The degree of b^x in the symbols: b one of them or a sum that holds one, x a whole number. */
+/* The degree of b^x in the expansion symbols: b one of them or a sum that contains one, x an integer. */
 static long
 degree_of_power(const printer *p, qdot_expr b, qdot_expr x)
 {
@@ -204,7 +204,7 @@ degree(const printer *p, qdot_expr term)
     return sum;
 }
 
-/* The terms by their degree, in each degree as they stand. */
+/* Sort the terms by their degree, and keep their order within a degree. */
 static uint32_t
 arrange_by_degree(const printer *p, qdot_expr e, uint32_t *order)
 {
@@ -254,7 +254,7 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
 
 /* --- conditions, vectors, matrices, lists --------------------------------------------------------- */
 
-/* A number stands on the right: x > 0. */
+/* Print a relation with a number on the right: x > 0. */
 static void
 open_relation(printer *p, qdot_expr e, int context)
 {
@@ -272,7 +272,7 @@ open_relation(printer *p, qdot_expr e, int context)
     p->at = outer;
 }
 
-/* Whether an operand of `and`, `or`, `not` needs its brackets: `not` binds tightest. */
+/* Whether an operand of `and`, `or`, `not` needs brackets: `not` binds tightest. */
 static bool
 is_bracketed(const qdot_pool *pool, uint16_t op, qdot_expr part)
 {
@@ -300,7 +300,7 @@ open_logic(printer *p, qdot_expr e, int context)
     p->at = outer;
 }
 
-/* (a, b); of equations (a, b) = (c, d), where it stands alone. */
+/* Print a vector (a, b); a vector of equations by itself as (a, b) = (c, d). */
 static void
 open_vector(printer *p, qdot_expr e, int context)
 {
@@ -399,14 +399,14 @@ qdot_print_text(printer *p, const char *text)
     qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NAME, text, strlen(text));
 }
 
-/* What the nodes of x depend on beside the expression. */
+/* What the printed form of x depends on, apart from the expression. */
 static uint32_t
 how(const printer *p, const struct part *x)
 {
     return (uint32_t)(x->context - NUMERATOR) << 3 | (uint32_t)p->notation << 1 | x->turned;
 }
 
-/* Sums, functions, names share their children with where they stand already. */
+/* Print x; a sum, function or name that was printed before shares the children of its node. */
 static void
 open_part(printer *p, struct part x)
 {
@@ -446,7 +446,7 @@ qdot_print_part(printer *p, struct part x)
     }
 }
 
-/* The difference below an entry of a matrix; nil: there is none. */
+/* The difference in the denominator of a matrix entry; nil if there is none. */
 static qdot_expr
 difference_below(const qdot_pool *pool, qdot_expr e)
 {

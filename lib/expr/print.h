@@ -10,7 +10,7 @@
 
 #include "expr/print-name.h"
 
-/* Append e. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Append e as text in that style. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
                                        qdot_text *out);
 

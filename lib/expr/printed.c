@@ -1,4 +1,4 @@
-/* printed.c -- nodes of expressions in the formula that is being made. */
+/* printed.c -- remembers the formula nodes of expressions, so that repeated parts are shared. */
 #include "expr/printed.h"
 
 #include "base/memory.h"

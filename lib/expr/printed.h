@@ -15,19 +15,19 @@ typedef struct qdot_printed qdot_printed;
 qdot_printed *qdot_printed_new(void); /* NULL: no memory */
 void qdot_printed_free(qdot_printed *printed);
 
-/* Forget all nodes: what an expression says has changed. */
+/* Forget all nodes, because expressions now print differently. */
 void qdot_printed_forget(qdot_printed *printed);
 
-/* The formula for what becomes text; what stands in it stays while it is small. */
+/* The formula used for text output; its nodes are kept while it is small. */
 qdot_formula *qdot_printed_formula(qdot_printed *printed);
 
-/* From here on nodes are those of `formula`: those of another one are forgotten. */
+/* Remember nodes of `formula` from now on; those of another formula are forgotten. */
 void qdot_printed_begin(qdot_printed *printed, qdot_formula *formula);
 
-/* The node of e; 0: none is known. */
+/* The node in which e was printed before; 0 if none is known. */
 qdot_formula_id qdot_printed_find(const qdot_printed *printed, qdot_expr e, uint32_t how);
 
-/* Keep it. Errors: QDOT_ENOMEM. */
+/* Remember the node of e. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_printed_keep(qdot_printed *printed, qdot_expr e, uint32_t how, qdot_formula_id id);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <flint/fmpz.h>
 
-/* settled: canonical as it stands (its base alone; another pair may have the same). */
+/* A factor base^exponent. settled: it is canonical by itself, though another pair may have the same base. */
 struct pair {
     qdot_expr base, exponent;
     bool settled;
@@ -204,7 +204,7 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
 
 /* --- the canonical form ------------------------------------------------------------------ */
 
-/* The pairs of a PROD but the one whose base is at `without` (0: all). */
+/* Append the pairs of a PROD, except the one whose base has the index `without` (0: all). */
 static void
 take_pairs(struct product *p, qdot_expr e, uint32_t without)
 {
@@ -274,7 +274,7 @@ product_sort(struct product *p, bool ids)
     }
 }
 
-/* exp(a)^i exp(b)^j ... is one exp. Returns whether there was something to do. */
+/* Merge exp(a)^i exp(b)^j ... to one exp. Returns whether there was something to do. */
 static bool
 merge_exponentials(struct product *p)
 {
@@ -316,7 +316,7 @@ is_number_root(const qdot_pool *pool, const struct pair *x)
            NODE(pool, x->exponent)->kind == QDOT_NUM;
 }
 
-/* Roots of numbers under one exponent are one root: sqrt(2)*sqrt(6) is 2*sqrt(3). */
+/* Merge roots of numbers with the same exponent: sqrt(2)*sqrt(6) is 2*sqrt(3). */
 static bool
 merge_roots(struct product *p)
 {
@@ -367,7 +367,7 @@ merge_turned(struct product *p)
     return false;
 }
 
-/* Whether sign(u) stands among the factors; it is taken out. */
+/* Whether sign(u) is among the factors; if so it is removed. */
 static bool
 takes_sign(struct product *p, size_t n, qdot_expr u)
 {
@@ -416,7 +416,7 @@ round_of_merging(struct product *p)
         if (x.exponent == QDOT_ZERO)
             continue;
         if (base->kind == QDOT_PROD && is_integer(pool, x.exponent)) {
-            /* the list is rebuilt behind the part not looked at yet */
+            /* the list is rebuilt after the part not yet processed */
             qdot_expr e = x.base;
             fmpq_t y;
 
@@ -455,7 +455,7 @@ round_of_merging(struct product *p)
             again = true;
         } else if (base->kind == QDOT_SUM && is_integer(pool, x.exponent) &&
                    qdot_expr_is_negative(pool, x.base)) {
-            /* (b - a)^n by (a - b)^n, so that the two meet */
+            /* replace (b - a)^n by (a - b)^n with a sign, so that both forms combine */
             p->n = n;
             product_push(p, qdot_sum_turned(pool, x.base), x.exponent);
             n = p->n;
@@ -507,7 +507,7 @@ all_plain(const struct product *p)
     return p->n <= 16;
 }
 
-/* Plain pairs into their order, equal bases together. The factors of each product come sorted. */
+/* Sort the pairs, and combine equal bases. The factors of each product are already sorted. */
 static void
 product_gather(struct product *p)
 {
@@ -534,7 +534,7 @@ product_gather(struct product *p)
     p->n = kept;
 }
 
-/* Whether the list may hold something that is not canonical yet. */
+/* Whether the list may contain something that is not canonical yet. */
 static bool
 unsettled(const struct product *p)
 {

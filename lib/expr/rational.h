@@ -16,7 +16,7 @@
 
 #include <flint/fmpq.h>
 
-/* Small: up to 2^30, so that products of two and their sums fit into FLINT's small integers. */
+/* Numbers up to 2^30 are small: products of two, and their sums, fit into FLINT's small integers. */
 #define QDOT_SMALL (INT64_C(1) << 30)
 
 static inline bool
@@ -89,7 +89,7 @@ qdot_rational_addmul(fmpq *y, const fmpq *a, const fmpq *b)
     _fmpz_demote(&product.den);
 }
 
-/* The largest number of which both are integer multiples; 0 for two zeros. */
+/* The largest y of which a and b are both integer multiples; 0 for two zeros. */
 static inline void
 qdot_rational_gcd(fmpq *y, const fmpq *a, const fmpq *b)
 {

@@ -1,4 +1,4 @@
-/* root.c -- numbers with exponents: exact powers, and roots with all that is exact taken out. */
+/* root.c -- rational powers of numbers: exact values, and roots with exact factors taken out. */
 #include "expr/exact.h"
 #include "expr/pool.h"
 
@@ -45,7 +45,7 @@ qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
     return true;
 }
 
-/* n = outside^q * inside, n > 0, inside free of q-th powers of the primes that were found. */
+/* n = outside^q * inside, n > 0, where inside contains no q-th powers of the primes found. */
 static void
 extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
 {

@@ -1,4 +1,4 @@
-/* scale.c -- numbers times expressions, and the products and powers that need no merging. */
+/* scale.c -- multiplies expressions by numbers; products and powers that need no merging. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -40,7 +40,7 @@ qdot_sum_turned(qdot_pool *pool, qdot_expr sum)
     return e;
 }
 
-/* c times e, c a NUM: the same pairs. */
+/* c times e, c a NUM: the pairs stay the same. */
 static qdot_expr
 multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
 {
@@ -130,7 +130,7 @@ qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e)
            (node->kind == QDOT_FUN && node->op != QDOT_EXP && node->op != QDOT_ABS);
 }
 
-/* Whether b^x is an odd power of a sum that may be turned: its sign is not known. */
+/* Whether b^x is an odd power of a sum of unknown sign, whose sign may be reversed. */
 static bool
 is_free(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {

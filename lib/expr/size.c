@@ -1,4 +1,4 @@
-/* size.c -- operations in an expression: kept with each node as far as 32 bits tell it. */
+/* size.c -- the number of operations in an expression, stored in each node up to 32 bits. */
 #include "base/memory.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -10,7 +10,7 @@ plus(uint64_t a, uint64_t b)
     return a > UINT64_MAX - b ? UINT64_MAX : a + b;
 }
 
-/* That of a child: as the walk found it, or without a walk as its node keeps it. */
+/* The size of a child: from the walk, or (without a walk) from its node. */
 static uint64_t
 child_size(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
 {
@@ -53,7 +53,7 @@ static uint64_t
 size_of_sum(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 {
     const qdot_expr *args = ARGS(pool, e);
-    /* a term's minus is the operator that joins it, if one without it can stand first */
+    /* the minus of a term counts as the operator that joins it, if a term without minus can come first */
     uint64_t size = leading_minus(pool, e);
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {

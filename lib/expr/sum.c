@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A coefficient is a NUM of the pool where it is one already, else the rational c. */
+/* A term with its coefficient: a NUM of the pool (id) if it exists, otherwise the rational c. */
 struct term {
     qdot_expr term, id;
     fmpq c;
@@ -61,7 +61,7 @@ term_coefficient(const struct sum *s, const struct term *t)
     return t->id != QDOT_NIL ? RATIONAL(s->pool, t->id) : &t->c;
 }
 
-/* Append a * b * term, a and b NUMs, term without a coefficient of its own. */
+/* Append a * b * term; a and b are NUMs, term has no coefficient of its own. */
 static void
 sum_push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
 {
@@ -150,7 +150,7 @@ ordered(const struct sum *s, const struct term *a, const struct term *b)
     return a->term == b->term || qdot_expr_compare_terms(s->pool, a->term, b->term) < 0;
 }
 
-/* Like neighbours together, zeros out. */
+/* Combine equal neighbouring terms, and drop zeros. */
 static void
 sum_merge(struct sum *s)
 {
@@ -179,7 +179,7 @@ sum_merge(struct sum *s)
     s->n = kept;
 }
 
-/* The sorted runs a ... b and b ... c of `from` as one in `to`. */
+/* Merge the sorted runs a ... b and b ... c of `from` into `to`. */
 static void
 merge_runs(const struct sum *s, const struct term *from, size_t a, size_t b, size_t c,
            struct term *to)
@@ -191,7 +191,7 @@ merge_runs(const struct sum *s, const struct term *from, size_t a, size_t b, siz
             k == c || (i < b && ordered(s, &from[i], &from[k])) ? from[i++] : from[k++];
 }
 
-/* The canonical order, by merging the runs that are there: sums come sorted. */
+/* Sort the terms by merging existing runs, as the terms of sums are already sorted. */
 static void
 sort_runs(struct sum *s, uint32_t *start, size_t runs)
 {
@@ -308,7 +308,7 @@ sum_finish(struct sum *s)
 
 /* --- the constructors ----------------------------------------------------------------------- */
 
-/* Whether every e is a number; else the pool keeps why not. */
+/* Whether every e is scalar; if not the pool keeps the failure. */
 static bool
 scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
 {
@@ -345,7 +345,7 @@ sum_combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *term
                : c == NULL ? terms[only]
                            : qdot_mul(pool, c[only], terms[only]);
     sum_begin(&s, pool);
-    /* numbers that grow without end make no nodes, which would look for Ctrl-C */
+    /* sums of numbers make no nodes, so Ctrl-C is tested here */
     for (size_t i = 0; i < n && !s.failed && !qdot_pool_interrupted(pool); i++)
         sum_add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
     e = sum_finish(&s);

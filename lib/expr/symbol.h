@@ -7,7 +7,7 @@
 
 #include "expr/id.h"
 
-/* Classes of symbols; the order is the order in which factors are printed. */
+/* Classes of symbols, in the order in which factors are printed. */
 typedef enum {
     QDOT_CONST,        /* pi, true, false */
     QDOT_PARAM,        /* a parameter */
@@ -21,7 +21,7 @@ typedef enum {
     QDOT_WORDS         /* a text, what latex(e) gives: its name as it stands; no number */
 } qdot_class;
 
-/* What an expression contains; a set, in qdot_node.holds (node.h). */
+/* What an expression contains, as a set of bits in qdot_node.holds (node.h). */
 enum {
     QDOT_HAS_PARAM = 1 << QDOT_PARAM,
     QDOT_HAS_FORMAL = 1 << QDOT_FORMAL,
@@ -56,7 +56,7 @@ qdot_expr qdot_symbol_get(qdot_pool *pool, qdot_class class, const char *name);
 /* Hide x from its name: qdot_symbol_get will make a new symbol, about which nothing is known.
  * Expressions with x stay as they are; one expression must not contain both symbols. */
 void qdot_symbol_hide(qdot_pool *pool, qdot_expr x);
-/* Give x its name back; another symbol of that name is hidden. */
+/* Make x known under its name again; another symbol of that name is hidden. */
 void qdot_symbol_show(qdot_pool *pool, qdot_expr x);
 /* Whether a parameter, coordinate, formal argument or multiplier has that name. */
 bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
@@ -83,7 +83,7 @@ typedef struct {
     qdot_expr formals; /* a LIST of the declared arguments, symbols */
 } qdot_ufun;
 
-/* Declare x(formals); the same name twice with the same formals is the same function. */
+/* Declare x(formals); the same name with the same formals again is the same function. */
 QDOT_MUST_CHECK qdot_status qdot_ufun_declare(qdot_pool *pool, const char *name,
                                               uint32_t arity, const qdot_expr *formals,
                                               uint32_t *id);

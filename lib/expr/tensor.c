@@ -20,7 +20,7 @@ name_of_kind(const qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* A buffer for the parts of a new value. */
+/* A buffer for the components of a new value. */
 typedef struct {
     qdot_expr few[32], *at;
 } parts;
@@ -55,7 +55,7 @@ same_shape(const qdot_pool *pool, qdot_expr a, qdot_expr b)
     return x->kind == y->kind && x->n == y->n && (x->kind != QDOT_MAT || x->op == y->op);
 }
 
-/* f on every part of a (the parts of b beside them, or b itself where it is a scalar). */
+/* f of every component of a, with the components of b (pairwise) or with a scalar b. */
 static qdot_expr
 each(qdot_pool *pool, qdot_expr a, qdot_expr b,
      qdot_expr (*f)(qdot_pool *pool, qdot_expr x, qdot_expr y), bool pairwise)
@@ -135,7 +135,7 @@ qdot_value_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_value_add(pool, a, qdot_value_neg(pool, b));
 }
 
-/* (rows x inner) (inner x columns), from entry readers over flat args. */
+/* The product (rows x inner) (inner x columns), by reading entries of flat args. */
 static qdot_expr
 matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -291,7 +291,7 @@ qdot_dot(qdot_pool *pool, qdot_expr a, qdot_expr b)
     uint32_t n;
     qdot_expr result;
 
-    /* in one dimension vectors are plain numbers */
+    /* in one dimension vectors are scalars */
     if (ready(pool, a, b) && qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_mul(pool, a, b);
     if (!vectors(pool, "dot", a, b))

@@ -1,4 +1,4 @@
-/* value-kind.c -- what a constructor made, and what that is called. */
+/* value-kind.c -- checks a constructed value, and names its kind. */
 #include "expr/value-kind.h"
 
 #include "expr/build.h"

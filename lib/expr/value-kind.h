@@ -8,15 +8,15 @@
 QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr value);
 /* "a vector", "an equation" ... in a user's words. */
 const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
-/* *value = made, with the same check. */
+/* *value = made, after the same check. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made,
                                                  qdot_expr *value);
 bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);
-/* Whether e is a LIST of equations, at least one. */
+/* Whether e is a LIST of equations, with at least one. */
 bool qdot_value_kind_are_equations(const qdot_pool *pool, qdot_expr e);
-/* Left - right of an equation; else e itself. */
+/* Left minus right side of an equation; other expressions unchanged. */
 qdot_expr qdot_value_kind_difference(qdot_pool *pool, qdot_expr e);
-/* Fails with the message, whose %s becomes the kind of x, if x is no symbol. */
+/* Fail with `message`, whose %s becomes the kind of x, unless x is a symbol. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_need_symbol(qdot_pool *pool, qdot_expr x,
                                                         const char *message);
 

@@ -1,4 +1,4 @@
-/* walk.c -- reachable nodes in topological order; what passes have in common. */
+/* walk.c -- lists the reachable nodes in topological order; common parts of passes over them. */
 #include "expr/walk.h"
 
 #include <stdlib.h>
@@ -41,7 +41,7 @@ walk_enlarge(qdot_walk *w)
     return QDOT_OK;
 }
 
-/* Ascending, by merging runs; scratch [n]. Ids come in runs: nodes are made in order. */
+/* Sort ids ascending by merging runs, as nodes are made in order; scratch [n]. */
 static void
 sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
 {
@@ -93,7 +93,7 @@ add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
     return w->n * 2 > w->mask ? walk_enlarge(w) : QDOT_OK;
 }
 
-/* Places of all nodes in the table. */
+/* Enter all nodes into the hash table. */
 static void
 place_nodes(qdot_walk *w)
 {
@@ -124,7 +124,7 @@ walk_begin_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         if (roots[i] != QDOT_NIL)
             status = add_node(w, &capacity, roots[i]);
-    /* w->at is both the queue and the result: nodes behind `next` are not opened yet */
+    /* w->at is both queue and result: nodes after `next` have not been expanded yet */
     for (size_t next = 0; status == QDOT_OK && next < w->n; next++) {
         const qdot_expr *children = ARGS(pool, w->at[next]);
         uint32_t count = NODE(pool, w->at[next])->n;
@@ -179,13 +179,13 @@ qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds,
     return walk_begin_roots(pool, 1, &e, holds, touches, w);
 }
 
-/* A node and where it comes to stand. */
+/* A node and its position in the new order. */
 typedef struct {
     qdot_expr e;
     size_t place;
 } met;
 
-/* All nodes of the walk as they are met from the roots, parents first. Values are used up. */
+/* List all nodes in the order in which they are met from the roots, parents first. Overwrites their values. */
 static void
 meet(qdot_walk *w, size_t n, const qdot_expr *roots, met *m)
 {
@@ -205,7 +205,7 @@ meet(qdot_walk *w, size_t n, const qdot_expr *roots, met *m)
     }
 }
 
-/* The height of every node, 0 of a leaf, as its value; the largest. */
+/* Store the height of every node (0 for a leaf) as its value; returns the largest. */
 static size_t
 heights(qdot_walk *w)
 {

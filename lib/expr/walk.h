@@ -16,7 +16,7 @@
 
 enum { QDOT_WALK_FEW = 32 };
 
-/* Must not be copied: with few nodes it points into itself. */
+/* Must not be copied: with few nodes it contains pointers to itself. */
 typedef struct qdot_walk {
     const qdot_pool *pool;
     qdot_expr *at;   /* [n] ascending ids or heights, children before parents; owned */
@@ -31,7 +31,7 @@ typedef struct qdot_walk {
 
 /* All nodes reachable from e (nil: none). Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w);
-/* The same from several roots. */
+/* Begin a walk over the nodes reachable from several roots. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin_n(const qdot_pool *pool, size_t n,
                                               const qdot_expr *roots, qdot_walk *w);
 /* The same, nodes by their heights, those of one height in the order in which they are reached
@@ -41,7 +41,7 @@ QDOT_MUST_CHECK qdot_status qdot_walk_begin_by_height(const qdot_pool *pool, siz
                                                       const qdot_expr *roots, qdot_walk *w);
 void qdot_walk_end(qdot_walk *w);
 
-/* Index of a node in the walk; SIZE_MAX if it is not reachable. */
+/* The index of a node in the walk; SIZE_MAX if it is not reachable. */
 size_t qdot_walk_index(const qdot_walk *w, qdot_expr e);
 uint64_t qdot_walk_get(const qdot_walk *w, qdot_expr e); /* e reachable */
 void qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value);
@@ -62,7 +62,7 @@ qdot_expr qdot_walk_replace(qdot_pool *pool, qdot_expr e, qdot_kind kind,
  * unchanged. Nil: the pool keeps the failure. */
 qdot_expr qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e);
 
-/* The index of e in list [n]; n: it is not there. */
+/* The index of e in list [n]; n if it is not there. */
 size_t qdot_expr_place(size_t n, const qdot_expr *list, qdot_expr e);
 
 /* Whether x (any node) occurs in e. */
