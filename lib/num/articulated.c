@@ -1,4 +1,4 @@
-/* articulated.c -- factors node by node; solutions by vectors along a path, else by nodes. */
+/* articulated.c -- factors M along a tree; solves by vectors along a path, otherwise node by node. */
 #include "num/articulated.h"
 
 #include <float.h>
@@ -46,7 +46,7 @@ struct qdot_articulated {
     double *B, *H;                   /* [m x c], [c x c] */
     double *d, *Z, *x, *w;           /* of a solution: [m], [c] */
     double *up, *down;               /* [3 x m x m] of 8: what 1, 2, 4 pieces make */
-    /* In a plane, too (articulated-plane.def): */
+    /* For a path of links in a plane also (articulated-plane.def): */
     double *W, *Below;    /* [4] weight and below by slots */
     double *t, *tn, *wt;  /* [2] t, that of the next, w */
     double *own, *ratio;  /* k, w.t' */
@@ -83,7 +83,7 @@ QDOT_KIND_AVX512
 QDOT_KIND_END
 #endif
 
-/* The compiled elimination for nodes of this size; NULL: there is none. */
+/* The compiled elimination for nodes of this size; NULL if there is none. */
 static const kernels *
 kernels_of(size_t m, size_t c)
 {
@@ -134,7 +134,7 @@ is_path(const qdot_articulated_tree *t)
     return true;
 }
 
-/* A node a piece, each with two components and an unknown. */
+/* Whether there is at most one node per lane, each with two components and one unknown. */
 static bool
 is_plane(const qdot_articulated_tree *t)
 {
@@ -180,7 +180,7 @@ numbers_reserve(double **numbers, size_t n)
     return at;
 }
 
-/* Place the arrays for a path of links in a plane, from `at` on. */
+/* Allocate the arrays for a path of links in a plane, from `at` on. */
 static void
 make_plane(qdot_articulated *a, double *at)
 {
@@ -229,7 +229,7 @@ make_numbers(qdot_articulated *a)
     a->down = numbers_reserve(&at, 3 * m * m * pieces);
     if (a->plane)
         make_plane(a, at);
-    /* what is no node passes on what it is given */
+    /* slots without a node pass on what they get */
     for (size_t i = 0; i < m; i++)
         for (size_t s = 0; s < a->slots; s++)
             a->A[(i * m + i) * a->slots + s] = 1;
@@ -238,7 +238,7 @@ make_numbers(qdot_articulated *a)
     return QDOT_OK;
 }
 
-/* Add `from` [m x m] of node n to the matrix of its parent. */
+/* Add the matrix `from` [m x m] of node n to that of its parent. */
 static void
 pass_on(const qdot_articulated *a, size_t n, const double *from, double *to)
 {
@@ -341,7 +341,7 @@ qdot_articulated_is_path(const qdot_articulated *a)
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* The present node. */
+/* Intermediate results for the present node. */
 typedef struct {
     double S[most_unknowns * most]; /* [c x m] */
     double I[most * most], A[most * most], rest[most * most];
@@ -523,7 +523,7 @@ qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *los
 
 /* --- solutions node by node --------------------------------------------------------- */
 
-/* What node n passes on to its parent: A Z + I d + B r. */
+/* Pass A Z + I d + B r from node n up to its parent. */
 INLINE void
 go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
       const qdot_articulated_equations *e)
@@ -551,7 +551,7 @@ go_up(qdot_articulated *a, const size_t m, const size_t c, size_t n,
     }
 }
 
-/* q, x and F of node n, its parent's x known. */
+/* Compute q, x and F of node n from its parent's x. */
 INLINE void
 go_down(qdot_articulated *a, const size_t m, const size_t c, size_t n,
         const qdot_articulated_equations *e)

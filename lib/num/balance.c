@@ -1,4 +1,4 @@
-/* balance.c -- rows and columns made alike one after another. */
+/* balance.c -- scales rows and columns of a matrix to similar norms, one after another. */
 #include "num/balance.h"
 
 #include <math.h>

@@ -12,7 +12,8 @@
 
 #include <stddef.h>
 
-/* d [n] for |A| [n x n], row by row. 1 where a row or a column is 0 outside the diagonal, or not finite. */
+/* Scale factors d [n] for |A| [n x n], row by row; 1 for a row or column that is 0 off the
+ * diagonal, or not finite. */
 void qdot_balance(size_t n, const double *A, double *d);
 
 #endif

@@ -31,7 +31,7 @@ typedef struct {
     const double *x;
 } qdot_batch_series;
 
-/* y + carry, [n] groups. */
+/* Values y + carry, [n] groups. */
 typedef struct {
     double *y, *carry;
 } qdot_batch_sum;
@@ -89,7 +89,7 @@ typedef struct {
      * set or none. */
     void (*confirm)(const qdot_batch_series *series, const qdot_batch_defect *defect,
                     int64_t *good, int64_t *finite);
-    /* to [n] = from in the lanes whose bits are set. */
+    /* to [n] = from, in the lanes whose bits are set */
     void (*blend)(size_t n, const int64_t *set, const double *from, double *to);
 
     /* A [n x n] = L S L^T, S = 1 in the first `positive` rows and -1 in the others -> L below and
@@ -111,10 +111,10 @@ typedef struct {
 /* The best kernels that this processor can run. */
 const qdot_batch_kernels *qdot_batch_kernels_get(void);
 
-/* Kind i, portable first, of those this processor can run; NULL beyond the last. */
+/* Kind i of those this processor can run, the portable one first; NULL past the last. */
 const qdot_batch_kernels *qdot_batch_kernels_at(size_t i);
 
-/* The kind that _get returns: the last available (num/kinds.h). */
+/* The kind that _get returns: the last available one (num/kinds.h). */
 size_t qdot_batch_kind(void);
 
 #endif

@@ -1,11 +1,11 @@
-/* bordered.c -- rows of full length, whatever n + m is: the compiler makes vectors of them. */
+/* bordered.c -- inverts a bordered matrix; rows have a fixed length, so that the compiler can vectorise. */
 #include "num/bordered.h"
 
 #include <math.h>
 
 enum { most = QDOT_BORDERED_MOST };
 
-/* Solve row k for unknown k and eliminate it from the other rows. */
+/* Solve row k for unknown k and eliminate that from the other rows. */
 static void
 pivot_exchange(size_t all, double (*K)[most], size_t k)
 {
@@ -25,7 +25,7 @@ pivot_exchange(size_t all, double (*K)[most], size_t k)
     }
 }
 
-/* S = A D^-1 A^T; the elimination shows how independent each row is of those before it. */
+/* Invert S = A D^-1 A^T; the pivots tell how independent each row is of those before it. */
 static bool
 invert_schur(size_t m, double (*S)[most], double least)
 {

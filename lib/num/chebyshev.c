@@ -8,13 +8,13 @@
 
 enum { most = QDOT_CHEBYSHEV_MOST, quarters = 4 * most };
 
-/* Halvings: an interval of this depth is 2^-44 of the whole. */
+/* The most halvings: the smallest interval is 2^-44 of the whole. */
 enum { deepest = 45 };
 
-/* The pieces that the halvings about a root make, at most; n coefficients have fewer than n roots. */
+/* The most intervals that halving about one root makes; a series of n coefficients has fewer than n roots. */
 enum { pieces_of_root = 2 * deepest };
 
-/* The fit is good if the last coefficients are below this fraction of the largest. */
+/* A fit is good if its last coefficients are below this fraction of the largest. */
 static const double unfitted = 0x1p-36;
 
 /* cos(m pi / (2 most)); and T_k at the nodes, row by row */
@@ -22,7 +22,8 @@ static double cosine[quarters];
 static double at_node[2 * most][most];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* The row of node j of n, n entries: rows of most nodes come first, then those of half as many. */
+/* The values T_k, k < n, at node j of n nodes; the rows for `most` nodes come first, then those for
+ * half as many. */
 static const double *
 node_row(int n, int j)
 {
@@ -210,7 +211,7 @@ changes(double a, double b)
     return (a < 0) != (b < 0);
 }
 
-/* The number of coefficients up to the last that is above the rounding of the sum. */
+/* The number of coefficients up to the last one above the rounding error of the sum. */
 static int
 series_shorten(int n, const double *c)
 {
@@ -221,7 +222,7 @@ series_shorten(int n, const double *c)
     return n;
 }
 
-/* The Illinois method. */
+/* By the Illinois variant of the secant method. */
 double
 qdot_chebyshev_root(int n, const double *c, double lo, double hi)
 {
@@ -257,7 +258,7 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
     return x;
 }
 
-/* The only root of p on a piece whose ends differ in sign. */
+/* The only root of p on an interval whose ends differ in sign. */
 static double
 piece_root(const piece *p)
 {

@@ -58,10 +58,10 @@ double qdot_chebyshev_spread(int n, const double *c);
  * the last ones are not small: then p does not represent the function. */
 double qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho);
 
-/* The sign of p if the bound shows that it is the same throughout, else 0. */
+/* The sign of p if its bounds show that it is constant, else 0. */
 int qdot_chebyshev_sign(int n, const double *c);
 
-/* The root of p between lo and hi, at which it has different signs, where it is monotone. */
+/* The root of a monotonic p between lo and hi, where its signs differ. */
 double qdot_chebyshev_root(int n, const double *c, double lo, double hi);
 
 /* The x at which p changes its sign, ascending, into roots [n]; returns their number. Of several

@@ -1,11 +1,11 @@
-/* cholesky.c -- one kernel, with and without an index into the matrix. */
+/* cholesky.c -- Cholesky factorisation, of a whole matrix or of a block given by indices. */
 #include "num/cholesky.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
-/* Member i of a block; index is NULL for the whole matrix: the compiler then drops it. */
+/* The matrix index of row i of a block; `index` is NULL for the whole matrix, and then optimised away. */
 static inline size_t
 block_member(const size_t *index, size_t i)
 {
@@ -39,7 +39,7 @@ is_resolved(double *a, size_t n, const size_t *index, size_t i, double diagonal,
     return d > 4 * (double)(i + 1) * DBL_EPSILON * size * size;
 }
 
-/* The block of a whose m rows and columns are `index`; returns m, or the bad pivot. */
+/* Factor the block with the m rows and columns `index`; returns m, or the index of a bad pivot. */
 static inline size_t
 factor_block(double *a, size_t n, const size_t *index, size_t m)
 {

@@ -6,7 +6,7 @@
 /* Nodes are the zeros of P_s, of P_s - P_(s-1), of P_s - P_(s-2): the number says how far back. */
 typedef enum { GAUSS, RADAU, LOBATTO } family;
 
-/* P_s(x) less the other polynomial, s >= 1, of Lobatto's s >= 2 */
+/* P_s(x) minus the second polynomial; s >= 1, for Lobatto s >= 2. */
 static qdot_two
 legendre(int s, family of, qdot_two x)
 {

@@ -36,12 +36,12 @@ typedef struct {
     qdot_two l[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST];
 } qdot_collocation;
 
-/* stages 1 .. QDOT_COLLOCATION_MOST, which the caller sees to. */
+/* stages 1 .. QDOT_COLLOCATION_MOST, which the caller must check */
 void qdot_collocation_gauss(int stages, qdot_collocation *m);
 void qdot_collocation_radau(int stages, qdot_collocation *m);
 void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* stages >= 2 */
 
-/* w_j(x) into w [stages]. */
+/* The interpolation weights w_j(x) into w [stages]. */
 void qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w);
 
 #endif

@@ -56,7 +56,7 @@ eigenvalues_release(solver *s)
     qdot_free(s->planes);
 }
 
-/* What E, and the rounding of A, make of w_k A v_m. */
+/* A bound of |w_k (error of A) v_m|, from E and the rounding of A. */
 static double
 error_between(const solver *s, const double *A, const double *E, size_t k, size_t m)
 {
@@ -107,7 +107,7 @@ find_left_vectors(solver *s, const double *A)
     }
 }
 
-/* Entry i of the vector v_k, of the row w_k. */
+/* Component i of the right eigenvector v_k, and of the left eigenvector w_k. */
 static double complex
 right(const solver *s, size_t k, size_t i)
 {
@@ -181,7 +181,7 @@ eigenvalue_distance(const solver *s, size_t j, size_t k)
     return gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->lambda, j), gsl_vector_complex_get(s->lambda, k)));
 }
 
-/* The errors by these left vectors, where they are less. */
+/* Lower the error bounds by these left vectors where they are better. */
 static void
 bound_errors(const solver *s, const double *A, const double *E, double *error)
 {
@@ -211,7 +211,7 @@ modulus(const double *re, const double *im, size_t k)
     return hypot(re[k], im[k]);
 }
 
-/* Whether the moduli of eigenvalues j and k are the same within their errors. */
+/* Whether the moduli of eigenvalues j and k are equal within their errors. */
 static bool
 is_as_large(const double *re, const double *im, const double *error, size_t j, size_t k)
 {
@@ -230,7 +230,7 @@ numbers_exchange(double *x, size_t j, size_t k)
     x[k] = kept;
 }
 
-/* Insertion sort of first..end-1: `before` is whether k has to stand before j. */
+/* Insertion sort of first..end-1; `before` tells whether k must come before j. */
 static void
 eigenvalues_sort(size_t first, size_t end, bool (*before)(const double *re, const double *im, size_t k, size_t j),
                  double *re, double *im, double *error)
@@ -311,7 +311,7 @@ qdot_eigenvalues(size_t n, const double *A, const double *E, double *re, double 
 
 /* --- products ------------------------------------------------------------------------------------ */
 
-/* The K-th powers of [count] numbers, with what their errors make of them. */
+/* Raise [count] numbers to the K-th power, with their errors. */
 static void
 raise(size_t K, size_t count, double *re, double *im, double *error)
 {
@@ -325,7 +325,7 @@ raise(size_t K, size_t count, double *re, double *im, double *error)
     }
 }
 
-/* Of the numbers that are not taken the one nearest to (x, y); n: none is left. */
+/* The number nearest to (x, y) among those not taken; n if none is left. */
 static size_t
 nearest_to(double x, double y, size_t n, const double *re, const double *im, const bool *taken)
 {
@@ -362,7 +362,7 @@ cluster_take(size_t K, size_t n, const double *all, bool *taken, size_t *own, do
     return real;
 }
 
-/* [n] numbers of which each stands K times in all [3 x K n], in descending order of modulus: re, im, error. */
+/* Find [n] numbers, each present K times in all [3 x K n], by descending modulus: re, im, error. */
 static void
 cluster_means(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
 {

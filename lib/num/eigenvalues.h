@@ -26,7 +26,7 @@
 
 #include "base/status.h"
 
-/* A and E [n x n] row by row; re, im, error [n] as _arrange puts them. Errors: QDOT_EFAILED, QDOT_ENOMEM. */
+/* A and E [n x n] row by row; re, im, error [n] sorted by _arrange. Errors: QDOT_EFAILED, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues(size_t n, const double *A, const double *E,
                                              double *re, double *im, double *error);
 

@@ -15,12 +15,12 @@
 #ifndef QDOT_NUM_HERMITE_H
 #define QDOT_NUM_HERMITE_H
 
-/* y, v and a at one end. */
+/* Value y, slope v and second derivative a at one end. */
 typedef struct {
     double y, v, a;
 } qdot_hermite_end;
 
-/* y at t0 + s h, and into *v its slope there (v NULL: not wanted). */
+/* y at t0 + s h, and its slope there into *v (unless NULL). */
 double qdot_hermite_at(const qdot_hermite_end *from, const qdot_hermite_end *to, double h,
                        double s, double *v);
 

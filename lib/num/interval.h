@@ -21,9 +21,9 @@ extern const qdot_interval qdot_interval_whole; /* the whole line */
 
 qdot_interval qdot_interval_point(double x);
 bool qdot_interval_is_point(qdot_interval a);
-/* The least interval that holds both. */
+/* The smallest interval that contains both. */
 qdot_interval qdot_interval_around(qdot_interval a, qdot_interval b);
-/* The part of a in least ... most: elsewhere the function is undefined. */
+/* The part of a inside least ... most; outside the function is undefined. */
 qdot_interval qdot_interval_within(qdot_interval a, double least, double most);
 /* lo ... hi rounded outward. A lower bound that overflows becomes the largest double: the exact value is
  * finite. */
@@ -32,14 +32,14 @@ qdot_interval qdot_interval_outward(double lo, double hi);
 qdot_interval qdot_interval_negative(qdot_interval a);
 qdot_interval qdot_interval_size(qdot_interval a); /* |a| */
 qdot_interval qdot_interval_sum(qdot_interval a, qdot_interval b);
-/* same: both are one value, so that the product is its square. */
+/* same: both factors are the same value, so the product is its square. */
 qdot_interval qdot_interval_product(qdot_interval a, qdot_interval b, bool same);
 qdot_interval qdot_interval_quotient(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_power(qdot_interval a, qdot_interval b);
 /* x - y floor(x/y) */
 qdot_interval qdot_interval_remainder(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* atan2 */
-/* The image of a under a function that rises, or falls, on all of it. */
+/* The image of a under a function that is increasing, or decreasing, on all of it. */
 qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
 qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);
 /* Of sin (top pi/2) or cos (top 0): highest at top + 2 pi k, lowest halfway between. */

@@ -1,4 +1,4 @@
-/* kinds.c -- the limit of the kinds that are used. */
+/* kinds.c -- the limit on the processor kinds that are used, for tests. */
 #include "num/kinds.h"
 
 /* The C library has asked the processor at the start of the program, if it tells: to ask again, as

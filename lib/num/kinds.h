@@ -33,7 +33,7 @@
 void qdot_kind_limit(size_t kind);
 size_t qdot_kind_most(void);
 
-/* Whether the processor at hand is of a kind, and that is within the limit. */
+/* Whether this processor is of a kind within the limit. */
 bool qdot_kind_is_here(size_t kind);
 
 /* a b + c for portable kernels, for numbers and for vectors: fused if the target always has an
@@ -53,7 +53,7 @@ bool qdot_kind_is_here(size_t kind);
 #define QDOT_VECTOR_MA(type, a, b, c) ((a) * (b) + (c))
 #endif
 
-/* A kernel for each number of terms that is unrolled. */
+/* Expands X for each number of terms that has an unrolled kernel. */
 #define ROWS(X)                                                                          \
     X(0)                                                                                 \
     X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)     \

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* (1 + sqrt 17) / 8: bounds the growth of a 1 x 1 step twice as one 2 x 2 step. */
+/* (1 + sqrt 17) / 8: with it two 1 x 1 steps let entries grow as much as one 2 x 2 step. */
 static const double alpha = 0.6403882032022076;
 
 qdot_status
@@ -41,7 +41,7 @@ singular(size_t unknown, size_t *failed)
     return qdot_fail(QDOT_ESINGULAR, "the matrix is singular (row %zu)", unknown + 1);
 }
 
-/* The largest entry of each row of S A S, into `largest`. */
+/* The largest |entry| of each row of S A S, into `largest`. */
 static void
 row_maxima(const double *a, size_t n, const double *scale, double *largest)
 {
@@ -100,7 +100,7 @@ swap(double *x, double *y)
     *y = t;
 }
 
-/* Interchange unknowns p < q of the symmetric matrix, rows of L to the left included. */
+/* Exchange unknowns p < q of the symmetric matrix, including the rows of L. */
 static void
 interchange(qdot_ldlt *f, double *a, size_t p, size_t q)
 {
@@ -118,7 +118,7 @@ interchange(qdot_ldlt *f, double *a, size_t p, size_t q)
     swap(&a[p * n + p], &a[q * n + q]);
 }
 
-/* Largest |entry| of column c among rows and columns from k on, c itself left out. */
+/* The largest |entry| of column c among rows from k on, without the diagonal. */
 static double
 column_maximum(const double *a, size_t n, size_t k, size_t c, size_t *at)
 {
@@ -148,7 +148,7 @@ eliminate_one(double *a, size_t n, size_t k)
         a[i * n + k] /= a[k * n + k];
 }
 
-/* x, y <- D^-1 (x, y) for the block D at k, in a form that does not overflow. */
+/* x, y <- D^-1 (x, y) for the 2 x 2 block D at k, in a form that does not overflow. */
 static void
 solve_pair(const double *a, size_t n, size_t k, double *x, double *y)
 {

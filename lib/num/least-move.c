@@ -1,9 +1,10 @@
-/* least-move.c -- A D^-1 A^T by Cholesky's method, on the stack of its few rows. */
+/* least-move.c -- the smallest change that satisfies a few constraints: A D^-1 A^T by Cholesky, on
+ * the stack. */
 #include "num/least-move.h"
 
 #include <math.h>
 
-/* The squared sine below which rows are left to a rank-revealing solution. */
+/* Rows with a smaller squared sine are left to a rank-revealing method. */
 static const double independent = 1e-6;
 
 bool

@@ -28,7 +28,7 @@ typedef struct {
 bool qdot_least_move_factor(qdot_least_move *s, const double *A, const double *D,
                             size_t step);
 
-/* x [n] from c [m], which is overwritten. */
+/* Solve: x [n] from c [m], which is overwritten. */
 void qdot_least_move_solve(const qdot_least_move *s, double *c, double *x);
 
 #endif

@@ -1,4 +1,4 @@
-/* least-squares.c -- the search, and the covariance of what it found. */
+/* least-squares.c -- minimises a sum of squares, and computes the covariance of the result. */
 #include "num/least-squares.h"
 
 #include <gsl/gsl_blas.h>
@@ -14,10 +14,11 @@
  * search ends. How little of u a step may move. */
 static const double near_offset = 1e-4, least_offset = 1e-10, least_move = 4e-16;
 
-/* Where no step helps, what is left of the numbers by the slopes, over what u makes of them, that is rounding. */
+/* If no step helps: the gradient counts as rounding below this, relative to the change of the
+ * residuals with u. */
 static const double rounding = 1e-9;
 
-/* Each number of a model that has none: no step leads there. */
+/* The value of all residuals where the model is undefined, so that no step leads there. */
 static const double nowhere = 1e150;
 
 typedef struct {
@@ -55,7 +56,7 @@ all_finite(size_t n, const double *x)
     return sum == 0;
 }
 
-/* x->f and x->J at u. */
+/* Evaluate x->f and x->J at u. */
 static qdot_status
 least_squares_evaluate(search *s, const double *u)
 {
@@ -125,7 +126,7 @@ jacobian_decompose(search *s)
                : qdot_fail(QDOT_EFAILED, "the slopes have no singular values");
 }
 
-/* |U^T f| / |f|. */
+/* |U^T f| / |f|, the part of the residuals that a step could still reduce. */
 static double
 offset(search *s)
 {
@@ -135,7 +136,7 @@ offset(search *s)
     return gsl_blas_dnrm2(s->along) / fmax(gsl_blas_dnrm2(&f.vector), 1e-300);
 }
 
-/* C J^T f. */
+/* C J^T f, into x->left. */
 static void
 gradient_in_covariance(const search *s)
 {
@@ -183,7 +184,7 @@ least_squares_conclude(search *s)
 
 /* --- the search ------------------------------------------------------------------------------ */
 
-/* Whether u [p] is where the last step left it, to rounding. */
+/* Whether the last step moved u [p] by no more than rounding. */
 static bool
 stands(const search *s, const gsl_vector *move, const gsl_vector *u)
 {
@@ -193,7 +194,7 @@ stands(const search *s, const gsl_vector *move, const gsl_vector *u)
     return true;
 }
 
-/* Whether the step left is nothing beside u, by what both change of the numbers. */
+/* Whether the remaining step is rounding error, compared by the changes of the residuals. */
 static bool
 step_is_rounding(const search *s)
 {
@@ -229,7 +230,7 @@ polish(search *s)
     return QDOT_OK;
 }
 
-/* Step until the search ends; x->u, f, J are those of its end. */
+/* Iterate until the search ends; x->u, f, J are then those of its end. */
 static qdot_status
 least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
 {

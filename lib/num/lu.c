@@ -1,4 +1,4 @@
-/* lu.c -- Gaussian elimination by rows, within their first and last entries. */
+/* lu.c -- Gaussian elimination by rows, between the first and the last non-zero entry of each row. */
 #include "num/lu.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ rows_exchange(size_t n, double *A, size_t i, size_t j)
         numbers_swap(A + i * n + c, A + j * n + c);
 }
 
-/* The first and last entries of the rows; im may be NULL. */
+/* Find the first and last non-zero entries of the rows; im may be NULL. */
 static void
 find_ends(size_t n, const double *re, const double *im, qdot_lu_row *rows)
 {
@@ -36,7 +36,7 @@ find_ends(size_t n, const double *re, const double *im, qdot_lu_row *rows)
     }
 }
 
-/* Make row `best` the k-th. */
+/* Move row `best` to position k. */
 static void
 bring(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t best)
 {
@@ -101,7 +101,7 @@ qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b)
     }
 }
 
-/* Eliminate column k from one row below it, in columns before `to`. */
+/* Eliminate column k from a lower row, in the columns before `to`. */
 static void
 row_eliminate(size_t to, size_t k, const double *restrict from_re,
               const double *restrict from_im, const double *inverse, double *restrict re,

@@ -24,7 +24,7 @@ typedef struct {
  * entries are near the diagonal (Cuthill & McKee); scratch [n]. */
 void qdot_lu_order(size_t n, const bool *pattern, size_t *order, size_t *scratch);
 
-/* Factor A in place; rows [n] out. False, with A undefined, if a pivot is 0 or not finite. */
+/* Factor A in place, with rows [n] as output. False, with A undefined, if a pivot is 0 or not finite. */
 bool qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows);
 
 /* Solve A x = b with the factors; b [n] in, x out. */

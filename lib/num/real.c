@@ -75,7 +75,7 @@ qdot_real_dot_work(mpfr_prec_t bits)
     return 4 * ((size_t)bits_of_whole_limbs(bits) / GMP_NUMB_BITS) + 8;
 }
 
-/* The largest exponent of a product; false where one is not finite. */
+/* The largest exponent of a product; false if a factor is not finite. */
 static bool
 largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponent, bool *some)
 {
@@ -94,7 +94,7 @@ largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponen
     return true;
 }
 
-/* sum = +-acc 2^exponent; acc [m], its point below the highest limb. */
+/* sum = +-acc 2^exponent, where acc [m] has its binary point below the highest limb. */
 static void
 sum_settle(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
 {
@@ -157,7 +157,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
         below %= GMP_NUMB_BITS;
         if (skipped > limbs)
             continue;
-        /* the product is worth `kept` limbs below the point: that many of its factors */
+        /* the product matters to `kept` limbs after the point: multiply only that many limbs */
         kept = limbs + 1 - skipped;
         used = kept < limbs ? kept : limbs;
         x = (const mp_limb_t *)mpfr_custom_get_significand(a[j]) + limbs - used;
@@ -169,7 +169,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
         high = product + 2 * used - kept;
         if (below > 0)
             mpn_rshift(product + 2 * used - kept, high, (mp_size_t)kept, (unsigned)below);
-        /* acc's highest limb is above the point, then the skipped ones */
+        /* acc has its highest limb before the point, then the skipped ones */
         used = m - 1 - skipped - kept;
         if (mpfr_signbit(a[j]) == mpfr_signbit(*b))
             mpn_add(acc + used, acc + used, (mp_size_t)(m - used), high,

@@ -31,13 +31,13 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits);
 void qdot_reals_clear(qdot_reals *v);
 
-/* Bytes of memory for n such numbers. */
+/* The memory of n such numbers in bytes. */
 double qdot_reals_size(size_t n, mpfr_prec_t bits);
 
-/* log2 |x|; -INFINITY for 0, NaN for what is not finite. */
+/* log2 |x|; -INFINITY for 0, NaN if x is not finite. */
 double qdot_real_log2(mpfr_srcptr x);
 
-/* Limbs of scratch that qdot_real_dot needs for `bits`. */
+/* The number of limbs of work space that qdot_real_dot needs for `bits`. */
 size_t qdot_real_dot_work(mpfr_prec_t bits);
 
 /* sum = sum_{j=0..n-1} a[j] b[-j], to within 2^(3 - bits) of n times its largest term. All

@@ -1,4 +1,4 @@
-/* row-space.c -- LQ with pivots. */
+/* row-space.c -- the row space of a matrix, by LQ factorisation with pivoting. */
 #include "num/row-space.h"
 
 #include <math.h>
@@ -62,7 +62,7 @@ reflect(const double *v, double beta, size_t n, double *x)
         x[i] -= dot * v[i];
 }
 
-/* The next row: the first with a remainder, or the one with the largest; m: none. */
+/* The next row to factor: the first with a remainder above tol, or the one with the largest; m if none. */
 static size_t
 next_row(const qdot_row_space *f, size_t k, double tol, bool in_order)
 {
@@ -106,7 +106,7 @@ qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_or
         v = f->rows + row * n + k;
         norm = v[0] > 0 ? -length(v, n - k) : length(v, n - k);
         head = v[0] - norm;
-        /* v = row - norm e_1; the reflection takes the row to norm e_1 */
+        /* the Householder vector v = row - norm e_1; its reflection maps the row to norm e_1 */
         f->beta[row] = -1 / (norm * head);
         v[0] = head;
         for (size_t i = k + 1; i < f->m; i++)
@@ -115,7 +115,7 @@ qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_or
     }
 }
 
-/* Q [z; 0], in place. */
+/* x <- Q [z; 0], in place. */
 static void
 turn_back(const qdot_row_space *f, double *x)
 {

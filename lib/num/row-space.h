@@ -42,7 +42,7 @@ void qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool 
 void qdot_row_space_shortest(qdot_row_space *f, const double *b, double *x,
                              double *lambda);
 
-/* Remove from x [n] its part in the row space: the rest is tangent to A x = const. */
+/* Remove the component in the row space from x [n]: the rest is tangent to A x = const. */
 void qdot_row_space_tangent(qdot_row_space *f, double *x);
 
 #endif

@@ -1,12 +1,12 @@
-/* saddle-rows.c -- finds rows of A that have shrunk to rounding, or depend on others. */
+/* saddle-rows.c -- finds rows of A that have shrunk to rounding error or depend on others. */
 #include <math.h>
 
 #include "num/saddle.h"
 
-/* A row whose squared norm falls below this fraction of its largest has faded. */
+/* A row has faded if its squared norm falls below this fraction of its largest. */
 static const double faded = 1e-14;
 
-/* A row belongs to a dependency if its coefficient, relative to the largest, is above this. */
+/* A row is part of a dependency if its coefficient, relative to the largest, is above this. */
 static const double participates = 1e-6;
 
 static double

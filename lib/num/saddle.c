@@ -27,7 +27,7 @@ static const double nothing = 0x1p-92, lightest = 0x1p-14;
  * largest. */
 static const double shrunk = 0x1p-10;
 
-/* With up to this many unknowns an inverse is computed if there are many right-hand sides. */
+/* Up to this many unknowns an inverse is computed if there are many right-hand sides. */
 enum { most_inverted = 24, lanes = 8 };
 
 static double
@@ -177,7 +177,7 @@ add_multiple(size_t n, double c, const double *a, double *y)
 
 /* --- factorisation ------------------------------------------------------------------ */
 
-/* 2^-k with x 4^-k (twice) or x 2^-k about 1; 1 for x = 0. */
+/* A power of two that scales x to about 1: 2^-k, with its square if `root`; 1 for x = 0. */
 static double
 scale_of(double x, bool root)
 {
@@ -207,7 +207,7 @@ scale_unknowns(qdot_saddle *s)
     }
 }
 
-/* The size relative to which row k of R, of that norm, is judged. */
+/* The size relative to which row k of R, which has that norm, is judged. */
 static double
 size_of_row(const qdot_saddle *s, size_t k, double norm)
 {
@@ -220,7 +220,7 @@ size_of_row(const qdot_saddle *s, size_t k, double norm)
     return least > 1 ? least * norm : norm;
 }
 
-/* S = D M D, and the rows of R = E A D. */
+/* Compute S = D M D, and the rows of R = E A D. */
 static void
 saddle_scale(qdot_saddle *s)
 {
@@ -242,7 +242,7 @@ saddle_scale(qdot_saddle *s)
     }
 }
 
-/* Bring the column of largest norm below row k to place k. */
+/* Move the remaining column of largest norm to position k; returns its norm. */
 static double
 bring_forward(qdot_saddle *s, size_t k)
 {
@@ -273,7 +273,7 @@ bring_forward(qdot_saddle *s, size_t k)
     return sqrt(most);
 }
 
-/* x -= beta v (v . x) with v = (1, column k below its diagonal). */
+/* x -= beta v (v . x) with v = (1, column k below its diagonal) */
 static void
 reflect(const qdot_saddle *s, size_t k, double *x)
 {
@@ -285,7 +285,7 @@ reflect(const qdot_saddle *s, size_t k, double *x)
     add_multiple(s->n - k - 1, -sum, v + k + 1, x + k + 1);
 }
 
-/* Householder's reflection of column k, whose norm from row k on is given. */
+/* Reflect column k (Householder), whose norm from row k on is given. */
 static void
 column_reflect(qdot_saddle *s, size_t k, double norm)
 {
@@ -385,7 +385,7 @@ factor_free(qdot_saddle *s, size_t *failed)
                            : qdot_cholesky_factor(s->N, f, NULL, &where);
     if (status == QDOT_OK)
         return QDOT_OK;
-    /* the unknown that this direction moves most */
+    /* report the unknown that this direction moves most */
     *failed = 0;
     for (size_t i = 1; i < n; i++)
         if (fabs(s->Q[(r + where) * n + i]) > fabs(s->Q[(r + where) * n + *failed]))
@@ -433,7 +433,7 @@ factor_pattern(qdot_saddle *s)
     return left;
 }
 
-/* Factor by the pattern; false if that is not possible or not accurate enough. */
+/* Factor by the sparsity pattern; false if that is impossible or not accurate enough. */
 static bool
 factor_directly(qdot_saddle *s)
 {
@@ -529,7 +529,7 @@ multipliers(qdot_saddle *s, double *u, double *mu)
     }
 }
 
-/* Solve by the null space. */
+/* Solve by the null space of A. */
 static void
 saddle_solve_null_space(qdot_saddle *s)
 {

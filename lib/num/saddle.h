@@ -86,7 +86,7 @@ typedef struct {
 
 #define QDOT_SADDLE_UNKNOWN ((size_t)-1)
 
-/* n > 0; m may be 0 and may exceed n. Errors: QDOT_ENOMEM; clear it in any case. */
+/* n > 0; m may be 0 and may exceed n. Errors: QDOT_ENOMEM; clear s in any case. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_init(qdot_saddle *s, size_t n, size_t m,
                                              bool indefinite);
 void qdot_saddle_clear(qdot_saddle *s);
@@ -107,13 +107,13 @@ double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
  * there is none. Call it once before each factorisation. */
 size_t qdot_saddle_faded(qdot_saddle *s);
 
-/* Whether a row is more than twice its largest size so far. */
+/* Whether the norm of a row is more than twice its largest value so far. */
 bool qdot_saddle_widens(const qdot_saddle *s);
 
-/* Whether row k had shrunk so at that call. */
+/* Whether row k had shrunk to rounding error at that call. */
 bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
-/* The length of row k relative to the largest at earlier calls; 1 at the first. */
+/* The length of row k relative to its largest at earlier calls; 1 at the first call. */
 double qdot_saddle_remains(const qdot_saddle *s, size_t k);
 
 /* Factor for M and A, which are kept. QDOT_ESINGULAR: A has lost rank
@@ -121,17 +121,17 @@ double qdot_saddle_remains(const qdot_saddle *s, size_t k);
  * unknown), or something is not finite. QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor(qdot_saddle *s, size_t *failed);
 
-/* Factor by the null space even if there is a sparsity pattern: this finds nearly dependent rows. */
+/* Factor by the null space even if there is a sparsity pattern: this detects nearly dependent rows. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed);
 
 /* How far the rows of A are from losing rank, 0 ... 1; 0 if they have lost it. Not counted as a
  * factorisation, and not usable for solving. */
 double qdot_saddle_independence(qdot_saddle *s);
 
-/* Solve for s->x. */
+/* Solve for s->x, which holds the right-hand side. */
 void qdot_saddle_solve(qdot_saddle *s);
 
-/* Solve for s->x, and correct it by the residual, computed in twice the precision. */
+/* Solve for s->x, and correct it once by the residual in twice the precision. */
 void qdot_saddle_solve_refined(qdot_saddle *s);
 
 /* For many right-hand sides: call _prepare once, then _apply for each s->x. Its error is usually

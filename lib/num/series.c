@@ -29,7 +29,7 @@ qdot_series_weights_set(qdot_series_weights *w, int p, double term, double fall)
         w->upper[k] = upper ? (from + fall * (p - k)) / k : INFINITY;
         w->lower[k] = lower ? (from + term) / k : INFINITY;
     }
-    /* a zero is read as 2^-bias, what is no number as 2^(bias + 1) */
+    /* 0 is read as 2^-bias, and infinity or NaN as 2^(bias + 1) */
     w->upper_most = (bias - 1) / p;
     w->lower_most = half >= 2 ? (bias - 1 + term) / half : INFINITY;
     w->lower_least = half >= 2 ? (term - bias) / half : -INFINITY;
@@ -104,7 +104,7 @@ rest_of_product(four_doubles a, four_doubles b, four_doubles p)
 #define FOUR_REST(a, b, p) rest_of_product(a, b, p)
 #define FOUR_SUMS(a, b, c, d)                                                            \
     ((portable_four){(a)[0] + (a)[1], (b)[0] + (b)[1], (c)[0] + (c)[1], (d)[0] + (d)[1]})
-/* a where it compares so, else b */
+/* a in the lanes where the comparison holds, else b */
 #define PORTABLE_PICK(bits, a, b, compared)                                              \
     (((bits)(a) & (bits)((a)compared(b))) | ((bits)(b) & ~(bits)((a)compared(b))))
 typedef int32_t portable_halves __attribute__((vector_size(16), aligned(8)));

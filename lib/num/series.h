@@ -21,10 +21,10 @@
 
 #include <stddef.h>
 
-/* The highest order that has functions. */
+/* The highest order for which there are unrolled functions. */
 #define QDOT_SERIES_MOST 48
 
-/* sum_{j=0..n-1} a[j] b[-j] for the n it was made for. */
+/* sum_{j=0..n-1} a[j] b[-j], for the n for which it was compiled. */
 typedef double qdot_series_dot(const double *a, const double *b);
 
 /* Both sum_{j=0..n-1} a[j] b[-j] and sum a[j] c[-j]. */
@@ -61,7 +61,7 @@ typedef struct {
     size_t stride;
     int p;
     double s, unit;          /* t' = t + unit s */
-    /* All of these have room for 8 more: */
+    /* All of these arrays have room for 8 more numbers: */
     const double *y, *carry; /* [n] */
     double *next, *next_carry;
     const double *least;  /* [n] what sizes are at least, positive (ode/scale.h) */
@@ -121,7 +121,7 @@ typedef struct {
 /* The best kernels that this processor can run. */
 const qdot_series_kernels *qdot_series_kernels_get(void);
 
-/* Kind i, portable first, of those this processor can run; NULL beyond the last. */
+/* Kind i of those this processor can run, the portable one first; NULL past the last. */
 const qdot_series_kernels *qdot_series_kernels_at(size_t i);
 
 #endif

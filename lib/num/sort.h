@@ -12,7 +12,7 @@ qdot_sort_compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sort x [n], which has no NaN. */
+/* Sort x [n], which contains no NaN, in ascending order. */
 static inline void
 qdot_sort(size_t n, double *x)
 {

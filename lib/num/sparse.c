@@ -1,4 +1,4 @@
-/* sparse.c -- an order by least degree, the pattern it fills, the factors row by row. */
+/* sparse.c -- sparse LDL^T: ordering by minimum degree, fill-in pattern, factorisation by rows. */
 #include "num/sparse.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "num/sum.h"
 
-/* A pivot below this fraction of its original entry may be rounding of 0. */
+/* A pivot below this fraction of its original entry may be the rounding error of 0. */
 static const double semidefinite = 1e-12;
 
 void
@@ -88,7 +88,7 @@ graph_eliminate(graph *g, uint32_t u)
 
 typedef qdot_vec(uint32_t) numbers;
 
-/* The order of elimination, and the neighbours of each unknown at that time: the columns of L. */
+/* Find the order of elimination, and the neighbours of each unknown at its elimination: the columns of L. */
 static qdot_status
 find_order(qdot_sparse *s, graph *g, numbers *columns)
 {
@@ -152,7 +152,7 @@ counts_to_starts(size_t n, size_t *start)
         start[k + 1] += start[k];
 }
 
-/* Columns of L by place, each ascending, and the same by rows. */
+/* Store the columns of L by position, each ascending, and the same entries by rows. */
 static qdot_status
 lay_out(qdot_sparse *s, const uint32_t *place, const numbers *columns)
 {
@@ -189,7 +189,7 @@ lay_out(qdot_sparse *s, const uint32_t *place, const numbers *columns)
     return QDOT_OK;
 }
 
-/* The entries, by places, in the lower triangle, by rows. */
+/* Store the given entries, permuted to the lower triangle, by rows. */
 static qdot_status
 take_entries(qdot_sparse *s, const uint32_t *place, size_t count,
              const qdot_sparse_entry *entries)
@@ -240,7 +240,7 @@ qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive, size_t count,
 
 /* --- numbers ------------------------------------------------------------------------ */
 
-/* Row k of L, and its D; *made: the value from which D was computed, for its accuracy. */
+/* Compute row k of L, and its D; *made: the value from which D was computed, to judge its accuracy. */
 static double
 factor_row(qdot_sparse *s, size_t k, double *made)
 {

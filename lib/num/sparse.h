@@ -22,7 +22,7 @@
 
 #include "base/status.h"
 
-/* An entry that may be nonzero; either triangle, each pair once. */
+/* An entry of the matrix that may be non-zero, from either triangle; each pair once. */
 typedef struct {
     uint32_t row, column;
     const double *value; /* read by every factorisation; borrowed */
@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
     size_t n, positive;
     uint32_t *order; /* [n] the unknown at each place */
-    /* Places: entries by row, those of K, and rows of L with where they stand. */
+    /* Offsets: of the given entries by row, of K, and of the rows of L with the positions of their entries. */
     size_t *given_start, *row_start, *column_start; /* [n + 1] */
     qdot_sparse_entry *given;
     uint32_t *row_column;
@@ -44,7 +44,7 @@ typedef struct {
     bool definite;   /* last factorisation: the positive unknowns are definite beyond rounding */
 } qdot_sparse;
 
-/* `entries` [count], rows and columns below n. Errors: QDOT_ENOMEM; clear it in any case. */
+/* `entries` [count], rows and columns below n. Errors: QDOT_ENOMEM; clear s in any case. */
 QDOT_MUST_CHECK qdot_status qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive,
                                              size_t count,
                                              const qdot_sparse_entry *entries);

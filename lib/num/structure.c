@@ -13,7 +13,7 @@ block_root(size_t *parent, size_t i)
     return i;
 }
 
-/* The smaller root wins, so a block's root is its first member. */
+/* Join two blocks: the smaller root becomes the root of both, so a block's root is its first member. */
 static void
 blocks_join(size_t *parent, size_t i, size_t j)
 {
@@ -25,7 +25,7 @@ blocks_join(size_t *parent, size_t i, size_t j)
         parent[i] = j;
 }
 
-/* Count the members of each block, then place them: a counting sort by block. */
+/* Count the members of each block, then list them: a counting sort by block. */
 static void
 blocks_collect(qdot_structure *s, size_t *parent, size_t *block)
 {

@@ -13,7 +13,7 @@ enum { QUARTER = 512, POWERS = 64 }; /* steps of an angle to pi/2; of a power to
 /* For larger arguments three doubles of the step are not enough for the reduction. */
 static const double most_angle = 0x1p40;
 
-/* pi/(2 QUARTER), log(2)/POWERS */
+/* pi/(2 QUARTER) and log(2)/POWERS, in three doubles each */
 static double angle_step[3], power_step[3];
 static qdot_two sines[QUARTER + 1], powers[POWERS];
 
@@ -31,7 +31,7 @@ two_of_mpfr(mpfr_ptr x)
     return r;
 }
 
-/* x is used up. */
+/* Split x into three doubles; x is overwritten. */
 static void
 split_in_three(mpfr_ptr x, double *part)
 {

@@ -122,7 +122,7 @@ qdot_two_sqrt(qdot_two a)
     return qdot_two_of(r, (fma(-r, r, a.hi) + a.lo) / (2 * r));
 }
 
-/* An unfinished sum of products: sum + rest, normalised only at its end. */
+/* An unfinished sum of products: sum + rest, normalised only at the end. */
 typedef struct {
     double sum, rest;
 } qdot_two_dot;
@@ -182,7 +182,7 @@ typedef struct {
 
 /* The best functions that this processor can run; the first call fills their tables. */
 const qdot_two_functions *qdot_two_functions_get(void);
-/* Kind i, portable first, of those this processor can run; NULL beyond the last. */
+/* Kind i of those this processor can run, the portable one first; NULL past the last. */
 const qdot_two_functions *qdot_two_functions_at(size_t i);
 
 #endif

@@ -1,13 +1,13 @@
-/* zero-between.c -- a zero of one function of one unknown between bounds: Newton and bisection. */
+/* zero-between.c -- a zero of one function of one unknown between bounds, by Newton's method and bisection. */
 #include "num/zero-parts.h"
 
 #include <float.h>
 #include <math.h>
 
-/* Steps; parts of an interval that are searched for a change of sign. */
+/* MOST_STEPS of the method; PARTS: intervals that are searched for a change of sign. */
 enum { MOST_STEPS = 60, PARTS = 16 };
 
-/* f(u) of the one function, NaN where it cannot be had; its error into s->error[0]. */
+/* f(u) of the only function, NaN if undefined; its error goes to s->error[0]. */
 static qdot_status
 between_value(qdot_zero_search *s, double u, double *f)
 {
@@ -15,7 +15,8 @@ between_value(qdot_zero_search *s, double u, double *f)
     return QDOT_OK;
 }
 
-/* Take the narrowest part of a grid whose ends differ in sign, or its point of least |f|. *end [2], *f [2]. */
+/* Find the first interval of a grid whose ends differ in sign, or its point of smallest |f|. *end
+ * [2], *f [2]. */
 static qdot_status
 search_signs(qdot_zero_search *s, double *end, double *f, bool *found)
 {
@@ -45,7 +46,7 @@ search_signs(qdot_zero_search *s, double *end, double *f, bool *found)
     return QDOT_OK;
 }
 
-/* The next place: by the slope if that stays between the ends and shrinks fast enough; else the middle. */
+/* The next u: by Newton's method if that stays between the ends and converges fast enough; else the middle. */
 static double
 next_place(const qdot_zero_search *s, const double *end, double slope, double last_move)
 {
@@ -55,7 +56,7 @@ next_place(const qdot_zero_search *s, const double *end, double slope, double la
     return to > a && to < b && fabs(to - u) < last_move / 2 ? to : a + (b - a) / 2;
 }
 
-/* Newton and bisection between ends [2] where f [2] differs in sign. */
+/* Newton's method and bisection between ends [2] where f [2] differs in sign. */
 static qdot_status
 between_refine(qdot_zero_search *s, double *end, double *f)
 {

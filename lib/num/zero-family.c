@@ -1,4 +1,4 @@
-/* zero-family.c -- whether a zero is one of a family, in directions of which J says nothing. */
+/* zero-family.c -- decides whether a zero belongs to a family, in directions in which J is singular. */
 #include "num/zero-parts.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static const double of_first_order = 1.2, vanished = 1e-3;
  * of which F is small near by. */
 static const double beside[] = {0.05, 5e-3, 5e-4};
 
-/* Down to there it is looked how near F can be told from 0. */
+/* The smallest distance from a zero at which F is tested for being non-zero. */
 static const double nearest = 1e-8;
 
 enum { CORRECTIONS = 6 };
@@ -34,7 +34,7 @@ typedef struct {
     double *f;          /* [2m] F at the place tried, and the errors of F */
 } family;
 
-/* From h units beside the zero along `way`, with so many corrections. J at the zero is lost. */
+/* Start h units beside the zero along `way`, and make that many corrections. J at the zero is overwritten. */
 static qdot_status
 look_beside(const family *x, double h, int corrections, beside_answer *answer)
 {
@@ -68,7 +68,7 @@ look_beside(const family *x, double h, int corrections, beside_answer *answer)
     return QDOT_OK;
 }
 
-/* How near to the zero, in units along `way`, F can be told from 0. */
+/* The smallest distance along `way`, in its units, at which F is distinguishable from 0. */
 static qdot_status
 find_open(const family *x, double *open)
 {
@@ -82,7 +82,7 @@ find_open(const family *x, double *open)
     return QDOT_OK;
 }
 
-/* The k-th direction: OTHER if it is one of a family; else *open. */
+/* Examine the k-th direction: OTHER if the zero belongs to a family along it; else *open. */
 static qdot_status
 look_along(const family *x, size_t k, beside_answer *answer, double *open)
 {

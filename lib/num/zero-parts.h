@@ -1,4 +1,4 @@
-/* zero-parts.h -- a search for a zero, between the parts of it: steps, searches, bounds, families. */
+/* zero-parts.h -- the state of a search for a zero, shared by the files zero-*.c. */
 #ifndef QDOT_NUM_ZERO_PARTS_H
 #define QDOT_NUM_ZERO_PARTS_H
 
@@ -17,7 +17,7 @@ typedef struct {
     double mu, length;         /* of the step, in units of the unknowns */
     double strongest;          /* the largest singular value of the search */
     double damping;            /* how strongly |F| shortens steps; 0: only the reach does */
-    /* the search ended because |F| did not halve in as many steps as it may take for that */
+    /* the search ended because |F| did not halve in the number of steps allowed for that */
     bool gave_up;
     double order;              /* of the zero, by the last steps */
     double *last_u, *last;     /* [n] the place at which `order` was measured last, and `whole` there, */
@@ -31,7 +31,7 @@ typedef struct {
 
 /* --- zero-step.c --- */
 
-/* F, its errors and J at r->u. */
+/* Evaluate F, its errors and J at r->u. */
 QDOT_MUST_CHECK qdot_status qdot_zero_evaluate(qdot_zero_search *s);
 /* u moved into the bounds of the j-th unknown. */
 double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
@@ -39,9 +39,10 @@ double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
 double qdot_zero_norm(const qdot_zero_search *s, const double *f);
 /* Units of unknowns and functions, by J at r->u. */
 void qdot_zero_choose_units(qdot_zero_search *s);
-/* Whether |F| fell, from r->f to f along `part` of the step, by at least half of what J predicts. */
+/* Whether |F| fell, from r->f to f along the fraction `part` of the step, by at least half of what
+ * J predicts. */
 bool qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part);
-/* The step [n] that values f [m] ask for with this J; its length in units of the unknowns. */
+/* The Newton step [n] for values f [m] with this J; returns its length in units of the unknowns. */
 double qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step);
 /* The step, the errors of the unknowns, the rank. False: J is 0, to rounding, or not finite. */
 bool qdot_zero_find_step(qdot_zero_search *s);
@@ -52,16 +53,16 @@ bool qdot_zero_step_is_nothing(const qdot_zero_search *s);
 /* Whether F is 0 within its errors and rounding of u, which are small beside what F was at the guess, or beside what
  * it is made of: where the last bit of u moves F by as much as the guess was off, nothing is found. */
 bool qdot_zero_is_zero(const qdot_zero_search *s);
-/* The order of the zero that the steps lead to, by this place and the last one. */
+/* Estimate the order (multiplicity) of the zero from this and the last position. */
 void qdot_zero_estimate_order(qdot_zero_search *s);
-/* Errors of the unknowns; a zero whose place they leave open is vague. */
+/* Compute the errors of the unknowns; a zero with large errors is called vague. */
 void qdot_zero_state_errors(qdot_zero_search *s);
 
 /* --- zero-search.c, zero-between.c, zero-family.c --- */
 
-/* Newton's method from the guess; in vain, from places around it. */
+/* Newton's method from the guess; if that fails, from points around it. */
 QDOT_MUST_CHECK qdot_status qdot_zero_descend(qdot_zero_search *s);
-/* One unknown of one function between bounds. */
+/* Solve for one unknown of one function between bounds. */
 QDOT_MUST_CHECK qdot_status qdot_zero_find_between(qdot_zero_search *s);
 /* Of a zero that J leaves open in some directions: are these directions of a family? Those of an isolated zero are
  * added to the rank. */

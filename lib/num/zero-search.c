@@ -1,4 +1,4 @@
-/* zero-search.c -- Newton's method with shortened steps, from a guess and places around it. */
+/* zero-search.c -- Newton's method with shortened steps, from a guess and from points around it. */
 #include "num/zero-parts.h"
 
 #include <float.h>
@@ -10,19 +10,20 @@
 
 #include "base/memory.h"
 
-/* How many times farther from the guess each search begins than the one before, the first at 0.04. */
+/* Each new search begins this many times farther from the guess than the last; the first at 0.04. */
 static const double farther = 1.6;
 /* Where J is nearly singular, the first step is no longer than first_reach, in units of the unknowns, and each one after
  * a whole step no longer than `reaching` times that. */
 static const double first_reach = 0.1, reaching = 4;
 /* How strongly |F| shortens the steps of a search at first. */
 static const double damping = 0.01;
-/* Steps; halvings of one; steps in which |F| must halve; searches besides the first. */
+/* Steps of a search; halvings of a step; steps in which |F| must halve; searches besides the first. */
 enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PATIENCE = 8, TRIES = 8 };
 
 /* --- shortened steps --------------------------------------------------------------------------- */
 
-/* Go along the step, halved until |F|, or the step that follows from it with this J, is smaller. *gone: it was. */
+/* Move along the step, halved until |F|, or the next step with this J, becomes smaller. *gone: that
+ * succeeded. */
 static qdot_status
 walk_along(qdot_zero_search *s, bool *gone)
 {
@@ -53,7 +54,7 @@ walk_along(qdot_zero_search *s, bool *gone)
     return QDOT_OK;
 }
 
-/* Newton's method from r->u on. A search whose |F| has not halved in some steps is given up. */
+/* Newton's method from r->u on. A search in which |F| does not halve within some steps is given up. */
 static qdot_status
 descend_once(qdot_zero_search *s)
 {
@@ -135,7 +136,7 @@ search_once(qdot_zero_search *s, qdot_zero_result *crept, bool *done)
     return *done && p->wanted ? p->wanted(s->r->u, s->r->rank, done, p->user) : QDOT_OK;
 }
 
-/* Whether this search led to a zero, or nearer to one, by units of F [m] at the guess. */
+/* Whether this search found a zero, or came nearer to one, in units of F [m] at the guess. */
 static bool
 is_better(const qdot_zero_search *s, const double *unit_f, const qdot_zero_result *best)
 {

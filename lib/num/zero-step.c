@@ -1,4 +1,4 @@
-/* zero-step.c -- the next step of a search for a zero, by singular values, and what it tells. */
+/* zero-step.c -- the Newton step by singular values, with error estimates. */
 #include "num/zero-parts.h"
 
 #include <float.h>
@@ -10,15 +10,15 @@ static const double least_singular = 1e-8;
 /* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by
  * this error then. */
 static const double finest = 1e-10;
-/* Unknowns whose change by themselves changes F by less than this part of it do not move F. */
+/* An unknown whose relative change changes F by less than this part does not affect F. */
 static const double least_slope = 1e-12;
-/* Where a singular value is below so much of the largest one seen, steps are held to their reach. */
+/* If a singular value is below this part of the largest one seen, the length of steps is limited. */
 static const double nearly_singular = 0.3;
-/* F counts as 0 below so much of what it is a difference of, if its errors say no more. */
+/* F counts as 0 below this part of the terms of which it is the difference, unless its errors are larger. */
 static const double least_part = 1e-6;
-/* The order of a zero is taken where F is so many times its error, and is no more than highest_order. */
+/* The order of a zero is estimated only if F exceeds its error by the factor `clear`, up to highest_order. */
 static const double clear = 100, highest_order = 20;
-/* An unknown whose error is more than so much of it, or of its unit, is not known. */
+/* An unknown is not known if its error exceeds this part of it, or of its unit. */
 static const double least_known = 0.1;
 
 qdot_status
@@ -75,7 +75,7 @@ qdot_zero_choose_units(qdot_zero_search *s)
     }
 }
 
-/* J = U S V^T in these units, more rows than columns or as many. */
+/* J = U S V^T in these units, with at least as many rows as columns. */
 static void
 slope_decompose(qdot_zero_search *s)
 {
@@ -88,7 +88,7 @@ slope_decompose(qdot_zero_search *s)
     (void)gsl_linalg_SV_decomp(s->U, s->V, s->singular, s->work);
 }
 
-/* The step [n] that values f [m] ask for with this J; its length in units of the unknowns. */
+/* The Newton step [n] for values f [m] with this J; returns its length in units of the unknowns. */
 double
 qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step)
 {
@@ -139,7 +139,7 @@ qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const dou
     return true;
 }
 
-/* The bound below which singular values of J at a zero may be errors of J; 0: J is exact. */
+/* A bound below which singular values of J at a zero may be errors of J; 0 if J is exact. */
 static double
 slope_noise(const qdot_zero_search *s)
 {
@@ -270,7 +270,7 @@ qdot_zero_estimate_order(qdot_zero_search *s)
     s->has_last = true;
 }
 
-/* Errors of the unknowns; a zero whose place they leave open is vague. */
+/* Compute the errors of the unknowns; a zero with large errors is called vague. */
 void
 qdot_zero_state_errors(qdot_zero_search *s)
 {

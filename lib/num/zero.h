@@ -39,11 +39,12 @@ typedef struct {
     void *user;
     const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
     const double *unit;       /* [n] of u, at a guess near a zero; NULL: |u| at the guess, 1 where that is 0 */
-    /* Written by `at`, may be NULL: errors of J [m x n]; sizes of what F [m] are differences of. */
+    /* Set by `at`, may be NULL: errors of J [m x n]; sizes of the terms whose differences are F [m]. */
     const double *slope_error, *size;
     bool once;                /* a search in vain is not begun again */
     bool verify;              /* look whether what J leaves open is a family */
-    /* Whether a zero, u and rank of it, is what was looked for: else the search goes on from other places. NULL: each is. */
+    /* Whether a zero, with u and rank, is acceptable; otherwise the search goes on from other
+     * points. NULL: always. */
     qdot_status (*wanted)(const double *u, size_t rank, bool *is, void *user);
 } qdot_zero_problem;
 
