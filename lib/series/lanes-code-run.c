@@ -1,4 +1,4 @@
-/* lanes-code-run.c -- the writer: places, registers, sums; and what it wrote, to be run. */
+/* lanes-code-run.c -- the writer of machine code for lanes: slots, registers, sums; runs the code. */
 #include "series/lanes-code.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "series/taylor-text.h"
 
 enum {
-    /* Longer code is not there when it is wanted. */
+    /* longer code would not be in the cache when it is needed */
     most_bytes = 1 << 19,
     /* Orders of a block, and registers of sums that a sequence of terms makes: those of one
      * product or of two, each in chains that do not wait for each other. Behind them one for
@@ -32,7 +32,7 @@ struct qdot_lanes_code {
 
 /* --- loops -------------------------------------------------------------------------- */
 
-/* Addresses of order k, or of those a step of the loop further. */
+/* Set the addresses to those of order k, or of one loop step further. */
 static void
 aim(qdot_lanes_writer *w, bool further, int k)
 {
@@ -63,7 +63,7 @@ aim(qdot_lanes_writer *w, bool further, int k)
                               sums[i].terms[(k - 1) / sums[i].orders]);
 }
 
-/* An order of a block from `first` on, or of one so many blocks before it. */
+/* Write an order of a block from `first` on, or the same order that many blocks earlier. */
 static void
 write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_order *write,
           void *user)
@@ -76,7 +76,7 @@ write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_ord
     write(w, k, user);
 }
 
-/* From which order on no term of a block is of two of its coefficients. */
+/* The order from which no term of a block is a product of two of its own coefficients. */
 static int
 least_of_loop(const qdot_lanes_writer *w, int late)
 {
@@ -133,14 +133,14 @@ find_rows(qdot_lanes_writer *w)
         for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
             if (rows[r] != QDOT_NO_ROW)
                 w->rows[rows[r]].moving = true;
-        /* the length of steps reads these (near.h) */
+        /* the step length depends on these rows (near.h) */
         if (qdot_recurrence_exponential(s->op) > 0 || qdot_recurrence_divisor(s->op))
             for (size_t r = 0; r < 4; r++)
                 w->rows[(qdot_program_row[]){s->x, s->y, s->z, s->to}[r]].kept = true;
     }
 }
 
-/* The second time rows have their places; sums come first. */
+/* Write all code. In the second pass rows have their slots; sums come first. */
 static void
 write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
           size_t *entry)
@@ -194,7 +194,7 @@ make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
     return QDOT_OK;
 }
 
-/* Write the code; *code is NULL if that is not possible. */
+/* Generate the code; *code is NULL if that is not possible. */
 static qdot_status
 lanes_code_build(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
 {
@@ -235,7 +235,7 @@ qdot_status
 qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write *write,
                     void *user, qdot_lanes_code **code)
 {
-    /* of one double by instructions that both kinds have */
+    /* code for one double uses instructions that both kinds have */
     const size_t kind = at->group > 1 || qdot_asm_kind() == 0 ? qdot_asm_kind() : 1;
     qdot_lanes_writer w = {.m = {.kind = kind},
                            .at = *at,

@@ -41,7 +41,7 @@ typedef struct {
     int order;
 } qdot_lanes_at;
 
-/* Factors of a sum. */
+/* The two factors of the products in a sum. */
 typedef struct {
     qdot_lanes_row x, y;
 } qdot_lanes_pair;
@@ -54,7 +54,7 @@ enum { QDOT_LANES_NOTHING = -1 };
 /* What is written. Called twice, the same in both: the first time to learn which rows it
  * wants to all orders. */
 typedef void qdot_lanes_write(qdot_lanes_writer *writer, void *user);
-/* An order of it. */
+/* Writes the code of one order. */
 typedef void qdot_lanes_write_order(qdot_lanes_writer *writer, int k, void *user);
 /* A number that depends on the order. */
 typedef double qdot_lanes_by_order(int k);
@@ -65,25 +65,25 @@ typedef double qdot_lanes_by_order(int k);
 QDOT_MUST_CHECK qdot_status qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers,
                                                 qdot_lanes_write *write, void *user,
                                                 qdot_lanes_code **code);
-/* Whether there can be any. */
+/* Whether machine code can be generated on this processor. */
 bool qdot_lanes_may_be_code(void);
 void qdot_lanes_code_free(qdot_lanes_code *code);
 void qdot_lanes_code_run(const qdot_lanes_code *code);
 
 /* Bytes. */
 size_t qdot_lanes_code_size(const qdot_lanes_code *code);
-/* The place of a number, for the caller to fill before: [a group]. */
+/* The address of a number, filled by the caller before a run: [a group]. */
 double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);
 
 /* --- writing ------------------------------------------------------------------------ */
 
 qdot_lanes_at qdot_lanes_number(const qdot_lanes_writer *w, size_t i);
-/* A row of the program is read to all orders after the run. */
+/* Declare that all orders of a row of the program are read after the run. */
 void qdot_lanes_keep(qdot_lanes_writer *w, qdot_lanes_row row);
-/* A constant that is the same number in every lane. */
+/* A constant with the same value in every lane. */
 qdot_lanes_at qdot_lanes_scalar(qdot_lanes_writer *w, double value);
 
-/* A constant f(k), the same number in every lane. */
+/* A constant f(k), with the same value in every lane. */
 qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k);
 
 /* Orders from ... to, low ones each written for itself, the others four at a time, as a loop,
@@ -92,12 +92,12 @@ qdot_lanes_at qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f,
 void qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
                        qdot_lanes_write_order *write, void *user);
 
-/* Order k = 1, 2, ... of all steps, orders below being there and k of the inputs. */
+/* Write order k = 1, 2, ... of all steps; lower orders, and order k of the inputs, must be known. */
 void qdot_lanes_steps(qdot_lanes_writer *w, int k);
 /* Stage k of a motion: every step at order k + its lead, newest coefficients of the unknowns being
  * 0; of what holds them rows of the equations alone are there then. */
 void qdot_lanes_steps_without(qdot_lanes_writer *w, const qdot_motion *motion, int k);
-/* And once more, when those are there: what later orders read of it. */
+/* Complete order k when the unknowns are known: whatever later orders read. */
 void qdot_lanes_steps_with(qdot_lanes_writer *w);
 /* The caller's first numbers are what steps multiply by for the rate of a row, or (`twice`) the rate
  * of a rate, at an order that is so much above the stage's: (k + 1)/unit, (k + 1)(k + 2)/unit^2,
@@ -110,16 +110,16 @@ bool qdot_lanes_wants_rate(const qdot_lanes_writer *w, bool twice, int lead);
  * behind the steps of every order, k being theirs or always as many orders below. */
 qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
                                const qdot_lanes_pair *pair, int k);
-/* A sum that begins as a copy of `a`. */
+/* Begin a sum as a copy of `a`. */
 qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
-/* A sum that begins as `a`, whose register it takes over if nothing else reads it (_unread). */
+/* Begin a sum as `a`, reusing its register if nothing else reads it (_unread). */
 qdot_lanes_sum qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a);
-/* sum +- a, sum +- a b, sum a; it is stored and its register given back. */
+/* sum +- a; sum +- a b; a = sum, which frees the register */
 void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                     qdot_lanes_at a);
 void qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                             qdot_lanes_at a, qdot_lanes_at b);
-/* a - sum */
+/* sum = a - sum; sum times a; -sum */
 void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum);

@@ -2,7 +2,7 @@
  * rate, a product that another one is added to. */
 #include "series/lanes-writer.h"
 
-/* The step that computes a row; NULL: the row is an input or constant. */
+/* The step that computes a row; NULL for an input or constant. */
 static const qdot_program_step *
 maker(const qdot_lanes_writer *w, qdot_program_row row)
 {
@@ -46,7 +46,7 @@ qdot_writer_within(const qdot_lanes_writer *w, const qdot_program_step *product)
     return z && lanes_step_is_product(z->op) && is_folded(w, product->z) ? z : NULL;
 }
 
-/* A step adds z, or the row that it has alone; takes no part in it else. */
+/* Whether the row only occurs as a summand of the step: as z, or as its only operand. */
 static bool
 only_adds(const qdot_program_step *s, qdot_program_row row)
 {
@@ -83,7 +83,7 @@ find_readers(qdot_lanes_writer *w)
     }
 }
 
-/* Rows that an equation or an unknown is made of have to be there. */
+/* Mark rows that belong to equations or unknowns: they must be computed. */
 static void
 find_fixed(qdot_lanes_writer *w, const qdot_motion *m)
 {
@@ -106,7 +106,7 @@ fold_sign_or_rate(qdot_lanes_writer *w, size_t i)
         w->steps[i].folded = true;
 }
 
-/* Into step i the sum that it adds its product to. */
+/* Fold the sum to which step i adds its product into the step. */
 static void
 fold_product(qdot_lanes_writer *w, size_t i)
 {
@@ -124,7 +124,7 @@ fold_product(qdot_lanes_writer *w, size_t i)
     w->steps[i].pairs += inner;
 }
 
-/* Marks the rows that equations are made of, and the steps that make none. */
+/* Mark the rows from which equations are made, and the steps that make none of them. */
 static void
 find_wanted(qdot_lanes_writer *w)
 {

@@ -1,4 +1,4 @@
-/* lanes-motion.c -- what a stage of a motion is written as. */
+/* lanes-motion.c -- writes the machine code for the stages of a motion in lanes. */
 #include "series/lanes-motion.h"
 
 #include <math.h>
@@ -70,7 +70,7 @@ rate_of_rate(int k)
     return (double)(k + 1) * (k + 2);
 }
 
-/* to = number f(k) */
+/* to = number * f(k) */
 static void
 write_factor(qdot_lanes_writer *w, size_t number, qdot_lanes_by_order *f, int k,
              qdot_lanes_at to)
@@ -96,7 +96,7 @@ write_rates(qdot_lanes_writer *w, int k)
     }
 }
 
-/* Where the coefficient of order k of unknown i is: in its row, or a number if it has none. */
+/* The location of coefficient k of unknown i: in its row, or in a number if it has none. */
 static qdot_lanes_at
 unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
 {
@@ -106,7 +106,7 @@ unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t 
                               : qdot_lanes_number(w, c->unknown + i);
 }
 
-/* Write the solution for a block by the Cholesky factor, whose diagonal is inverted: -L y = E, L^T a = y. */
+/* Write the solution for a block by its Cholesky factor with inverted diagonal: -L y = E, L^T a = y. */
 static void
 write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
 {
@@ -164,7 +164,7 @@ write_integral(qdot_lanes_writer *w, const qdot_lanes_motion *c, int k, qdot_lan
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
-    /* low orders divide (program.h); those of the loop are higher */
+    /* low orders divide (program.h); orders inside the loop are higher */
     if (c->to >= QDOT_TAYLOR_EXACT_FROM && k <= QDOT_TAYLOR_EXACT) {
         qdot_lanes_add_product(w, &sum, false, qdot_lanes_number(w, unit),
                                qdot_lanes_scalar_of(w, more, k));
@@ -187,7 +187,7 @@ write_integrals(qdot_lanes_writer *w, const qdot_lanes_motion *c,
                        (qdot_lanes_at){u->once, k + 1});
 }
 
-/* Write stage m: each step at the order that its lead makes of it. */
+/* Write stage m: each step at order m plus its lead. */
 static void
 write_stage(qdot_lanes_writer *w, int m, void *user)
 {

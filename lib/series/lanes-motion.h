@@ -13,7 +13,7 @@
 
 typedef struct qdot_lanes_motion qdot_lanes_motion;
 
-/* A larger block than this has no code. */
+/* Blocks larger than this have no code. */
 enum { QDOT_LANES_SOLVED = 16 };
 
 /* Stages 1 ... to, of rows of the motion's program; all borrowed. Up to stage `factored` a block is

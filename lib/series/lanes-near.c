@@ -25,7 +25,7 @@ qdot_lanes_may_hide(const qdot_lanes *lanes)
     return false;
 }
 
-/* The series of a row in a lane, side by side. */
+/* Copy the series of a row in one lane to consecutive numbers. */
 static void
 take_series(const qdot_lanes_rows *rows, qdot_program_row row, size_t lane, int p, double *x)
 {
@@ -43,7 +43,7 @@ divisor_of(const qdot_program_step *step)
     return which == 'x' ? step->x : which == 'y' ? step->y : step->z;
 }
 
-/* Lanes in which the row may fall so far, by the sizes of its terms. */
+/* Find the lanes in which the row may fall far enough, from the magnitudes of its terms. */
 static void
 find_falling(const qdot_lanes_rows *rows, qdot_program_row row, int p, const double *s, bool *may)
 {
@@ -57,7 +57,7 @@ find_falling(const qdot_lanes_rows *rows, qdot_program_row row, int p, const dou
         may[l] = qdot_near_sizes_may_fall(fabs(b[l]), sum[l]);
 }
 
-/* How near a divisor comes to 0 within the step s, in one lane. */
+/* The largest part of step s for which a divisor stays away from 0, in one lane. */
 static double
 lane_divisor_nearness(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t lane, int p,
                       double s)

@@ -1,8 +1,8 @@
-/* lanes-steps.c -- the recurrences in lanes as code: an order of a step, in two parts. */
+/* lanes-steps.c -- writes one order of a recurrence as machine code, in two parts. */
 #include "series/lanes-writer.h"
 #include "series/recurrence-operations.h"
 
-/* One step of the program at the order at hand, while its code is written. */
+/* A step of the program at the present order, while its code is written. */
 typedef struct {
     qdot_lanes_writer *w;
     const qdot_program_step *s;
@@ -34,7 +34,7 @@ itself(int k)
     return k;
 }
 
-/* While inputs are left out a coefficient may be absent for it. */
+/* Store a coefficient; without the inputs' newest coefficients it may be absent. */
 static void
 store(const step *s, qdot_lanes_sum sum, qdot_program_row to)
 {
@@ -46,7 +46,7 @@ store(const step *s, qdot_lanes_sum sum, qdot_program_row to)
         qdot_lanes_store(w, sum, row_at(to, s->k));
 }
 
-/* Add or subtract the coefficient of this order of a term. */
+/* Add or subtract the present coefficient of a term. */
 static void
 step_add_term(const step *s, qdot_lanes_sum *sum, bool minus, qdot_writer_addend t)
 {
@@ -95,7 +95,7 @@ step_row_of(const step *s, unsigned name)
     return qdot_program_step_row(s->s, name);
 }
 
-/* sums[0]: of lower orders what is summed into U1, or a row; [1]: into U2. */
+/* Sum the lower orders: sums[0] goes into U1 or a row, sums[1] into U2. */
 static void
 before(const step *s, qdot_lanes_sum *sums)
 {
@@ -134,7 +134,7 @@ is_passing(const qdot_lanes_writer *w, const qdot_program_step *s)
     return s->newest && !s->kept && !w->rows[s->to].equation;
 }
 
-/* Nothing reads the row, of a step before this one, any more. */
+/* Whether no later step reads the row. */
 static bool
 is_last_reader(const step *s, qdot_program_row row)
 {
@@ -148,7 +148,7 @@ is_last_reader(const step *s, qdot_program_row row)
     return passes;
 }
 
-/* Products of which one adds the next; x is the newer factor (program.c). */
+/* Add a chain of products, each added to the next; x is the newer factor (program.c). */
 static void
 products(const step *s, qdot_lanes_sum sum)
 {
@@ -165,7 +165,7 @@ products(const step *s, qdot_lanes_sum sum)
     store(s, sum, s->s->to);
 }
 
-/* U1 or U2, or what becomes a row: +- a sum. */
+/* U1, U2 or the value of a row: +- a sum. */
 typedef struct {
     qdot_lanes_sum sum;
     bool minus;
@@ -173,7 +173,7 @@ typedef struct {
 
 static const number nothing = {.sum = QDOT_LANES_NOTHING};
 
-/* v +- a coefficient k, or U1 or U2, which is used up. */
+/* v +- coefficient k of a row, or +- U1 or U2, which is then used up. */
 static void
 step_add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 {
@@ -190,7 +190,7 @@ step_add_number(const step *s, number *v, bool minus, unsigned name, number *u)
     *other = nothing;
 }
 
-/* The number that starts a sum with the operand `name`: of U1, U2 the sum itself, which is moved out of u. */
+/* A number that starts as operand `name`; for U1, U2 the sum is moved out of u. */
 static number
 step_number_of(const step *s, unsigned name, number *u)
 {
@@ -211,7 +211,7 @@ is_folded(const step *s, unsigned name)
     return qdot_writer_expand(s->w, step_row_of(s, name)).row != step_row_of(s, name);
 }
 
-/* The sum q of an operation, moved out of u; `nothing` if it is left out because its y is not computed. */
+/* The sum q of an operation, moved out of u; `nothing` if y is not computed and so q is left out. */
 static number
 take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
@@ -252,7 +252,7 @@ with_product(const step *s, const qdot_recurrence_operation *o, number *u)
     return v;
 }
 
-/* The number that one operation of a recurrence computes. */
+/* The number computed by one operation of a recurrence. */
 static number
 step_result(const step *s, const qdot_recurrence_operation *o, number *u)
 {
@@ -349,7 +349,7 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
 
 /* --- of a motion, twice --------------------------------------------------------------- */
 
-/* Whether a sine or hyperbolic sine lacks only the newest coefficient of its argument, which was not known before. */
+/* Whether a sine or hyperbolic sine lacks only the newest coefficient of its argument. */
 static bool
 lacks_argument(const step *s)
 {

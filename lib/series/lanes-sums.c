@@ -1,4 +1,4 @@
-/* lanes-sums.c -- sums of products over orders, those of a block of orders together. */
+/* lanes-sums.c -- writes sums of products over orders; those of a block of orders together. */
 #include "series/lanes-writer.h"
 
 /* A sequence of terms has sums of `products` times the orders of a block; register c of the
@@ -75,7 +75,7 @@ address(qdot_lanes_writer *w, qdot_asm_base to, qdot_lanes_row row, int order)
         qdot_asm_set(&w->m, to, (qdot_asm_base)rm.reg, rm.offset);
 }
 
-/* Where a register says, or at so many terms less: sums of a lower order than the steps. */
+/* Enter the loop over terms at the address in a register, or with `less` fewer terms for lower orders. */
 static void
 enter_in_loop(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int less)
 {
@@ -126,7 +126,7 @@ clear_chains(qdot_lanes_writer *w)
         qdot_writer_clear(w, r);
 }
 
-/* The chains of a sum become the first of them. */
+/* Add the partial sums (chains) of a sum into the first. */
 static int
 chains_add_up(qdot_lanes_writer *w, int products, int product, int i)
 {
@@ -145,7 +145,7 @@ number_ahead(const qdot_lanes_writer *w, size_t sum, int i)
                                     sum * (size_t)(w->block - 1) + (size_t)i - 1);
 }
 
-/* The number of the next sum of this order; room for it in `ahead`. */
+/* The index of the next sum of this order, with space for it in `ahead`. */
 static size_t
 next_sum(qdot_lanes_writer *w)
 {
@@ -193,7 +193,7 @@ both_move(const qdot_lanes_writer *w, const qdot_lanes_pair *pair)
     return w->rows[pair->x].moving && w->rows[pair->y].moving;
 }
 
-/* Terms of order k that hold coefficients of its block, the newest last. */
+/* Add the terms of order k that contain coefficients of its own block, the newest last. */
 static void
 add_outer(qdot_lanes_writer *w, qdot_lanes_sum *sum, size_t pairs,
           const qdot_lanes_pair *pair, int k)

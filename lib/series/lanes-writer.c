@@ -1,4 +1,4 @@
-/* lanes-writer.c -- places of coefficients, registers, operations on an accumulator. */
+/* lanes-writer.c -- locations of coefficients, register allocation, operations on an accumulator. */
 #include <string.h>
 
 #include "series/lanes-writer.h"
@@ -11,14 +11,14 @@ is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
     return row < w->t->rows.n;
 }
 
-/* Whether `a` is the coefficient of the order at hand of a row of the program. */
+/* Whether `a` is the coefficient of the present order of a row of the program. */
 static bool
 is_newest(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
     return a.order == w->k + w->t->rows.at[a.row].lead;
 }
 
-/* A coefficient of a row is 0 and nothing writes it, or left out. */
+/* Whether a coefficient of a row is 0 and never written, or left out. */
 static bool
 coefficient_vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
@@ -178,7 +178,7 @@ qdot_writer_leave(qdot_lanes_writer *w, int end)
         register_leave(w, r);
 }
 
-/* The least recently used from `lowest` on that is not taken. */
+/* The least recently used register from `lowest` on that is not reserved. */
 static int
 register_fresh(qdot_lanes_writer *w, int lowest)
 {
@@ -188,7 +188,7 @@ register_fresh(qdot_lanes_writer *w, int lowest)
     return reg;
 }
 
-/* Sequences of terms are called by the first order of a block alone. */
+/* Only the first order of a block calls sequences of terms, so others may use all registers. */
 static int
 first_taken(const qdot_lanes_writer *w)
 {
@@ -236,7 +236,7 @@ register_load(qdot_lanes_writer *w, qdot_lanes_at a)
     return reg;
 }
 
-/* The operand of an instruction: the register that holds `a`, or its address in memory. */
+/* The operand for `a` in an instruction: the register that holds it, or its address. */
 static qdot_operand
 writer_operand(qdot_lanes_writer *w, qdot_lanes_at a)
 {

@@ -19,7 +19,7 @@ enum {
     QDOT_WRITER_MOST_TABLES = 16
 };
 
-/* Bits of row numbers that denote constants and tables, not rows of the program. */
+/* Bits of row numbers that denote constants and tables instead of rows of the program. */
 enum {
     QDOT_WRITER_NUMBERS = 1 << 24,
     QDOT_WRITER_INVERSES = 2 << 24,
@@ -58,7 +58,7 @@ typedef struct {
     bool rests[QDOT_WRITER_RESTS]; /* there is one at the order at hand */
 } qdot_writer_step;
 
-/* +- a row, its rate or the rate of that. */
+/* +- a row, its derivative, or its second derivative. */
 typedef struct {
     bool minus;
     int rates;
@@ -106,16 +106,16 @@ qdot_writer_inverse(size_t step)
 void qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int first,
                       qdot_operand rm);
 qdot_operand qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
-/* Reserve a free register; its value is undefined. */
+/* Reserve a free register; its contents are undefined. */
 int qdot_writer_take(qdot_lanes_writer *w);
-/* What registers have for the places of results is stored there, where orders to come read it. */
+/* Store register contents that belong to results and that later orders read. */
 void qdot_writer_settle(qdot_lanes_writer *w);
-/* They hold nothing below register `end`; what they are ahead of is stored. */
+/* Forget the contents of registers below `end`, after storing what memory does not have. */
 void qdot_writer_leave(qdot_lanes_writer *w, int end);
-/* What some register has is stored; no other holds what was there. */
+/* Store a register to a location; no other register then holds its old value. */
 void qdot_writer_put(qdot_lanes_writer *w, int reg, qdot_lanes_at to);
 void qdot_writer_clear(qdot_lanes_writer *w, int reg);
-/* Groups of work space. */
+/* The number of groups of work space. */
 size_t qdot_writer_groups(const qdot_lanes_writer *w);
 /* The sequence of terms of one product or two; at [stride] where they begin. With windows every
  * coefficient of the other factors is loaded once, else once for each order. */
@@ -128,7 +128,7 @@ qdot_writer_addend qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_r
 const qdot_program_step *qdot_writer_within(const qdot_lanes_writer *w,
                                             const qdot_program_step *product);
 
-/* Order k begins. */
+/* Begin order k. */
 static inline void
 qdot_writer_begin(qdot_lanes_writer *w, int k)
 {
@@ -137,7 +137,7 @@ qdot_writer_begin(qdot_lanes_writer *w, int k)
     w->sum = 0;
 }
 
-/* Bytes of a term of such a sequence, of one with all orders of a block. */
+/* The code length in bytes of one term of such a sequence, including all orders of a block. */
 static inline size_t
 qdot_writer_term(const qdot_lanes_writer *w, const size_t *at)
 {
@@ -150,7 +150,7 @@ void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
                       qdot_lanes_row z, int k, qdot_lanes_sum *sums);
 qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);
 
-/* sum = sum op other, whose register is given back. */
+/* sum = sum op other; the register of `other` is freed. */
 void qdot_writer_join(qdot_lanes_writer *w, qdot_asm_operation op, qdot_lanes_sum *sum,
                       qdot_lanes_sum other);
 

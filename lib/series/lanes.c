@@ -112,14 +112,14 @@ lanes_place(const qdot_lanes *t, qdot_program_row row)
     return row == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)row * t->stride * QDOT_LANES;
 }
 
-/* Rows have orders up to `most`. */
+/* Allocate rows for orders up to `most`. */
 static qdot_status
 lanes_allocate(qdot_lanes *t, int most)
 {
     const qdot_program *p = t->program;
     const size_t line = 64;
 
-    /* and a note (correct); rows are to share no few sets of a cache */
+    /* one more for notes (correct); an odd stride, so that rows are spread over all sets of the cache */
     t->stride = ((size_t)most + 2) | 1;
     t->memory = qdot_calloc((p->rows.n * t->stride + p->length) * QDOT_LANES +
                                 line / sizeof(double),
@@ -134,7 +134,7 @@ lanes_allocate(qdot_lanes *t, int most)
     return QDOT_OK;
 }
 
-/* A number in all lanes; shaken, it is its other neighbour, else drawn of both. */
+/* Set a number in all lanes: its other neighbour if shaken, otherwise drawn at random from both. */
 static void
 set_constant(qdot_lanes *t, double *row, const qdot_program_constant *c, bool shaken)
 {
@@ -189,7 +189,7 @@ set_steps(qdot_lanes *t)
     }
 }
 
-/* Allocate and fill what depends on the program. */
+/* Allocate and fill everything that depends on the program only. */
 static qdot_status
 lanes_fill(qdot_lanes *t, bool shaken, int most)
 {
@@ -203,7 +203,7 @@ lanes_fill(qdot_lanes *t, bool shaken, int most)
     return QDOT_OK;
 }
 
-/* Make lanes for a program, which may be that of a motion. */
+/* Make lanes for a program, or for that of a motion. */
 static qdot_status
 lanes_make(const qdot_program *program, const qdot_motion *motion, bool shaken, int most,
            qdot_lanes **lanes)
@@ -288,7 +288,7 @@ qdot_lanes_draw(qdot_lanes *t, const double *time)
     t->kind->draw(t->drawn, t->n_drawn, time);
 }
 
-/* Steps from `from` on, those that lead by so much being at order k + lead. */
+/* Carry out the steps from index `from` on, each at order k plus its lead. */
 static void
 lanes_begin_steps(qdot_lanes *t, int k, size_t from)
 {
@@ -331,7 +331,7 @@ qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
         t->per_unit[l] = 1 / unit[l];
 }
 
-/* Store order k of an unknown, and the coefficients of its integrals that follow. */
+/* Store order k of an unknown, and the coefficients of its integrals that follow from it. */
 static void
 lanes_put_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
 {

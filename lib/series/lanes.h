@@ -18,7 +18,7 @@ void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, doubl
 /* As qdot_lanes_eval, with sines and cosines computed as in series. */
 void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work);
 
-/* The series program with its coefficients: one a thread. */
+/* The series program with its coefficients, one for each thread. */
 typedef struct qdot_lanes qdot_lanes;
 
 /* As qdot_taylor_of_program; the program is borrowed. */

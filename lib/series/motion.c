@@ -1,9 +1,9 @@
-/* motion.c -- how far the rows of a motion lead, and which hold what is not known yet. */
+/* motion.c -- by how many orders each row of a motion leads, and which rows contain unknown coefficients. */
 #include "series/motion.h"
 
 #include <string.h>
 
-/* The rows that a step reads; the rows that it writes. */
+/* The most rows that a step reads, and that it writes. */
 enum { READS = 3, WRITES = 4 };
 
 static void
@@ -23,14 +23,14 @@ writes_of(const qdot_program_step *s, qdot_program_row rows[WRITES])
     rows[3] = s->d;
 }
 
-/* By how many orders a step reads its operands ahead of the row it writes. */
+/* The number of orders by which a step reads its operands ahead of its result. */
 static int
 step_reads_ahead(const qdot_program_step *s)
 {
     return s->op == QDOT_T_RATE;
 }
 
-/* A step leads as far as one of its rows is asked to, and asks that of what it reads. */
+/* Each step leads by the most that any of its rows is asked for, and asks the same of its operands. */
 static void
 find_leads(qdot_program *p)
 {
@@ -59,7 +59,7 @@ find_leads(qdot_program *p)
     }
 }
 
-/* An input is known so far ahead; newest [rows]: those that hold what is solved for. */
+/* Record that an input is known to that lead; newest [rows]: rows that contain unknowns. */
 static qdot_status
 row_settle(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *newest)
 {
@@ -86,7 +86,7 @@ settle_unknown(qdot_motion *m, const qdot_motion_unknown *u, bool *newest)
     return row_settle(m, u->twice, solved ? 2 : 0, solved, newest);
 }
 
-/* A row is read at its newest order where it leads no further than that. */
+/* Mark the operands that a step reads at their newest order. */
 static void
 find_newest(qdot_program *p, bool *newest)
 {
@@ -107,7 +107,7 @@ find_newest(qdot_program *p, bool *newest)
     }
 }
 
-/* Whether lower orders stand in a step's sums: of rows that it writes; of its operand x, y or z. */
+/* Whether the step's sums contain lower orders of its own results or of its operands. */
 static bool
 sums_itself(const qdot_program_step *s)
 {
@@ -213,7 +213,7 @@ line_add_product(qdot_program_builder *b, qdot_program_row K, qdot_program_row u
                                  : qdot_program_operation(b, QDOT_OP_MADD, K, u, to->E);
 }
 
-/* Numbers last, as there is nothing of them to add before the unknowns are known. */
+/* Write equations; constant factors come last, as they add nothing before the unknowns are known. */
 void
 qdot_motion_write(const qdot_motion *m, qdot_program_builder *b, size_t from,
                   qdot_motion_line *lines, size_t first, size_t end)

@@ -41,7 +41,7 @@ typedef struct {
     qdot_program_row once, twice; /* rows of inputs; QDOT_NO_ROW: none */
 } qdot_motion_unknown;
 
-/* K_ij and K_ji are order 0 of a row. */
+/* An entry of K: K_ij and K_ji are order 0 of a row. */
 typedef struct {
     uint32_t i, j;
     qdot_program_row at;
@@ -77,7 +77,7 @@ QDOT_MUST_CHECK qdot_status qdot_motion_solve(qdot_motion *motion, qdot_motion_u
                                               qdot_program_row equation);
 QDOT_MUST_CHECK qdot_status qdot_motion_end_block(qdot_motion *motion);
 
-/* An unknown that is solved for; `right` of its equation, QDOT_NO_ROW: it is not made here; E. */
+/* An unknown that is solved for; `right` of its equation (QDOT_NO_ROW: not made here); its residual E. */
 typedef struct {
     qdot_program_row u, right, E;
 } qdot_motion_line;
@@ -87,14 +87,14 @@ typedef struct {
 void qdot_motion_write(const qdot_motion *motion, qdot_program_builder *b, size_t from,
                        qdot_motion_line *lines, size_t first, size_t end);
 
-/* Whether all equations of a motion are explicit; also if it has none. */
+/* Whether all equations of a motion are explicit; true also if there are none. */
 static inline bool
 qdot_motion_is_explicit(const qdot_motion *m)
 {
     return m->right.n == m->solved.n;
 }
 
-/* The first stage: order 0 of what leads most. */
+/* The first stage: order 0 of the rows with the largest lead. */
 static inline int
 qdot_motion_first(const qdot_motion *m)
 {

@@ -1,4 +1,4 @@
-/* near.c -- sums that grow with the step, which halving finds; and a polynomial at a few places. */
+/* near.c -- shortens a step near negligible terms: sums that grow with it, polynomials at a few points. */
 #include "series/near.h"
 
 #include <float.h>
@@ -14,7 +14,7 @@ qdot_near_limit(int p, double u0, double digits)
     return fmax(0.5 * (p + 1), fabs(u0) - digits - QDOT_NEAR_BEYOND);
 }
 
-/* sum_{k>=1} |x_k| s^k, in two chains that the processor computes side by side. */
+/* sum_{k>=1} |x_k| s^k, in two partial sums that the processor computes in parallel. */
 double
 qdot_near_sum(int p, const double *x, double s)
 {
@@ -97,7 +97,7 @@ polynomial_value(int p, const double *b, double s)
     return sum;
 }
 
-/* The first quarter of the step at which little of b_0 is left; 0: none. */
+/* The first quarter of the step after which b is much smaller than b_0; 0: none. */
 static int
 falls_in(int p, const double *b, double s)
 {

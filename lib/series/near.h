@@ -66,7 +66,7 @@ qdot_near_taken(double s, double near, double least)
 }
 #define QDOT_NEAR_FINER 0x1p-20
 
-/* Whether the series [p + 1] of a quotient has terms at s that are no smaller than its first. */
+/* Whether the series [p + 1] of a quotient has terms at s as large as its first. */
 bool qdot_near_diverges(int p, const double *quotient, double s);
 
 #endif

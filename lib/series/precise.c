@@ -8,7 +8,7 @@
 #include "num/real.h"
 #include "series/near.h"
 
-/* The first two of the scratch are U1, U2 of recurrence.def, the last is that of sums. */
+/* Temporaries: U1 and U2 of recurrence.def, and one for sums. */
 enum { SCRATCH = 3 };
 
 struct qdot_precise {
@@ -78,7 +78,7 @@ mpfr_modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
     mpfr_sub(d, a, w, RN);
 }
 
-/* 1 - tanh^2 beside tanh. */
+/* d = tanh(a), slope = 1 - tanh(a)^2. */
 static void
 hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
 {
@@ -145,7 +145,7 @@ precise_order(qdot_precise *precise, const qdot_program_step *i, int k)
     }
 }
 
-/* Order k of all steps, ahead as far as they lead. */
+/* Compute order k of all steps, ahead by their leads. */
 void
 qdot_precise_order(qdot_precise *p, int k)
 {
@@ -160,7 +160,7 @@ qdot_precise_order(qdot_precise *p, int k)
 
 /* --- unknowns ------------------------------------------------------------------------ */
 
-/* Coefficient k of a row, where there is one. */
+/* Coefficient k of a row if it exists, else NULL. */
 static mpfr_ptr
 precise_at(const qdot_precise *p, qdot_program_row row, int k)
 {
@@ -246,7 +246,7 @@ note_step(qdot_precise *precise, const qdot_program_step *i, int k)
 #undef U1
 #undef U2
 
-/* Add the noted change of a row to its coefficient of stage k. */
+/* Add the recorded change of a row to its coefficient of order k. */
 static void
 precise_apply_note(qdot_precise *p, qdot_program_row row, int k)
 {
@@ -256,7 +256,7 @@ precise_apply_note(qdot_precise *p, qdot_program_row row, int k)
         mpfr_add(x, x, p->notes.at[row], RN);
 }
 
-/* The notes of an unknown that changes by d at stage k. */
+/* Record the changes for an unknown that changes by d at stage k. */
 static void
 note_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k)
 {
@@ -270,7 +270,7 @@ note_unknown(qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr d, int k
         mpfr_div_ui(note[u->twice], note[u->once], (unsigned long)k + 2, RN);
 }
 
-/* Find the changes of the rows of all steps, or only of those that later orders read. */
+/* Compute the changes of the rows of all steps, or only of those that later orders read. */
 static void
 note_steps(qdot_precise *p, int k, bool all)
 {
@@ -319,7 +319,7 @@ qdot_precise_column(qdot_precise *p, size_t first, size_t n, size_t j, mpfr_t *c
         mpfr_set(column[i * n], p->notes.at[m->equations.at[first + i]], RN);
 }
 
-/* So that the argument of an exponential, so many times, is not carried too far. */
+/* Shorten a step so that the argument of an exponential, `times` u, does not change by too much. */
 static double
 near_argument(const mpfr_t *u, int k, double times, double digits, double log2_h)
 {
@@ -331,7 +331,7 @@ near_argument(const mpfr_t *u, int k, double times, double digits, double log2_h
     return qdot_near_log2(k, sizes, limit, log2_h);
 }
 
-/* The terms of a series at 2^log2_h, as parts of the first one. */
+/* The terms of a series at 2^log2_h, relative to the first. */
 static void
 in_parts(const mpfr_t *x, int k, double log2_h, double *out)
 {
@@ -409,7 +409,7 @@ precise_set_constants(qdot_precise *p, qdot_pool *pool)
     return QDOT_OK;
 }
 
-/* Allocate the rows of a program, which is there already. */
+/* Allocate the rows of a program that exists already. */
 static qdot_status
 precise_make_rows(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
 {

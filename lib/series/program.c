@@ -83,7 +83,7 @@ program_emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
     return to;
 }
 
-/* Give the step that was added last a further row d. */
+/* Give the last step a further row d. */
 static void
 with_d(builder *b)
 {
@@ -146,7 +146,7 @@ emit_product(builder *b, qdot_op op, row x, row y, row z)
     return square;
 }
 
-/* Sine of the pair of x, *cosine beside it. */
+/* The row of the sine in a pair for x; *cosine: that of the cosine. */
 static row
 pair(builder *b, qdot_recurrence op, row x, row *cosine)
 {
@@ -284,7 +284,7 @@ build_one(builder *b, const qdot_instruction *i, row *second)
     }
 }
 
-/* The operations without a series. */
+/* The name of the first operation on the tape that has no series; NULL if all have one. */
 const char *
 qdot_program_hindrance(const qdot_tape *tape)
 {
@@ -294,7 +294,7 @@ qdot_program_hindrance(const qdot_tape *tape)
     return NULL;
 }
 
-/* Put the steps whose rows do not change with t first, otherwise in their order. */
+/* Move the steps whose rows are constant to the front, otherwise keeping the order. */
 static qdot_status
 still_ones_first(qdot_program *p)
 {

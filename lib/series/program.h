@@ -21,7 +21,7 @@
  * orders err by more than that. */
 enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
 
-/* Recurrences, by the names that recurrence.def has. */
+/* Recurrences, by their names in recurrence.def. */
 typedef enum {
     QDOT_T_END,
     QDOT_T_VALUE, /* order 0 alone: an operation that switches */
@@ -32,7 +32,7 @@ typedef enum {
     QDOT_T_COUNT
 } qdot_recurrence;
 
-/* Values of order 0 that operation.def does not have. */
+/* Values of order 0 that are no operations of operation.def. */
 enum {
     QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, /* to, second of x */
     QDOT_ZERO_POWER,                    /* y^z; x is the logarithm of it */
@@ -44,7 +44,7 @@ typedef uint32_t qdot_program_row; /* a row by its number */
 
 #define QDOT_NO_ROW UINT32_MAX
 
-/* The source of the coefficient of order 0 of a row. */
+/* Where the coefficient of order 0 of a row comes from. */
 typedef enum {
     QDOT_ROW_INPUT,    /* the caller; number `at` of the inputs */
     QDOT_ROW_CONSTANT, /* constant `at` of the program */
@@ -60,7 +60,7 @@ typedef struct {
     int lead; /* it is known so many orders before those that it is there for (motion.h) */
 } qdot_program_row_info;
 
-/* A number, as a tape has it (expr/constant.h). */
+/* A constant, as a tape stores it (expr/constant.h). */
 typedef struct {
     double value, low; /* the nearest double; the rest of the constant, rounded */
     signed char side;
@@ -70,12 +70,12 @@ typedef struct {
 /* The bits of qdot_program_step.newest. */
 enum { QDOT_X_NEWEST = 1, QDOT_Y_NEWEST = 2, QDOT_Z_NEWEST = 4 };
 
-/* Rows that a step does not have are QDOT_NO_ROW, operands that it does not have are x. */
+/* A step. Rows that it does not have are QDOT_NO_ROW; operands that it does not have are x. */
 typedef struct {
     uint16_t op, zero; /* recurrence; how order 0 is computed: an operation of a tape, or above */
     int sign;          /* of RATIO */
     bool still;        /* it has order 0 only */
-    /* the bits of those of x, y, z whose coefficient of the order at hand depends on unknowns (motion.h); */
+    /* bits of those of x, y, z whose present coefficient depends on unknowns (motion.h); */
     unsigned char newest;
     bool kept;            /* later orders read the result of the step */
     signed char lead;  /* the lead of the rows that it writes */
@@ -126,10 +126,10 @@ qdot_program_row qdot_program_rate(qdot_program_builder *b, qdot_program_row x);
  * program is then empty. */
 QDOT_MUST_CHECK qdot_status qdot_program_end(qdot_program_builder *b);
 
-/* The number of programs that this process has made; tests count it. */
+/* The number of programs made by this process; used by tests. */
 size_t qdot_program_made(void);
 
-/* Whether a tape has a series: the operation that has none, or NULL. */
+/* Whether a tape has a series: NULL, or the name of an operation that has none. */
 const char *qdot_program_hindrance(const qdot_tape *tape);
 
 /* Whether a recurrence sums products of lower orders. */
@@ -142,7 +142,7 @@ qdot_recurrence_looks_back(int op)
 /* Convolutions an order; a square counts half. */
 double qdot_recurrence_cost(int op);
 
-/* How many times its argument a recurrence's result is the exponential of; 0: it is none. */
+/* The result of the recurrence is the exponential of this many times its argument; 0: it is no exponential. */
 static inline double
 qdot_recurrence_exponential(int op)
 {

@@ -43,7 +43,7 @@ typedef enum {
     QDOT_DO_SIGNED
 } qdot_recurrence_verb;
 
-/* Operands by name; those that a verb has not are 0. */
+/* Operands by name; operands that a verb does not use are 0. */
 typedef struct {
     unsigned char verb, r, p, q, a, b, from, below;
     bool paired;
@@ -52,10 +52,10 @@ typedef struct {
 /* The operations of a recurrence, up to QDOT_DO_END; LINK, RATE and recurrences of order 0 only have none. */
 const qdot_recurrence_operation *qdot_recurrence_operations(int op);
 
-/* The first of them that does so; NULL. */
+/* The first operation with that verb; NULL if none. */
 const qdot_recurrence_operation *qdot_recurrence_find(int op, qdot_recurrence_verb verb);
 
-/* The row of a step that has that name. */
+/* The row of a step with that name. */
 static inline qdot_program_row
 qdot_program_step_row(const qdot_program_step *s, unsigned name)
 {

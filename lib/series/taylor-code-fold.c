@@ -1,8 +1,8 @@
-/* taylor-code-fold.c -- which rows are never there: sums and products that one other adds up. */
+/* taylor-code-fold.c -- chooses the sums and products that are computed only inside their single reader. */
 #include "series/taylor-generator.h"
 
 enum {
-    /* Of one sum. More would wait for each other longer than for what they are made of. */
+    /* the most terms of a sum: more would delay each other longer than separate sums */
     most_terms = 12,
     most_depth = 8 /* the deepest nesting of folded steps */
 };
@@ -25,7 +25,7 @@ is_product(qdot_recurrence op)
     return op == QDOT_T_MUL || op == QDOT_T_MADD || op == QDOT_T_MSUB || op == QDOT_T_NMADD;
 }
 
-/* Whether a step adds up order k of its x, y or z, with a factor perhaps. */
+/* Whether a step only adds order k of its x, y or z, perhaps with a factor. */
 static bool
 is_term(const qdot_taylor_step *s, int which)
 {
@@ -78,7 +78,7 @@ find_uses(const qdot_generator *g, use *uses)
     }
 }
 
-/* Terms of a step before anything is folded into it. */
+/* The number of terms of a step before anything is folded into it. */
 static int
 own_terms(const qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -86,7 +86,7 @@ own_terms(const qdot_generator *g, const qdot_taylor_step *s)
                             : 2 * g->lag + 2;
 }
 
-/* From the first step on: what is folded into a step is known when that is. */
+/* Go forward through the steps, so that what is folded into a step is known when it is reached. */
 static void
 folds_choose(qdot_generator *g, const use *uses, int *terms, int *depth)
 {
@@ -133,7 +133,7 @@ qdot_code_fold(qdot_generator *g)
     return uses && terms ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* a b, for all orders from the first one that asks for it on, which is none of a loop. */
+/* The product a b, computed once, for all orders from the first that needs it; not inside a loop. */
 qdot_operand
 qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
 {

@@ -77,7 +77,7 @@ sum_append(qdot_generator *g, sum *v, const sum *other)
         v->terms[v->n++] = other->terms[i];
 }
 
-/* A factor of a term, times c. That of a row at order k by k is another one at each order. */
+/* The factor of a term times c. If the term is a row at order k, its factor differs between orders. */
 static qdot_operand
 factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
 {
@@ -95,7 +95,7 @@ factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
     return qdot_code_work(QDOT_CODE_MOMENT);
 }
 
-/* A sum of terms alone. */
+/* Multiply the sum v, which consists of terms only, by c. */
 static void
 times_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
 {
@@ -105,7 +105,7 @@ times_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
     }
 }
 
-/* x if d is j x_j; else NULL. */
+/* The row x if d is j x_j; else NULL. */
 static const double *
 argument_of_slope(const qdot_taylor_step *s)
 {
@@ -156,7 +156,7 @@ step_divides(const qdot_taylor_step *s)
            qdot_recurrence_find(s->op, QDOT_DO_OVER_TWICE);
 }
 
-/* v +- coefficient k of a row, times a factor (NULL: none), or U1 or U2, which is used up. */
+/* v +- coefficient k of a row, times a factor (NULL: none), or +- U1 or U2, which is then used up. */
 static void
 sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
                     bool minus, unsigned name, sum *u)
@@ -174,7 +174,7 @@ sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_ope
     *other = (sum){.v = {.reg = -1}};
 }
 
-/* The sum that one operation of a recurrence computes; `sums` counts the sums of the step. */
+/* The sum computed by one operation of a recurrence; `sums` counts the sums of the step. */
 static sum
 operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
                  int *sums, sum *u)
@@ -233,7 +233,7 @@ tabled(qdot_generator *g, const qdot_taylor_step *s)
 
 /* --- by hand ------------------------------------------------------------------------ */
 
-/* A sum or a product. */
+/* Write a step that is a plain sum or product. */
 static void
 direct(qdot_generator *g, const qdot_taylor_step *s)
 {

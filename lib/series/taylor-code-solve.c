@@ -1,7 +1,7 @@
 /* taylor-code-solve.c -- unknowns as code: M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}. */
 #include "series/taylor-code-sum.h"
 
-/* L, then M_0^-1. */
+/* The location of entry (i, j) of L, or later of M_0^-1. */
 static qdot_operand
 code_factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
@@ -14,7 +14,7 @@ inverse_at(const qdot_generator *g, size_t block, size_t i, size_t j)
     return code_factor_at(g, block, g->t->blocks[block].n + i, j);
 }
 
-/* Make room for `more` terms: if there is none, add up those so far into one. */
+/* Make room for `more` terms: if there is none, add the present ones into a register first. */
 static void
 sum_make_room(qdot_generator *g, sum *s, int more)
 {

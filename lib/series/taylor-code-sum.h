@@ -43,7 +43,7 @@ code_hold(qdot_generator *g, int reg, uint32_t row, int k)
     g->where[4 * row + (uint32_t)(k & 3)] = (unsigned char)reg;
 }
 
-/* The register that holds coefficient k of a row that is not constant; it is loaded if none does. */
+/* The register that holds coefficient k of a variable row; it is loaded if no register does. */
 static inline int
 code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 {
@@ -60,14 +60,14 @@ code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 
 /* --- sums --------------------------------------------------------------------------- */
 
-/* A number in a register, or less it. */
+/* A number in a register, or its negative. */
 typedef struct {
     int reg; /* -1: 0 */
     bool own, negative;
     int ready;
 } value;
 
-/* +- factor times coefficient k of a row, or times a sum; without a factor: as it is. */
+/* +- factor times coefficient k of a row, or times a sum; `plain`: without factor. */
 typedef struct {
     bool minus, plain;
     qdot_operand factor;
@@ -136,7 +136,7 @@ value_add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, 
     v->own = true;
 }
 
-/* The instruction at which the coefficients that sum n and the sums linked to it read become known. */
+/* The time at which the coefficients read by sum n, and by sums linked to it, become known. */
 static inline int
 past_ready(qdot_generator *g, uint32_t n)
 {
@@ -160,7 +160,7 @@ term_ready(qdot_generator *g, const term *t)
                                     : past_ready(g, t->past);
 }
 
-/* Sort terms by the time at which they become known, so that the last one is added last. */
+/* Sort terms by the time at which they become known, so that the latest is added last. */
 static inline void
 sum_sort_terms(qdot_generator *g, sum *s, int *when)
 {
@@ -187,7 +187,7 @@ sum_sort_terms(qdot_generator *g, sum *s, int *when)
     }
 }
 
-/* The register with a sum. */
+/* The register that holds sum n. */
 static inline int
 past_register(qdot_generator *g, uint32_t n)
 {
@@ -199,7 +199,7 @@ past_register(qdot_generator *g, uint32_t n)
     return reg;
 }
 
-/* The value of a sum that is one negative term. */
+/* The value of a sum that consists of one negative term. */
 static inline value
 less(qdot_generator *g, const term *t, int when)
 {
@@ -210,14 +210,14 @@ less(qdot_generator *g, const term *t, int when)
     return (value){.reg = reg, .own = true, .ready = when + latency};
 }
 
-/* When a term is there that is added behind what is there at `before`. */
+/* The time at which a term is known that is added to something known at `before`. */
 static inline int
 time_behind(int before, int when)
 {
     return (before > when ? before : when) + latency;
 }
 
-/* Whether terms that come together are sooner added up in two rows than in one. */
+/* Whether terms that become known together are added faster in two partial sums than in one. */
 static inline bool
 in_two(int first, const int *when, int n)
 {
@@ -278,7 +278,7 @@ total(qdot_generator *g, sum *s)
     return v[0];
 }
 
-/* MUL or DIV, by `factor`. */
+/* Multiply or divide a value by `factor`. */
 static inline void
 scale_by(qdot_generator *g, qdot_asm_operation name, value *v, qdot_operand factor)
 {
@@ -308,7 +308,7 @@ scale_sum(qdot_generator *g, sum *s, qdot_operand factor)
     value_scale(g, &s->v, factor);
 }
 
-/* Coefficient k of a row. */
+/* Store v as coefficient k of a row. */
 static inline void
 value_finish(qdot_generator *g, value v, const double *to, int k)
 {
@@ -368,7 +368,7 @@ past(qdot_generator *g, const qdot_taylor_step *s, int i)
     return sum;
 }
 
-/* Of one with orders 1 and k - 1, where the vectors do not have it: x_1 and y. */
+/* Add the products of orders 1 and k - 1 that vectors do not contain: x_1 times y. */
 static inline void
 late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
 {
@@ -376,7 +376,7 @@ late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
         sum_add_scaled(g, s, minus, x1, y, g->k - 1);
 }
 
-/* Both, x_1 and y_1 given where they are found, perhaps with a factor. */
+/* Add both such products; x_1 and y_1 are given by their locations, perhaps with a factor. */
 static inline void
 lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
        qdot_operand y1, const double *x)
@@ -393,7 +393,7 @@ lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
 static inline void add_terms(qdot_generator *g, sum *sum, bool minus,
                              const qdot_operand *scale, const qdot_taylor_step *s);
 
-/* +- coefficient k of a row times a factor (NULL: none), or what is folded into it. */
+/* +- coefficient k of a row times a factor (NULL: none), or what is folded into that row. */
 static inline void
 add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_operand *scale,
            const double *x)

@@ -1,8 +1,8 @@
-/* taylor-code-vectors.c -- products of lower orders as code: what an order adds to vectors. */
+/* taylor-code-vectors.c -- machine code that adds the products of a new order to vectors of sums. */
 #include "series/taylor-generator.h"
 
 enum {
-    /* With so many vectors most are in memory. */
+    /* with this many vectors most are kept in memory */
     many_vectors = 40,
     temporary = 0,
     spare = 1,
@@ -10,7 +10,7 @@ enum {
     own_spreads = 2
 };
 
-/* Parts of adding an order: what is there before rows have it, and after. */
+/* Parts of adding an order: before the row vectors contain it, and after. */
 typedef enum { BEFORE, AFTER } part;
 
 /* The coefficients of a row, from order `lag` on, are its vector as they stand: by AVX2, whose
@@ -31,7 +31,7 @@ block_at(const qdot_generator *g, const qdot_code_vector *v, int b)
                           : qdot_code_work(v->at + (size_t)(g->lanes * b));
 }
 
-/* Coefficient m of a row beside those below it. */
+/* Insert coefficient m of a row into its vector, beside the lower ones. */
 static void
 vector_insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
 {
@@ -75,7 +75,7 @@ vector_spread(qdot_generator *g, uint32_t row, int m)
     return reg;
 }
 
-/* to += coefficient m of a row times block b of another, in these lanes. */
+/* to += coefficient m of a row times block b of another row, in these lanes. */
 static void
 vector_add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
                     qdot_asm_lane_set lanes)
@@ -98,7 +98,7 @@ vector_add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t oth
     }
 }
 
-/* Block b of a sum, of `blocks`, moved on by one order, into `to`. */
+/* Shift block b of a sum of `blocks` blocks by one order, into `to`. */
 static void
 move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
 {
@@ -112,7 +112,7 @@ move_on(qdot_generator *g, const qdot_code_vector *v, int b, int blocks, int to)
         qdot_asm_slide(&g->m, to, block_at(g, v, b), last ? NULL : &high, spare);
 }
 
-/* Whether rows have order m by the time that block b of a sum is added to at all. */
+/* Whether the row vectors contain order m before anything is added to block b of a sum. */
 static bool
 all_after(const qdot_generator *g, const qdot_code_vector *v, int b)
 {
@@ -163,7 +163,7 @@ qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m)
         add_order(g, p, g->sums.at + i, m, AFTER);
 }
 
-/* A vector becomes 0. */
+/* Set a vector to 0. */
 static void
 vector_clear(qdot_generator *g, const qdot_code_vector *v)
 {

@@ -35,7 +35,7 @@ simple_of_rows(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation 
     simple(g, name, x, qdot_asm_in(zero(g, s->y)), s->to);
 }
 
-/* to <- x y and z, by an instruction that writes over z */
+/* to <- x y and z, by an instruction that overwrites z */
 static void
 with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
 {
@@ -46,7 +46,7 @@ with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name
     is(g, reg, s->to, 0);
 }
 
-/* Keep a/b, the factor by which later orders multiply in place of a division. */
+/* Store a/b, by which later orders multiply instead of dividing. */
 static void
 keep_inverse(qdot_generator *g, const qdot_taylor_step *s, qdot_operand a, int b)
 {

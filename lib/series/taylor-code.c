@@ -10,13 +10,14 @@
 #include "series/taylor-text.h"
 
 enum {
-    /* Longer code is not there when it is wanted: the kernels are. */
+    /* longer code would not be in the cache when needed: the kernels are */
     most_bytes = 1 << 18,
     /* With fewer sums an order takes as long as its newest coefficient to be ready, and the
      * way through the vectors is the longer one. With more it takes as long as its
      * instructions, which are a third fewer where the vectors have all but order 0. */
     few_sums = 5,
-    /* Registers of single numbers; of few sums by AVX2, which then has some for their vectors. */
+    /* registers for single numbers; fewer for few sums with AVX2, which then keeps their vectors in
+     * registers */
     scalars = 10,
     few_scalars = 5
 };
@@ -55,7 +56,7 @@ blocks_of(const qdot_taylor_loops *l, int n)
     return (n + l->lanes - 1) / l->lanes;
 }
 
-/* Vectors of a sum at most, of an expansion to order n. */
+/* The most vectors of a sum, in an expansion to order n. */
 static int
 most_blocks(const qdot_taylor_loops *l, int n)
 {
@@ -88,7 +89,7 @@ is_same_phase(const qdot_code_phase *a, const qdot_code_phase *b)
     return a->blocks == b->blocks && a->inserted == b->inserted;
 }
 
-/* The loops of an expansion to order n, QDOT_CODE_PHASES at most. */
+/* Find the loops of an expansion to order n, at most QDOT_CODE_PHASES. */
 static int
 find_phases(const qdot_taylor_loops *l, int n, qdot_code_phase *phases)
 {
@@ -183,7 +184,7 @@ add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
     return qdot_vec_push(&g->sums, sum);
 }
 
-/* The sums of step i, as its recurrence has them. */
+/* Find the sums of step i from its recurrence. */
 static qdot_status
 find_sums_of(qdot_generator *g, size_t i)
 {
@@ -316,7 +317,7 @@ qdot_code_forget(qdot_generator *g)
         g->held[i] = QDOT_CODE_NONE;
 }
 
-/* When coefficients were there is as of so many orders before. */
+/* Shift the times at which coefficients are known by that many orders. */
 static void
 look_back(qdot_generator *g, int orders)
 {

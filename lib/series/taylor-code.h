@@ -48,13 +48,13 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_code_new(const qdot_taylor *t, int to, i
                                                  const char **why);
 void qdot_taylor_code_free(qdot_taylor_code *code);
 
-/* Set the unit of time, with which integrals (links) multiply; before the orders are run. */
+/* Set the unit of time by which integrals (links) multiply; call before the orders are run. */
 void qdot_taylor_code_unit(qdot_taylor_code *code, double unit);
 
 /* Order 0 of the program it was made of and, if nothing is solved for, what is linked to it, by
  * the unit that is there. */
 void qdot_taylor_code_begin(const qdot_taylor_code *code, qdot_taylor *t);
-/* All its orders, order 0 and what is linked to it being there. */
+/* Compute all orders above 0; order 0 and its links must be known. */
 void qdot_taylor_code_run(const qdot_taylor_code *code, qdot_taylor *t);
 
 int qdot_taylor_code_orders(const qdot_taylor_code *code);

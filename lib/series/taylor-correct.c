@@ -1,11 +1,11 @@
-/* taylor-correct.c -- what follows when the newest coefficients of inputs become known. */
+/* taylor-correct.c -- updates rows when the newest coefficients of inputs become known. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "series/taylor-steps.h"
 #include "series/taylor.h"
 
-/* A change of row `to` by a note[x] + b note[y] + c note[z]; factors from order 0. */
+/* The change of row `to`: a note[x] + b note[y] + c note[z], with factors from order 0. */
 struct qdot_taylor_change {
     double *row;
     uint32_t to, x, y, z;
@@ -17,7 +17,7 @@ struct qdot_taylor_change {
     int lead;
 };
 
-/* A row that holds j x_j: its change is k note[x], and nothing is made of it. */
+/* A row that contains j x_j: its change is k note[x], and no other row depends on it. */
 struct qdot_taylor_scaled_change {
     double *row;
     uint32_t x;
@@ -83,7 +83,7 @@ add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double 
         (struct qdot_taylor_scaled_change){row, qdot_taylor_row(t, x), s->lead};
 }
 
-/* List the rows that one step changes, the second after the first. */
+/* List the rows that a step changes, the second result after the first. */
 static void
 list(qdot_taylor *t, const qdot_taylor_step *s)
 {
@@ -131,7 +131,7 @@ qdot_taylor_follow_motion(qdot_taylor *t)
 
 /* --- numbers ------------------------------------------------------------------------ */
 
-/* Slopes of a number by x, y and z of its step; the fourth is 0. */
+/* Derivatives of a value by x, y and z of its step; the fourth is 0. */
 typedef double slopes __attribute__((vector_size(32)));
 
 /* Derivatives of a step's row by its operands, at order 0: what is linear in coefficients of order

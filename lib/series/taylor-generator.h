@@ -41,9 +41,9 @@ enum {
     QDOT_CODE_ANY = 1000,
     /* Slots for the factors of folded sums and products (taylor-code-fold.c). */
     QDOT_CODE_FOLDED_SLOTS = 4,
-    /* The most factors of a step that are the same at all orders (qdot_code_composed). */
+    /* the most factors of a step that are the same at all orders (qdot_code_composed) */
     QDOT_CODE_FACTORS = 8,
-    /* No first loop goes further (it begins at twice the lag): links are exact that far. */
+    /* no first loop begins beyond this (it begins at twice the lag): links are exact up to it */
     QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
 };
 
@@ -54,14 +54,14 @@ typedef struct {
     size_t at;                 /* there, in doubles */
 } qdot_code_vector;
 
-/* sum x_i y_j of i, j >= lag, for orders to come. */
+/* A sum of x_i y_j with i, j >= lag, prepared for later orders. */
 typedef struct {
     uint32_t x, y; /* rows */
     bool further;  /* it is part of the sum before it, whose vector is `v` */
     qdot_code_vector v;
 } qdot_code_sum;
 
-/* A factor that is a product of two. */
+/* A factor that is the product of two. */
 typedef struct {
     qdot_operand a, b;
 } qdot_code_composition;
@@ -93,18 +93,18 @@ typedef struct {
     qdot_vec(qdot_code_composition) compositions; /* products of factors, in slots of their own, */
     size_t fold_slots;                            /* from this one on */
 
-    /* Registers that hold a coefficient. */
+    /* registers that hold a coefficient: */
     unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
     uint32_t held[QDOT_ASM_REGISTERS]; /* the row; QDOT_CODE_NONE */
     int held_order[QDOT_ASM_REGISTERS];
-    /* [spreads] Rows whose coefficient fills a register. */
+    /* [spreads] rows whose coefficient fills a whole register */
     uint32_t spread[QDOT_ASM_REGISTERS];
     int spreads, next_spread;
 } qdot_generator;
 
 #define QDOT_CODE_NONE UINT32_MAX
 
-/* Whether vectors, and registers, are fewer than those of AVX-512. */
+/* Whether there are fewer and shorter vector registers than with AVX-512. */
 static inline bool
 qdot_code_is_narrow(int lanes)
 {
@@ -124,7 +124,7 @@ do_all(qdot_generator *g, qdot_asm_operation op, int reg, int first, qdot_operan
     qdot_asm_do(&g->m, op, QDOT_ASM_ALL, reg, first, b);
 }
 
-/* A range of orders whose code is the same loop. */
+/* A range of orders that share the code of one loop. */
 typedef struct {
     int blocks;   /* of sums */
     int inserted; /* the block of rows that the order itself enters; -1: none */
@@ -139,7 +139,7 @@ void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p);
 void qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m);
 void qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p);
 
-/* Order g->k of a step; the row of a step that recurrence.def calls so. */
+/* Write order g->k of a step; the row of a step with a name of recurrence.def. */
 void qdot_code_order(qdot_generator *g, const qdot_taylor_step *s);
 static inline const double *
 qdot_code_named(const qdot_taylor_step *s, unsigned name)
@@ -149,19 +149,19 @@ qdot_code_named(const qdot_taylor_step *s, unsigned name)
     return rows[name];
 }
 
-/* No register is known to hold a coefficient. */
+/* Forget which registers hold coefficients. */
 void qdot_code_forget(qdot_generator *g);
 
-/* Order 0 of all steps, and of links; a function of its own. */
+/* Write order 0 of all steps and links, as a function of its own. */
 void qdot_code_zero(qdot_generator *g);
 
 /* Sums and products that are read once are added up where they are read: without rows, and
  * without waits of their own. Sums of products being known. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_code_fold(qdot_generator *g);
-/* The place of the product of two factors that are the same at all orders. */
+/* The location of the product of two factors that are the same at all orders. */
 qdot_operand qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b);
 
-/* Order g->k of unknowns. */
+/* Write the solution of order g->k for a block of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
 
 /* The time, in instructions, at which coefficient k of a row is known. */

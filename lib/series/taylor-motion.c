@@ -1,4 +1,4 @@
-/* taylor-motion.c -- stages of a motion, and what follows when its unknowns are found. */
+/* taylor-motion.c -- computes the stages of a motion; updates rows when its unknowns are found. */
 #include "series/taylor-motion.h"
 
 #include "series/taylor-products.h"
@@ -6,7 +6,7 @@
 
 /* --- building ------------------------------------------------------------------------ */
 
-/* Remove the steps that write explicit equations E; products of K are summed apart. */
+/* Remove the steps that compute explicit equations E; their products with K are summed separately. */
 static qdot_status
 motion_split_off_written(qdot_taylor *t, int most, int solved)
 {
@@ -24,7 +24,7 @@ motion_split_off_written(qdot_taylor *t, int most, int solved)
     return qdot_taylor_products_new(t, most + 1, &t->products);
 }
 
-/* Nothing follows the unknowns but what is integrated of them. */
+/* Make the integrals of the unknowns links, if nothing else depends on the newest unknowns. */
 static qdot_status
 link_unknowns(qdot_taylor *t)
 {
@@ -118,14 +118,14 @@ is_explicit(const qdot_taylor *t)
     return !t->changes;
 }
 
-/* Order k of an integral is so much of order k - 1 of what it is of. */
+/* Order k of an integral is this factor times order k - 1 of the integrand. */
 static double
 integral_part(const qdot_taylor *t, int k)
 {
     return t->unit / k;
 }
 
-/* Order k of what is given by a row is there: what that integrates to. */
+/* Integrate the unknowns given by a row, when their order k is known. */
 static void
 integrate_given(const qdot_taylor *t, int k)
 {

@@ -21,7 +21,7 @@ step_divisor_nearness(const qdot_taylor_step *step, int p, double s)
 
     if (!qdot_near_may_fall(p, b, s))
         return s;
-    /* a quotient's zeros over zeros are no places of their own */
+    /* the poles of a quotient at which the numerator vanishes, too, do not count */
     if (step->op == QDOT_T_DIV && !qdot_near_diverges(p, step->to, s))
         return s;
     return qdot_near_divisor(p, b, step->op == QDOT_T_SQRT, s);

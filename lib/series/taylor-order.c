@@ -91,7 +91,7 @@ order_zero(const qdot_taylor *t)
         qdot_taylor_value(t->steps + i);
 }
 
-/* Order k of the first n steps but those that have none, of an order's functions. */
+/* Compute order k of the first n steps, except constant ones, by the functions for that order. */
 static inline void
 taylor_order(const qdot_taylor *t, size_t n, qdot_taylor_function *const *function)
 {

@@ -1,4 +1,4 @@
-/* taylor-products.c -- which products there are, and their sums. */
+/* taylor-products.c -- lists the products of K and unknowns, and sums them. */
 #include "series/taylor-products.h"
 
 #include "base/memory.h"

@@ -13,7 +13,8 @@
 
 typedef struct qdot_taylor_products qdot_taylor_products;
 
-/* For the couplings of all blocks of t, whose `negated` is there, by orders below `most`. Errors: QDOT_ENOMEM. */
+/* For the couplings of all blocks of t, whose `negated` must be set, for orders below `most`.
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_products_new(const qdot_taylor *t, int most,
                                                      qdot_taylor_products **products);
 /* The number of sums of products. */

@@ -8,7 +8,7 @@
 
 typedef struct qdot_taylor qdot_taylor; /* taylor.h */
 
-/* Rows of coefficients, by order. */
+/* A step with the rows of coefficients that it reads and writes. */
 typedef struct {
     uint16_t op, zero; /* recurrence, and how order 0 is computed, as in qdot_program_step */
     signed char sign, lead;
@@ -20,7 +20,7 @@ typedef struct {
         c; /* the inverse of what every order divides by, of RATE that of the unit; of LINK it */
 } qdot_taylor_step;
 
-/* A constant between two doubles, rounded to one of them at random. */
+/* A constant between two doubles, rounded at random to one of them. */
 struct qdot_taylor_drawn {
     double *row;
     double near, far, chance; /* both doubles; the probability of `far` */
@@ -43,7 +43,7 @@ typedef struct {
     double *matrices; /* [n x n] L; [n x n] M_0^-1 */
 } qdot_taylor_block;
 
-/* What is solved for: where it goes, and its integrals; NULL: not there, or by a link. */
+/* An unknown that is solved for: its row and its integrals; NULL: there is none, or a link computes it. */
 struct qdot_taylor_unknown {
     double *row, *once, *twice;
     const double *right; /* of its equation what is known: f; E, or that which E is a rate of; */
@@ -51,13 +51,13 @@ struct qdot_taylor_unknown {
     bool is_explicit;
 };
 
-/* A row of an unknown, or of its integral, whose newest coefficient steps read. */
+/* A row of an unknown or of its integral whose newest coefficient is read by steps. */
 struct qdot_taylor_newest {
     double *row, *change; /* the change of the newest coefficient, where steps read it */
     int lead;
 };
 
-/* Coefficient k of a step's row, k being known to the compiler. */
+/* Computes coefficient k of a step's rows, for a k known at compile time. */
 typedef void qdot_taylor_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
 
 struct qdot_taylor {
@@ -93,7 +93,7 @@ struct qdot_taylor {
     bool refused;                  /* none is to be written */
 };
 
-/* By `most` orders, with room for `spare` rows and for `more` doubles behind all of them. */
+/* Allocate for `most` orders, with `spare` further rows and `more` doubles after all rows. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_settle(qdot_taylor *t, const qdot_program *p,
                                                int most, size_t spare, size_t more,
                                                bool shaken);
@@ -104,7 +104,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_find_unknowns(qdot_taylor *t, bool linke
 /* Equations that are rates of a row become that row; steps go which only write explicit equations, such
  * rates, or an entry of K that is another one negated. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_shorten(qdot_taylor *t);
-/* Find the rows of unknowns whose newest coefficients steps read. Errors: QDOT_ENOMEM. */
+/* Find the rows of unknowns whose newest coefficients are read by steps. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_find_newest(qdot_taylor *t);
 static inline double *
 qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
@@ -112,7 +112,7 @@ qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
     return r == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)r * t->stride;
 }
 
-/* Order 0 of a step. */
+/* Compute order 0 of a step. */
 void qdot_taylor_value(qdot_taylor_step *step);
 
 static inline uint32_t
@@ -122,13 +122,13 @@ qdot_taylor_row(const qdot_taylor *t, const double *row)
 }
 
 void qdot_taylor_changes_free(qdot_taylor *t);
-/* Order k is being evaluated. */
+/* Note that order k is being computed, so that factors of changes must be recomputed. */
 void qdot_taylor_changes_stale(qdot_taylor *t, int k);
 /* Compute the coefficients of links (integrals) that follow from order k. */
 void qdot_taylor_order_links(qdot_taylor *t, int k);
-/* All steps of a motion, each at order k + its lead. */
+/* Compute all steps of a motion, each at order k plus its lead. */
 void qdot_taylor_order_leading(qdot_taylor *t, int k);
-/* Choose the functions that evaluate orders of steps, for this processor. */
+/* Choose the functions that compute orders of steps, for this processor. */
 void qdot_taylor_find_functions(qdot_taylor *t);
 /* The steps of a motion that are kept are to follow changes. Where by how much the newest coefficient
  * of a row changes is to be put; then what those steps make of all that. */

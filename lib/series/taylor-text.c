@@ -1,4 +1,4 @@
-/* taylor-text.c -- the key of a program, memory that is run, and a few places to keep it. */
+/* taylor-text.c -- keys of programs, executable memory, and a small cache of generated code. */
 #include "series/taylor-text.h"
 
 #include <stdatomic.h>
@@ -19,13 +19,13 @@
 
 enum {
     page = 4096,
-    /* Before the first instruction: sanitizers look there for what they know of a function. */
+    /* space before the first instruction, where sanitizers look for information about a function */
     head = 64,
     kept = 16,
     most_kept = 1 << 16 /* bytes: longer code is rare, and takes long to run */
 };
 
-/* Each counts as used by the shelf; nobody else sees one that is out for a look. */
+/* The cache; it holds a reference to each text, and a text taken out is invisible to other threads. */
 static _Atomic(qdot_taylor_text *) shelf[kept];
 static atomic_uint next_place;
 
@@ -121,7 +121,7 @@ qdot_taylor_text_give(qdot_taylor_text *text)
     qdot_free(text);
 }
 
-/* What is kept under a key and serves these orders, used once more; NULL. */
+/* The cached code for this key that serves these orders, with a further reference; NULL if none. */
 static qdot_taylor_text *
 shelf_find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
 {

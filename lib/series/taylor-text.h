@@ -17,13 +17,13 @@
 
 #include "series/taylor-steps.h"
 
-/* The layout by which the orders of an expansion are divided among loops (taylor-code.c). */
+/* How the orders of an expansion are divided among loops (taylor-code.c). */
 typedef struct {
     int lanes, lag;
     bool as_they_stand;
 } qdot_taylor_loops;
 
-/* Orders 1 ... to are wanted, by code that serves orders up to `most` as well. */
+/* Orders 1 ... to are wanted; the code may serve orders up to `most`. */
 typedef struct {
     int to, most;
 } qdot_taylor_orders;
@@ -50,11 +50,11 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_text_take(const qdot_taylor *t,
 /* Fill an empty one. Memory is written or run, never both. False: the system does not let it
  * be run. */
 bool qdot_taylor_text_fill(qdot_taylor_text *text, const unsigned char *code, size_t n);
-/* Keep a text that is complete, for others to find. */
+/* Put completed code into the cache. */
 void qdot_taylor_text_keep(qdot_taylor_text *text);
 /* The address of the first instruction of a text. */
 const unsigned char *qdot_taylor_text_first(const qdot_taylor_text *text);
-/* Give back a text that was taken. NULL is ignored. */
+/* Return a text that was taken. NULL is ignored. */
 void qdot_taylor_text_give(qdot_taylor_text *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* taylor-unknowns.c -- unknowns of a motion: what they couple, what their equations read. */
+/* taylor-unknowns.c -- unknowns of a motion: their couplings, and what their equations read. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -26,7 +26,7 @@ taylor_add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor
     return QDOT_OK;
 }
 
-/* Entry (i, j) of K times unknown j, if it moves, of rows that are explicit. */
+/* Count the products of a variable entry (i, j) of K with unknown j, in explicit rows. */
 static void
 count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t is_explicit, size_t *rows)
 {
@@ -59,7 +59,7 @@ taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *
     const qdot_motion *m = t->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
     const size_t n = end - first, from = *entry;
-    /* the number of rows with explicit equations */
+    /* the number of unknowns with explicit equations */
     const size_t is_explicit = m->right.n > first ? m->right.n - first : 0;
     size_t count = 0;
     qdot_taylor_block *b;
@@ -133,7 +133,7 @@ qdot_taylor_find_unknowns(qdot_taylor *t, bool linked)
     return QDOT_OK;
 }
 
-/* Whether any step reads a row, by how many operands. */
+/* Count the operands that read each row. */
 static void
 count_reads(const qdot_taylor *t, uint32_t *reads)
 {
@@ -144,7 +144,7 @@ count_reads(const qdot_taylor *t, uint32_t *reads)
     }
 }
 
-/* From the last step on, so that a rate of a rate is seen before that. */
+/* Resolve rates from the last step on, so that the rate of a rate is found first. */
 static void
 resolve_rates(qdot_taylor *t, uint32_t *reads)
 {
@@ -160,7 +160,7 @@ resolve_rates(qdot_taylor *t, uint32_t *reads)
         }
 }
 
-/* Steps whose rows nobody reads are left out. reads [rows] */
+/* Remove steps whose rows nothing reads. reads [rows] */
 static void
 drop_unread(qdot_taylor *t, const uint32_t *reads)
 {
@@ -208,7 +208,7 @@ qdot_taylor_shorten(qdot_taylor *t)
     return QDOT_OK;
 }
 
-/* read [rows]: what steps read at its newest order. */
+/* read [rows]: whether steps read a row at its newest order. */
 static void
 find_read(const qdot_taylor *t, bool *read)
 {

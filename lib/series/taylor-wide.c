@@ -1,4 +1,4 @@
-/* taylor-wide.c -- steps put into groups, and the choice of kernels. */
+/* taylor-wide.c -- groups equal steps into vectors, and chooses the kernels. */
 #include "series/taylor-wide.h"
 
 #include <math.h>
@@ -8,12 +8,12 @@
 #include "num/kinds.h"
 #include "series/taylor-steps.h"
 
-/* Steps a group, on an average, from which on vectors are worth it. */
+/* The average number of steps per group from which vectors are worthwhile. */
 static const double least_alike = 2.5;
 
 #define NO_LANE SIZE_MAX
 
-/* Groups that are operands put side by side; those that have order 0 only. */
+/* Pseudo-operations: operands copied side by side; the same for rows with order 0 only. */
 enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
 
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
     size_t *from;
 } group;
 
-/* Coefficients by order, then lane. */
+/* Functions on coefficients stored by order, then by lane. */
 typedef struct {
     void (*order)(const qdot_taylor_wide *w, int k);
     void (*correct)(const qdot_taylor_wide *w, int k, const double *newest,
@@ -104,7 +104,7 @@ kernels_here(void)
 
 /* --- groups -------------------------------------------------------------------------- */
 
-/* A step and what it is put into a group by. */
+/* A step, and the keys by which it is grouped. */
 typedef struct {
     const qdot_taylor_step *step;
     size_t level, x, y, z; /* lanes */
@@ -176,7 +176,7 @@ qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, s
     return QDOT_OK;
 }
 
-/* Lanes of level 0: the inputs first, then rows that are constant in t. */
+/* Assign the lanes of level 0: inputs first, then rows that are constant. */
 static void
 first_lanes(builder *b)
 {
@@ -215,7 +215,7 @@ first_lanes(builder *b)
     w->width = w->changing = full(at);
 }
 
-/* List the steps that are not constant in t, with their levels. */
+/* List the steps that are not constant, with their levels. */
 static void
 find_members(builder *b)
 {
@@ -259,7 +259,7 @@ align(builder *b, const member *m, size_t n, size_t offset, size_t *at)
     return qdot_taylor_wide_align(b->w, n, b->lanes, at);
 }
 
-/* A group of n steps. */
+/* Add a group of n steps. */
 static qdot_status
 add_group(builder *b, member *m, size_t n)
 {
@@ -407,7 +407,7 @@ qdot_taylor_wide_settle(qdot_taylor_wide *w)
 {
     size_t n;
 
-    /* orders an even number of lines of a cache apart would meet in a part of it */
+    /* an even number of cache lines between orders would map them to the same sets of the cache */
     w->width += w->width % (2 * QDOT_WIDE_LANES) ? 0 : QDOT_WIDE_LANES;
     n = ((size_t)w->orders + 1) * w->width;
     w->allocated = qdot_calloc(n + QDOT_WIDE_LANES, sizeof(double));

@@ -34,7 +34,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_wide_new(const qdot_taylor *t, size_t n,
                                                  qdot_taylor_wide **wide);
 void qdot_taylor_wide_free(qdot_taylor_wide *wide);
 
-/* Lanes of an order, an odd number of eights; where it has them. */
+/* The number of lanes of an order, an odd multiple of eight; the address of order k. */
 size_t qdot_taylor_wide_width(const qdot_taylor_wide *wide);
 double *qdot_taylor_wide_at(const qdot_taylor_wide *wide, int k);
 /* The lane of a row of the program. */
@@ -44,7 +44,7 @@ size_t qdot_taylor_wide_lane(const qdot_taylor_wide *wide, const double *row);
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_align(qdot_taylor_wide *wide, size_t count,
                                                    const size_t *lanes, size_t *at);
 
-/* All is aligned now: there is room. Errors: QDOT_ENOMEM. */
+/* Allocate, after everything has been aligned. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_settle(qdot_taylor_wide *wide);
 
 /* Order 0, from the program's. Order k > 0 with coefficients k of the first n inputs at 0;
@@ -69,7 +69,7 @@ typedef struct {
 void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, const qdot_wide_sum *sum,
                            double scale, const double *from, double *out);
 
-/* Vectors of a convolution that an order takes, and groups. */
+/* The vector operations of convolutions at one order; the number of groups. */
 double qdot_taylor_wide_convolutions(const qdot_taylor_wide *wide);
 size_t qdot_taylor_wide_groups(const qdot_taylor_wide *wide);
 

@@ -1,4 +1,4 @@
-/* taylor.c -- a series program in doubles: its rows, and what it links. */
+/* taylor.c -- a series program in doubles: its rows, and the integrals that link them. */
 #include "series/taylor.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ enum { LINE = 8 }; /* doubles of a line of the cache */
 static qdot_status
 taylor_allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t more)
 {
-    /* rows are an odd number of cache lines apart, so that they use all sets of the cache */
+    /* an odd number of cache lines between rows, so that they use all sets of the cache */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
     t->per_row = ((uint64_t)1 << 32) / t->stride + 1;
     t->spare = p->rows.n;

@@ -16,7 +16,7 @@
 
 #include "series/program.h"
 
-/* The program with its coefficients: one a thread. */
+/* The program with its coefficients, one for each thread. */
 typedef struct qdot_taylor qdot_taylor;
 
 /* For orders 0 ... most (at most QDOT_SERIES_MOST) of a program, which is read, not kept;
@@ -33,7 +33,7 @@ size_t qdot_taylor_stride(const qdot_taylor *taylor);
 
 /* Coefficients by order of output i. */
 const double *qdot_taylor_output(const qdot_taylor *taylor, size_t i);
-/* Whether output i is the same number whatever the inputs that move are. */
+/* Whether output i is constant for any values of the variable inputs. */
 bool qdot_taylor_is_constant(const qdot_taylor *taylor, size_t i);
 
 /* Constants that are no doubles, for a stretch of time that begins at t: each becomes
@@ -61,7 +61,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size
  * followed by what is linked to it in the order in which it was; `to` below the program's
  * highest but one. */
 void qdot_taylor_begin(qdot_taylor *taylor, double unit);
-/* Of _begin what is linked alone, order 0 of all being there, unknowns too. */
+/* The part of _begin that computes links only; order 0 of everything must be known, including unknowns. */
 void qdot_taylor_begin_links(qdot_taylor *taylor, double unit);
 void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 
@@ -80,10 +80,10 @@ void qdot_taylor_drop_code(qdot_taylor *taylor);
 void qdot_taylor_refuse_code(qdot_taylor *taylor, const char *why);
 /* Whether orders 1 ... to are machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
-/* Whether this processor has machine code at all; what that needs, by name. */
+/* Whether machine code is possible on this processor; the name of what that needs. */
 bool qdot_taylor_may_be_code(void);
 const char *qdot_taylor_code_kind(void);
-/* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
+/* The length of the code; 0 if there is none, and *why says why, NULL if none was requested. */
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 
 /* The longest step, at most s (INFINITY: any), of the expansion that is there to order p which

@@ -48,7 +48,7 @@ two_whole_part(qdot_two a)
     return hi == a.hi ? qdot_two_of(hi, floor(a.lo)) : (qdot_two){hi, 0};
 }
 
-/* 1 - tanh^2 beside tanh. */
+/* tanh(a), and *slope = 1 - tanh(a)^2. */
 static qdot_two
 hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
 {
@@ -122,14 +122,14 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
 
 /* --- unknowns ------------------------------------------------------------------------ */
 
-/* Coefficient k + 1 of a row whose rate is `rate` of order k. */
+/* Coefficient k + 1 of a row from order k of its derivative. */
 static qdot_two
 integral(const qdot_tape_two *t, qdot_two rate, int k)
 {
     return t->kernels->mul(rate, qdot_two_scale(t->inverse[k + 1], t->unit));
 }
 
-/* Store order k of an unknown, and the coefficients of its integrals that follow. */
+/* Store order k of an unknown, and the coefficients of its integrals that follow from it. */
 static void
 two_put_unknown(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
 {
@@ -160,7 +160,7 @@ qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
     }
 }
 
-/* Add the noted change of a row to its coefficient of that order. */
+/* Add the recorded change of a row to its coefficient of that order. */
 static void
 two_apply_note(qdot_tape_two *t, qdot_program_row row, int order)
 {
@@ -182,7 +182,7 @@ change_unknown(qdot_tape_two *t, const qdot_motion_unknown *u, double d, int k)
     two_apply_note(t, u->twice, k + 2);
 }
 
-/* The notes of a step's rows from those of what it reads. */
+/* Compute the changes of a step's rows from those of its operands. */
 static void
 note_step(const qdot_tape_two *t, const qdot_program_step *i, int k)
 {
@@ -241,7 +241,7 @@ two_set_constants(qdot_tape_two *t)
     }
 }
 
-/* Allocate the rows of a program, which is there already. */
+/* Allocate the rows of a program that exists already. */
 static qdot_status
 two_make_rows(qdot_tape_two *t, int most)
 {
@@ -309,7 +309,7 @@ qdot_tape_two_rounding(const qdot_tape_two *t)
     return 0x1p-98;
 }
 
-/* On which side a switching step is; 0: on the border of two sides. */
+/* The side of a switching step; 0: on the border between two sides. */
 static int64_t
 switch_side_of(const qdot_tape_two *t, const qdot_program_step *i)
 {

@@ -29,7 +29,7 @@ size_t qdot_tape_two_stride(const qdot_tape_two *t);
 /* Coefficients by order of output i. */
 const qdot_two *qdot_tape_two_output(const qdot_tape_two *t, size_t i);
 
-/* The relative error of an operation: more where there are functions (num/two.h). */
+/* The relative error of an operation; larger if the program has functions (num/two.h). */
 double qdot_tape_two_rounding(const qdot_tape_two *t);
 
 /* On which sides what switches was at order 0 last: abs and sign by their argument, min, max and comparisons by the
@@ -42,7 +42,7 @@ void qdot_tape_two_order(qdot_tape_two *t, int k);
 
 /* --- motions ------------------------------------------------------------------------- */
 
-/* Orders of accelerations at most. */
+/* The highest order of accelerations in two doubles. */
 enum { QDOT_TWO_MOST = 12 };
 
 /* Of a motion, borrowed: orders 0 ... QDOT_TWO_MOST + 1 of its rows. The unit of time, a power of
