@@ -10,7 +10,7 @@
 
 enum { MOST_PICTURES = 400, A_SECOND = 25, PIXELS = 560, TRAIL_POINTS = 240 };
 
-/* How a scene is looked at, and the part of the plane that is seen. */
+/* The projection of a scene, and the visible part of the plane. */
 typedef struct {
     const qdot_animation *a;
     double right[3], up[3];
@@ -31,7 +31,7 @@ cross_product(const double u[3], const double v[3], double w[3])
         w[d] = u[(d + 1) % 3] * v[(d + 2) % 3] - u[(d + 2) % 3] * v[(d + 1) % 3];
 }
 
-/* As the player begins: from the side and a little from above. */
+/* Set the initial view of the player: from the side and a little from above. */
 static void
 aim(view *w)
 {
@@ -140,7 +140,7 @@ add_place(qdot_text *out, place p)
     qdot_text_char(out, '\n');
 }
 
-/* Along from a to b, sideways to it, in parts of the picture. */
+/* The point at the fraction `along` of the way from a to b, shifted sideways by `aside`. */
 static place
 beside(place a, place b, double along, double aside)
 {
@@ -205,7 +205,7 @@ same_ends(const qdot_animation_link *a, const qdot_animation_link *b)
            (a->ends[0] == b->ends[1] && a->ends[1] == b->ends[0]);
 }
 
-/* Links of a kind; those between the same ends beside each other. */
+/* Draw links of one kind; several links between the same ends are drawn side by side. */
 static void
 add_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
 {
@@ -346,7 +346,7 @@ add_dots(const view *w, size_t frame, qdot_text *out)
 
 /* --- the script --------------------------------------------------------------------- */
 
-/* A layer: what gnuplot draws it with. */
+/* How gnuplot draws each layer. */
 static const char *const layers[] = {
     "using 1:2 with lines linecolor rgb '#9cc4e4' linewidth 1.2",
     "using 1:2 with lines linecolor rgb '#4a525b' linewidth 3",

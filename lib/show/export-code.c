@@ -13,7 +13,7 @@
 
 enum { LONGEST = 44 }; /* letters of a value within another */
 
-/* How tightly a text binds. */
+/* The precedence of an expression's text. */
 enum { SUM, PRODUCT, WHOLE };
 
 typedef struct {
@@ -91,7 +91,7 @@ read_tape(writer *w)
     return QDOT_OK;
 }
 
-/* The value of output i if it is a constant; else NaN. */
+/* The value of output i if it is constant; else NaN. */
 static double
 constant_output(const writer *w, size_t i)
 {
@@ -209,7 +209,7 @@ write_value(const writer *w, const value *v, qdot_text *out)
     return WHOLE;
 }
 
-/* Whether the operation's text has an operand more than once, which then must be a name. */
+/* Whether the operation's text uses an operand twice, so that the operand must be a variable. */
 static bool
 repeats(const char *text, char operand_name)
 {
@@ -222,7 +222,7 @@ repeats(const char *text, char operand_name)
 
 /* --- statements ------------------------------------------------------------------------- */
 
-/* A printf format with one text, of our own tables. */
+/* Append a text by a printf format of our own tables. */
 static void
 add_formatted(qdot_text *out, const char *format, const char *text)
 {
@@ -249,7 +249,7 @@ declare(writer *w, const char *word, bool truth, const char *text)
     qdot_text_clear(&line);
 }
 
-/* Keep the text as that of the value; or name the value and keep the name. */
+/* Keep the text as that of the value; or assign it to a variable and keep that name. */
 static qdot_status
 value_keep_text(writer *w, value *v, qdot_text *text, int binds, bool name)
 {
@@ -299,7 +299,7 @@ write_loaded(writer *w)
     return QDOT_OK;
 }
 
-/* Whether the value must be a name where it is used: the text there has it twice. */
+/* Mark the values that must be variables because an operation uses them twice. */
 static void
 mark_repeated(const writer *w, bool *must)
 {
@@ -337,7 +337,7 @@ write_values(writer *w)
 
 /* --- outputs ---------------------------------------------------------------------------- */
 
-/* A format of one of our tables, with array, indices and value in this order. */
+/* Write an assignment by a format of our tables, with array, indices and value in this order. */
 static void
 set_element(writer *w, const qdot_export_block *b, size_t k, const char *text)
 {
@@ -369,7 +369,7 @@ set_target(writer *w, const char *target, const char *text)
     qdot_text_char(w->out, '\n');
 }
 
-/* Elements that are 0 are left as they were made. */
+/* Write the outputs; elements that are 0 keep their initial value. */
 static void
 write_outputs(writer *w, const qdot_export_function *f)
 {

@@ -1,11 +1,11 @@
-/* export-julia.c -- Julia: a module of functions, as OrdinaryDiffEq takes them. */
+/* export-julia.c -- export to Julia: a module of functions for OrdinaryDiffEq. */
 #include "show/export-language.h"
 
 static const char system_text[] = {
 #include "show/export-julia.inc"
 };
 
-/* What a function that holds such operations has before it. */
+/* Definitions that precede a function with such operations. */
 #define REAL_FUNCTIONS \
     "?g \n" \
     "?g # nan where there is no real value, as in a branch that is not taken.\n" \

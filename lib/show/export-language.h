@@ -24,7 +24,7 @@ struct qdot_export_language {
 
     /* printf: a named number, a named truth value (name, value). */
     const char *number, *truth;
-    /* printf: element %zu of y, q'', lambda, of the sides; a parameter by its name. */
+    /* printf formats: element %zu of y, q'', lambda, the sides; a parameter by its name */
     const char *state, *acceleration, *multiplier, *parameter, *side;
     /* printf: an element of an array (array, index), (array, row, column); entry NULL: rows are one
      * behind the other. */
@@ -38,18 +38,18 @@ struct qdot_export_language {
     const char *declared;
     /* printf: an argument of an expression (name), with a value (name, value). */
     const char *argument, *argument_value, *no_argument;
-    /* printf: a statement that refuses a parameter without a value (name, plain name). */
+    /* printf format: a statement that refuses a parameter without a value (name, plain name) */
     const char *check;
-    /* Around a row of a matrix; at the end of a line that goes on. */
+    /* the beginning and end of a matrix row; the end of a line that is continued */
     const char *row_begin, *row_end, *line_end;
-    /* What stands before (printf: index) and after the statements of an event that sets something. */
+    /* texts before (printf: index) and after the statements of an event that changes something */
     const char *effect_begin, *effect_end;
 
     /* Operations as text that stands for itself within others (export-operation.def).
      * NULL: + - * / and what is made of them. */
     const char *operation[QDOT_OP_COUNT];
 
-    /* Templates: a motion (in two parts; motion NULL: in one), an expression, several. */
+    /* templates: for a motion (in two parts; motion NULL: in one), for an expression, for several */
     const char *system, *motion, *value, *values;
 };
 
@@ -69,7 +69,7 @@ QDOT_MUST_CHECK qdot_status qdot_export_code(const qdot_export_frame *frame,
                                              const qdot_export_function *function,
                                              qdot_text *out);
 
-/* Append the shortest decimal that reads back as x, with a point. */
+/* Append the shortest decimal with a point that reads back as x. */
 void qdot_export_number(double x, qdot_text *out);
 
 #endif

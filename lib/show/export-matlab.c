@@ -1,11 +1,11 @@
-/* export-matlab.c -- Matlab and Octave: a function file that gives a struct of functions. */
+/* export-matlab.c -- export to Matlab and Octave: a function file that returns a struct of functions. */
 #include "show/export-language.h"
 
 static const char system_text[] = {
 #include "show/export-matlab.inc"
 };
 
-/* What a function that holds a choice has behind it. */
+/* Definitions that follow a function with if(...). */
 #define CHOOSE \
     "?h \n" \
     "?h function x = pick(condition, a, b)\n" \

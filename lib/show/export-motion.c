@@ -1,4 +1,4 @@
-/* export-motion.c -- what the words of a motion's template stand for. */
+/* export-motion.c -- replaces the words of a motion's template. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +39,7 @@ declare_parameters(writer *w, const char *indent)
     return QDOT_OK;
 }
 
-/* A statement for each parameter that refuses it without a value. */
+/* Write a statement for each parameter that refuses it if it has no value. */
 static qdot_status
 checks(writer *w, const char *indent)
 {
@@ -94,7 +94,7 @@ event_effect(writer *w, size_t k, const char *indent)
 }
 #pragma GCC diagnostic pop
 
-/* "double a, b;", the members of a struct. */
+/* Write the members of a struct, "double a, b;". */
 static qdot_status
 fields(writer *w, const char *indent)
 {
@@ -121,7 +121,7 @@ separate(const writer *w, size_t i)
     qdot_text_add(w->out, i > 0 ? w->language->separator : "");
 }
 
-/* "theta", "x" between quotes, separated. */
+/* Write quoted names, "theta", "x", separated. */
 static qdot_status
 names(writer *w, size_t n, const qdot_export_name *list)
 {
@@ -142,7 +142,7 @@ write_start(writer *w)
     return QDOT_OK;
 }
 
-/* `what`: the first letter of names, ways, stops, effects. */
+/* Write a list about the events; `what`: the first letter of names, ways, stops, effects. */
 static qdot_status
 events(writer *w, char what)
 {
@@ -160,7 +160,7 @@ events(writer *w, char what)
     return QDOT_OK;
 }
 
-/* `what`: the first letter of names, steps, moves. */
+/* Write a list about the surfaces; `what`: the first letter of names, steps, moves. */
 static qdot_status
 surfaces(writer *w, char what)
 {
@@ -191,7 +191,7 @@ orders(writer *w)
 
 enum { A_LINE = 4, ROWS = 16, TERMS = 12 };
 
-/* Numbers, four a line. */
+/* Write numbers, four in a line. */
 static void
 numbers(writer *w, size_t n, const double *x, const char *indent)
 {
@@ -214,7 +214,7 @@ matrix(writer *w, size_t rows, size_t columns, const double *x, const char *inde
     return QDOT_OK;
 }
 
-/* One row, without what begins and ends it in a matrix. */
+/* Write one row, without the beginning and end of a matrix row. */
 static qdot_status
 list(writer *w, size_t n, const double *x, const char *indent)
 {
@@ -224,7 +224,7 @@ list(writer *w, size_t n, const double *x, const char *indent)
     return QDOT_OK;
 }
 
-/* Which elements of the state each event sets: 1. */
+/* Write a matrix that marks with 1 which elements of the state each event sets. */
 static qdot_status
 sets(writer *w, const char *indent)
 {
@@ -242,7 +242,7 @@ sets(writer *w, const char *indent)
     return status;
 }
 
-/* The coefficients of the method (ode/dop853.def), of which a template has the word. */
+/* Write the coefficients of the method (ode/dop853.def) that the template's word requests. */
 static qdot_status
 method(writer *w, const char *word, const char *indent)
 {

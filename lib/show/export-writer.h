@@ -27,19 +27,19 @@ qdot_export_first_parameter(const qdot_export_system *x)
     return 1 + 3 * x->n + x->m;
 }
 
-/* The statements of a function, each line behind `indent`; targets as in qdot_export_frame. */
+/* Write the statements of a function, each line after `indent`; targets as in qdot_export_frame. */
 QDOT_MUST_CHECK qdot_status qdot_export_write_code(qdot_export_writer *w,
                                                    const qdot_export_function *f,
                                                    const char *indent, const char *const *targets);
-/* A number; NaN as the language has it. */
+/* Write a number; NaN in the syntax of the language. */
 void qdot_export_write_number(const qdot_export_writer *w, double x);
 
-/* What a word of a motion's template stands for. */
+/* Write what replaces a word of a motion's template. */
 QDOT_MUST_CHECK qdot_status qdot_export_motion_word(qdot_export_writer *w, const char *word,
                                                     const char *indent);
-/* Whether a motion has what a letter of a template's line asks for (export-language.h). */
+/* Whether a motion has what a letter of a template's line requires (export-language.h). */
 bool qdot_export_motion_has(const qdot_export_system *x, char what);
-/* Whether one of the operations first ... last stands in a tape (NULL: no). */
+/* Whether a tape (NULL: no) contains one of the operations first ... last. */
 bool qdot_export_tape_uses(const qdot_tape *tape, qdot_op first, qdot_op last);
 
 #endif

@@ -1,4 +1,4 @@
-/* export.c -- names and templates: a whole file of source text. */
+/* export.c -- writes a whole file of source text from a template: chooses names, replaces words. */
 #include "show/export.h"
 
 #include <ctype.h>
@@ -50,7 +50,7 @@ word_is_taken(const writer *w, size_t n, const char *word)
     return is_reserved(w->language, word);
 }
 
-/* Name input i by what it is called, with _ behind it while that is taken. */
+/* Name input i after its symbol, with _ appended while that name is taken. */
 static qdot_status
 add_word(writer *w, size_t i, const char *name)
 {
@@ -106,7 +106,7 @@ export_add_parameter(writer *w, size_t i, const char *name)
 }
 #pragma GCC diagnostic pop
 
-/* The words of a system's inputs: t, q, q', q'', lambda, parameters, sides. */
+/* Name the inputs of a system: t, q, q', q'', lambda, parameters, sides. */
 static qdot_status
 name_system(writer *w)
 {
@@ -139,7 +139,7 @@ name_value(writer *w)
     return QDOT_OK;
 }
 
-/* What the names of intermediate values begin with: no name of the scene does, before a digit. */
+/* Choose the prefix of intermediate variables, such that prefix and digit are no name of the scene. */
 static void
 choose_temporary(writer *w)
 {
@@ -158,7 +158,7 @@ choose_temporary(writer *w)
     }
 }
 
-/* The name of the functions, from that of the file. */
+/* Choose the name of the functions, from that of the file. */
 static qdot_status
 choose_name(writer *w, const char *file)
 {
@@ -274,7 +274,7 @@ comments(writer *w, const char *text)
     return QDOT_OK;
 }
 
-/* A word of a template that both kinds of files have; *known: it is one. */
+/* Write a template word common to both kinds of files; *known: it is one. */
 static qdot_status
 common_word(writer *w, const char *word, const char *indent, bool *known)
 {
@@ -318,7 +318,7 @@ export_has(const writer *w, char what)
 
 /* --- templates ---------------------------------------------------------------------------- */
 
-/* One line; a word alone in its line writes lines of its own, with its indent. */
+/* Write one line of the template; a word by itself writes lines of its own, with its indent. */
 static qdot_status
 export_write_line(writer *w, const char *line, size_t n)
 {

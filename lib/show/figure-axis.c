@@ -12,7 +12,7 @@
 
 enum { EXACT = 17, TIC = 12, MOST_TICS = 40 };
 
-/* 1, 2 or 5 times a power of ten, so that `span` takes about `steps` of them; 0: there is none. */
+/* 1, 2 or 5 times a power of ten, so that `span` has about `steps` steps; 0 if there is none. */
 static double
 nice_step(double span, double steps)
 {
@@ -35,7 +35,7 @@ print_number(char *out, size_t size, const char *format, int digits, double valu
             *out = '.';
 }
 
-/* A minus sign as it is printed in front of a positive number. */
+/* Append a number with a typographic minus sign. */
 static void
 add_signed(qdot_text *out, const char *number)
 {
@@ -154,7 +154,7 @@ add_linear_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t 
     }
 }
 
-/* plain: 0.1, 1, 20; else 10^k, times 2 or 5. */
+/* Append a power of ten, times 2 or 5; plain: as 0.1, 1, 20, otherwise as 10^k. */
 static void
 add_power_of_ten(qdot_text *script, int times, int power, bool plain, size_t *width)
 {
@@ -218,7 +218,7 @@ add_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *wi
         }
 }
 
-/* An axis of less than a factor of two is marked like a linear one. */
+/* Mark a logarithmic axis of less than a factor of two like a linear one. */
 static void
 add_short_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
 {
@@ -272,7 +272,7 @@ is_compound(const char *text)
     return strpbrk(text, " ,+-*/") != NULL;
 }
 
-/* The label with the offset and the power of ten of its axis; name: what stands where there is none. */
+/* Append the label with the offset and the power of ten of its axis; name: used if there is no label. */
 static void
 add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
           const qdot_figure_label *label)
@@ -294,7 +294,7 @@ add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
         qdot_text_format(markup, " / 10^{%s%d}", a->power < 0 ? "−" : "", abs(a->power));
 }
 
-/* The label in quotes and how it is read. */
+/* Append the label in quotes, with gnuplot's keyword for how to read it. */
 static void
 axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
                const qdot_figure_label *label)
@@ -334,7 +334,7 @@ void
 qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
                            const qdot_figure_label *label, size_t width)
 {
-    /* the middle of the front edges, the upper end of the left one */
+    /* at the middle of the front edges, and at the upper end of the left one */
     const double at[3][3] = {
         {(axes[0].least + axes[0].most) / 2, axes[1].least, axes[2].least},
         {axes[0].most, (axes[1].least + axes[1].most) / 2, axes[2].least},

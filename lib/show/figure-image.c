@@ -1,4 +1,4 @@
-/* figure-image.c -- kinds of images; a figure drawn into its file, or a window. */
+/* figure-image.c -- draws a figure into an image file or a window. */
 #include "show/figure.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 /* --- kinds of image ----------------------------------------------------------------- */
 
-/* A terminal is chosen at gnuplot's side, because which ones it has differs. */
+/* Image formats; gnuplot chooses its terminal itself, because installations differ in those they have. */
 static const qdot_figure_kind kinds[] = {
     {".svg", 96 / 2.54, 1.2, 96. / 72, 1.6,
      "set terminal svg enhanced background '#ffffff'", "", "</svg>"},
@@ -75,7 +75,7 @@ add_terminal(const qdot_figure_drawing *d)
 
 /* --- the figure --------------------------------------------------------------------- */
 
-/* path with another ending */
+/* Append the path with another ending. */
 static void
 add_sibling(qdot_text *out, const char *path, const char *ending)
 {
@@ -91,17 +91,18 @@ base_of(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
-/* How the files begin that `keep` leaves: others of these names are not written over. */
+/* The first line of files left by `keep`; other files of these names are not overwritten. */
 static const char mark[] = "# left by qdot's keep\n";
 
-/* The name as that of a file in its folder: gnuplot reads `|program`, `<program`, `-`, `+` otherwise. */
+/* Append a file name such that gnuplot does not take it for a pipe or an option (`|program`,
+ * `<program`, `-`, `+`). */
 static void
 add_file_name(qdot_text *out, const char *name)
 {
     qdot_text_format(out, "%s%s", strchr("|<>-+ ", name[0]) != NULL ? "./" : "", name);
 }
 
-/* That NAME.gp and NAME.dat are not the user's. */
+/* Check that NAME.gp and NAME.dat are not files of the user. */
 static qdot_status
 check_siblings(const char *path)
 {
@@ -122,7 +123,7 @@ check_siblings(const char *path)
     return status;
 }
 
-/* NAME.gp and NAME.dat beside NAME.svg; `gnuplot NAME.gp` in their folder draws it. */
+/* Write NAME.gp and NAME.dat beside NAME.svg; `gnuplot NAME.gp` in their folder draws the figure. */
 static qdot_status
 leave_script(const qdot_figure_drawing *like, const char *path)
 {

@@ -6,7 +6,7 @@
 #include "expr/print-name.h"
 #include "show/figure-parts.h"
 
-/* Whether gnuplot takes the text between single quotes as it stands. */
+/* Whether gnuplot takes the text in single quotes literally. */
 static bool
 is_simple(const char *text)
 {
@@ -63,7 +63,7 @@ continues_name(const char *c)
     return label_is_letter(c) || isdigit((unsigned char)*c) || *c == '_';
 }
 
-/* Where the bracket that opens at `open` closes; NULL if it does not. */
+/* The bracket that closes the one at `open`; NULL if it is not closed. */
 static const char *
 closing(const char *open)
 {
@@ -77,7 +77,7 @@ closing(const char *open)
     return NULL;
 }
 
-/* The exponent behind `^`; where it ends. */
+/* Append the exponent after `^`; returns its end. */
 static const char *
 label_add_power(qdot_text *out, const char *c, bool markup)
 {
@@ -126,7 +126,7 @@ add_subscripted(qdot_text *out, const char *text, bool letters, const char **aft
         qdot_text_char(out, '@');
         *after = label_add_power(out, *after + 1, markup);
     }
-    /* of another size: gnuplot's SVG leaves out the size where it is that of the power */
+    /* use another size: gnuplot's SVG omits the size if it equals that of the exponent */
     qdot_text_add(out, raised ? "_{/*0.97 " : "_{");
     n = strlen(++below);
     for (size_t i = 0; i < n; i++)
@@ -181,7 +181,7 @@ label_add_name(qdot_text *out, const char *c, bool markup)
     return c;
 }
 
-/* 9.81, 1e-9 as 10^-9; where it ends. */
+/* Append a number, 1e-9 as 10^-9; returns its end. */
 static const char *
 label_add_number(qdot_text *out, const char *c, bool markup)
 {
@@ -206,7 +206,7 @@ label_add_number(qdot_text *out, const char *c, bool markup)
     return end;
 }
 
-/* A blank; behind an index nothing wide comes first, or readers of SVG swallow it. */
+/* Append a blank; after an index a zero-width space comes first, as readers of SVG drop a blank there. */
 static void
 add_blank(qdot_text *out, bool markup)
 {

@@ -1,4 +1,4 @@
-/* figure-layout.c -- what the axes of a figure show, and how large everything is. */
+/* figure-layout.c -- chooses the ranges of axes, and the sizes of a figure. */
 #include <math.h>
 #include <string.h>
 
@@ -95,7 +95,7 @@ panel_measure(const qdot_panel *panel, extent *e)
     return QDOT_OK;
 }
 
-/* Some space around what is shown. */
+/* Add some margin to a range. */
 static void
 pad(double *least, double *most, bool log, double part)
 {
@@ -192,7 +192,7 @@ qdot_figure_is_shared(const qdot_figure *figure, size_t i)
            same_range(&p->range[0], &q->range[0]);
 }
 
-/* The extent of panel i, its abscissa that of all panels that share it. */
+/* Measure panel i; its horizontal axis covers all panels that share it. */
 static qdot_status
 measure_shared(const qdot_figure *figure, size_t i, extent *e)
 {

@@ -19,7 +19,7 @@ qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i)
                  : map->least[axis];
 }
 
-/* Half of a cell. */
+/* Half the width of a cell. */
 static double
 map_half_cell(const qdot_figure_map *map, int axis)
 {

@@ -4,7 +4,7 @@
 
 #include "show/figure.h"
 
-/* An axis as it is drawn: gnuplot gets (value - offset) / 10^power, from least to most. */
+/* An axis as drawn: gnuplot gets (value - offset) / 10^power, between least and most. */
 typedef struct {
     double least, most, step; /* as gnuplot gets them; step 0: gnuplot chooses range and tics */
     double offset;
@@ -15,48 +15,48 @@ typedef struct {
 
 /* --- labels ------------------------------------------------------------------------- */
 
-/* Text between quotes of gnuplot, literal whatever it holds. */
+/* Append text in gnuplot's quotes, taken literally whatever it contains. */
 void qdot_figure_add_quoted(qdot_text *script, const char *text);
-/* A label with its quotes and `enhanced` or `noenhanced` behind. */
+/* Append a label in quotes, followed by `enhanced` or `noenhanced`. */
 void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
-/* The same in gnuplot's markup, without quotes. */
+/* Append the label in gnuplot's markup, without quotes. */
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
 /* A formula in plain style as Unicode, for a sketch; with `markup` in gnuplot's markup. */
 void qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup);
-/* Columns that it takes, about. */
+/* The approximate width of the label in characters. */
 size_t qdot_figure_label_width(const qdot_figure_label *label);
 
 /* --- axes --------------------------------------------------------------------------- */
 
-/* The power of ten that the numbers of an axis are divided by; 0 where they are short anyway. */
+/* The power of ten by which the numbers of an axis are divided; 0 if they are short anyway. */
 int qdot_figure_power(double least, double most);
-/* The axis that shows least..most with about `steps` tics. power NULL: its own. */
+/* An axis that shows least..most with about `steps` tics. power NULL: choose the power of ten. */
 qdot_figure_axis qdot_figure_axis_of(double least, double most, bool log, double steps,
                                      const int *power);
-/* How many tics a linear axis has; 0: gnuplot chooses them, or it is logarithmic. */
+/* The number of tics of a linear axis; 0: gnuplot chooses them, or it is logarithmic. */
 int qdot_figure_count_tics(const qdot_figure_axis *axis);
 /* `set xrange`, `set xtics`; bare: tics without numbers. *width: characters of the widest. */
 void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
                           bool bare, size_t *width);
-/* `set xlabel`: the label, with offset and power of ten if there are any: (E - 9.81) / 10^-12. */
+/* Append `set xlabel` with offset and power of ten, if any: (E - 9.81) / 10^-12. */
 void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *axis,
                                 const qdot_figure_label *label);
 /* The same at the edge k of the box of a path in space, all three axes given; width: letters of the
  * widest number there. */
 void qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
                                 const qdot_figure_label *label, size_t width);
-/* What `using` has to say of a column. */
+/* Append the expression of a column for gnuplot's `using`. */
 void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *axis);
 
 /* --- sizes -------------------------------------------------------------------------- */
 
-/* Whether a point can be shown on these axes. */
+/* Whether point k can be shown on these axes. */
 bool qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t k);
-/* Whether the panel is one of paths in space. */
+/* Whether the panel shows paths in space. */
 bool qdot_figure_is_space(const qdot_panel *panel);
 /* Whether panel i has the abscissa of panel i + 1. */
 bool qdot_figure_is_shared(const qdot_figure *figure, size_t i);
-/* From where a path in space is seen, in degrees, as gnuplot's `set view` takes them. */
+/* The view of a path in space, in degrees for gnuplot's `set view`. */
 enum { QDOT_FIGURE_TILT = 62, QDOT_FIGURE_TURN = 32 };
 /* The box of a path in space with the sides side[3] in a panel of width and height, in cm, with
  * letters of a size in points: *zoom is what `set view` has to scale it by so that it fills the panel,
@@ -67,20 +67,20 @@ typedef struct {
 } qdot_figure_room;
 void qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zoom,
                          double *seen);
-/* The size of the whole figure in cm, and its letters in points. */
+/* The size of the whole figure in cm, and of its letters in points. */
 QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
                                              double *height, double *points);
 
 /* --- maps (figure-map.c) ------------------------------------------------------------- */
 
-/* Where column or row i stands; what the cells cover along an axis. */
+/* The coordinate of column or row i; the range that the cells cover along an axis. */
 double qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i);
 void qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most);
 /* Lines "x y value". Errors: QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out);
 /* Palette, range and scale of the colours. */
 void qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script);
-/* The least and the greatest number, ends [2]; 0 where there is none. */
+/* The smallest and the largest number, ends [2]; 0 if there is none. */
 void qdot_figure_map_ends(const qdot_figure_map *map, double *ends);
 /* Whether dot (i, j) of a sketch, at these parts [2] of the axes, is black: the more often the
  * greater the number is between the ends. */
@@ -89,7 +89,7 @@ bool qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const d
 
 /* --- the script --------------------------------------------------------------------- */
 
-/* A kind of image. */
+/* An image format. */
 typedef struct {
     const char *ending;
     double dots;  /* of its unit in a cm */
@@ -100,7 +100,7 @@ typedef struct {
     const char *end;             /* what a whole image ends with, but for blanks */
 } qdot_figure_kind;
 
-/* What a figure is drawn with. */
+/* A figure with the sizes and texts needed to draw it. */
 typedef struct {
     const qdot_figure *figure;
     double width, height, points; /* cm, cm, points */
@@ -109,9 +109,9 @@ typedef struct {
     qdot_text *script;
 } qdot_figure_drawing;
 
-/* What stands behind the terminal. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
+/* Write the script after `set terminal`. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_script(const qdot_figure_drawing *d);
-/* All curves as gnuplot's indices: two blank lines between them, their names as comments. */
+/* Write all curves as gnuplot's indices: separated by two blank lines, with their names as comments. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_data(const qdot_figure *figure, qdot_text *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* figure-script.c -- a figure as a gnuplot script: its data, panels, axes, keys, curves. */
+/* figure-script.c -- writes a figure as a gnuplot script: data, panels, axes, keys, curves. */
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +23,7 @@ static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"
                                       "#7f7f7f", "#332288", "#882255", "#6b8e23",
                                       "#44aa99", "#aa4499"};
 
-/* Of several curves each has a pattern, too: they differ on grey paper. */
+/* Line patterns: several curves of a panel must differ in black and white, too. */
 static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
 static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3, 15, 14};
 
@@ -36,7 +36,7 @@ enum {
 
 /* --- the data ----------------------------------------------------------------------- */
 
-/* The points of a curve, one a line; a blank line where it is interrupted. */
+/* Write the points of a curve, one per line, with a blank line at interruptions. */
 static qdot_status
 curve_add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
 {
@@ -93,7 +93,7 @@ begin_index(qdot_text *out, bool first, const char *label)
     qdot_text_char(out, '\n');
 }
 
-/* All curves and maps as gnuplot's indices: two blank lines between them, their names as comments. */
+/* Write all curves and maps as gnuplot's indices: separated by two blank lines, with names as comments. */
 qdot_status
 qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
 {
@@ -188,7 +188,7 @@ choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
     return QDOT_OK;
 }
 
-/* Letters that an entry of the key takes. */
+/* The width of a key's entry in characters. */
 static size_t
 key_width(const qdot_panel *panel)
 {
@@ -202,7 +202,7 @@ key_width(const qdot_panel *panel)
     return most + 7;
 }
 
-/* Rows of a key above the axes; 0: there is none. */
+/* The number of rows of a key above the axes; 0: no key. */
 static size_t
 key_rows(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -212,7 +212,7 @@ key_rows(const qdot_figure_drawing *d, const qdot_panel *panel)
     return panel->n < 2 ? 0 : (size_t)ceil((double)panel->n / fmax(columns, 1));
 }
 
-/* A long key of short entries stands beside the axes of a figure of one panel. */
+/* Whether the key is beside the axes: it is long with short entries, and there is only one panel. */
 static bool
 has_key_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -220,7 +220,7 @@ has_key_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
            0.5 * d->points / 28.35 * (double)key_width(panel) < 0.3 * d->width;
 }
 
-/* The distance of the rows of a key beside the axes, in lines: less than one where there are many. */
+/* The line distance of a key beside the axes, in lines: less than one if it has many rows. */
 static double
 spacing_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -229,7 +229,7 @@ spacing_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
     return fmax(0.5, fmin(1, (d->height - around) / (line * (double)panel->n)));
 }
 
-/* high: of the axes in cm, where they were placed */
+/* high: the height of the axes in cm, if they were placed */
 static void
 add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
 {
@@ -253,7 +253,7 @@ add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
     }
 }
 
-/* Above the key. */
+/* Write the title, which is above the key. */
 static void
 add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -331,7 +331,7 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         add_space_view(d, panel, axes);
 }
 
-/* The data of a curve and their columns; floor: of a path in space its shadow on the floor. */
+/* Write the data source of a curve and its columns; floor: the projection of a path in space onto the floor. */
 static void
 add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_axis *axes, bool floor)
 {
@@ -362,7 +362,7 @@ add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_a
     qdot_text_char(d->script, ')');
 }
 
-/* Of marks that stand by themselves: smaller where there are more than FEW, so that all are seen. */
+/* The size of separate marks: smaller if there are more than FEW, so that all can be seen. */
 static double
 point_size(size_t rows)
 {
@@ -443,7 +443,7 @@ rooms(const qdot_figure_drawing *d, size_t i, double *above, double *below)
     *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
 }
 
-/* Whether a label has something raised, which the edge of the figure would cut. */
+/* Whether a label contains a superscript, which the edge of the figure would cut. */
 static bool
 has_power(const qdot_figure_label *label)
 {
@@ -465,7 +465,7 @@ letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
     return has_key_beside(d, panel) ? 1 + 0.62 * (double)key_width(panel) : 1;
 }
 
-/* Letters left of the axes: numbers, tics, a label; the same for all panels. */
+/* The space left of the axes in characters: numbers, tics, a label; the same for all panels. */
 static qdot_status
 letters_left(const qdot_figure_drawing *d, double *letters)
 {
@@ -480,7 +480,7 @@ letters_left(const qdot_figure_drawing *d, double *letters)
     return QDOT_OK;
 }
 
-/* The axes of all panels are equally high, and begin and end at the same places. */
+/* Place panel i: the axes of all panels have the same height, left and right ends. */
 static qdot_status
 panel_place(const qdot_figure_drawing *d, size_t i, double *high)
 {

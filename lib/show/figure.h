@@ -29,7 +29,7 @@ typedef struct {
     bool points;              /* marks that are not joined */
 } qdot_curve;
 
-/* The part of an axis that is shown, least < most; set false: all that the data need. */
+/* The range of an axis, least < most; `set` false: chosen from the data. */
 typedef struct {
     double least, most;
     bool set;
@@ -43,7 +43,7 @@ typedef struct {
     const double *value;     /* [n[1] x n[0]] borrowed, along x the fastest; NaN: blank */
 } qdot_figure_map;
 
-/* One pair of axes; in space three, if its first curve is. */
+/* One pair of axes; three of them if the first curve is in space. */
 typedef struct {
     qdot_figure_label title, axis[3]; /* what is written along x, y, z */
     const char *note;           /* under the title; NULL: none */
@@ -78,7 +78,7 @@ typedef struct {
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);
 
-/* The view of panel i, by its ranges and by what its curves hold. Errors: QDOT_EDOMAIN. */
+/* The view of panel i, from its ranges and its curves. Errors: QDOT_EDOMAIN. */
 QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size_t i,
                                                  qdot_figure_view *view);
 

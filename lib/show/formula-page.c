@@ -10,7 +10,7 @@
 #include "show/formulas.h"
 #include "show/page.h"
 
-/* In units of about a letter: a line of a page of print. */
+/* The width of a line on a printed page, in characters. */
 enum { LINE = 76 };
 
 typedef qdot_formula_page page;
@@ -48,7 +48,7 @@ word_width(const char *word, size_t n)
     return 1;
 }
 
-/* About how many letters a text in LaTeX is wide. */
+/* The approximate width of a LaTeX text in characters. */
 static size_t
 latex_width(const char *at, size_t n)
 {
@@ -78,7 +78,7 @@ is_typed(const qdot_formula_node *node)
 
 /* --- the parts of a formula --------------------------------------------------------------- */
 
-/* Write the parts of a formula one behind the other, with how wide all before each are. */
+/* Write the parts of a formula one after another, and record the widths before each. */
 static qdot_status
 page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
@@ -110,7 +110,7 @@ page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
                          ((qdot_page_cut){p->written.n, width, QDOT_DUTY_NONE}));
 }
 
-/* Parts [from, to) of the formula. */
+/* The width of the parts [from, to) of the formula. */
 static size_t
 width_of(const page *p, size_t from, size_t to)
 {
@@ -126,7 +126,7 @@ page_add_parts(page *p, size_t from, size_t to)
 
 /* --- rows of a block -------------------------------------------------------------------- */
 
-/* A row: parts left of the aligned sign, the sign, parts that follow; sign: none if no cut has it. */
+/* A row: the parts left of the aligned sign, the sign, and the parts after it; sign: none if no cut has one. */
 typedef struct {
     size_t left, left_end, sign, right, right_end;
     bool indented;
@@ -174,7 +174,7 @@ latex_row(page *p, const row *r)
     page_add_parts(p, r->right, r->right_end);
 }
 
-/* A sign that begins a cell is still one between two terms. */
+/* Write a row in MathML; a sign that begins a cell must still be spaced as one between terms. */
 static void
 mathml_row(page *p, const row *r)
 {
@@ -247,7 +247,7 @@ add_lines(page *p, size_t from, size_t to, row r)
     }
 }
 
-/* The name before a colon: a comment before the next row; above the block in HTML. */
+/* Write the name before a colon: a comment before the next row; in HTML above the block. */
 static void
 add_label(page *p, size_t to)
 {
@@ -262,7 +262,7 @@ add_label(page *p, size_t to)
     qdot_text_add(&p->out, QDOT_FORMULA_MATH_END "</p>\n");
 }
 
-/* The first part from k on with one of two duties; the end if there is none. */
+/* The first part from k on with one of the two duties; the end if there is none. */
 static size_t
 find_duty(const page *p, size_t k, qdot_formula_duty one, qdot_formula_duty other)
 {
@@ -368,7 +368,7 @@ read_lead(page *p, const qdot_formula *f, qdot_formula_id line, qdot_formula_id 
     return qdot_text_status(&p->written);
 }
 
-/* A formula within a text. */
+/* Append a formula inside a text. */
 static qdot_status
 add_within(page *p, const qdot_formula *f, qdot_formula_id formula)
 {
@@ -411,7 +411,7 @@ page_add_text(page *p, const qdot_formula *f, qdot_formula_id line, const char *
     return QDOT_OK;
 }
 
-/* The words before a colon and one formula, `    kinetic energy of bob: `. */
+/* Append the words before a colon and one formula, `    kinetic energy of bob: `. */
 static void
 add_words(page *p, const char *words, size_t n)
 {

@@ -18,7 +18,7 @@
 
 typedef enum { QDOT_PAGE_LATEX, QDOT_PAGE_MATHML, QDOT_PAGE_REPORT } qdot_page_kind;
 
-/* A part of a formula: where it begins, how wide all before it are, what it does. */
+/* A part of a formula: where it begins, the width before it, and its duty in the row. */
 typedef struct {
     size_t at, width;
     qdot_formula_duty duty;
@@ -40,15 +40,15 @@ typedef struct qdot_formula_page {
 
 void qdot_formula_page_clear(qdot_formula_page *page);
 
-/* Append a line; its formulas QDOT_NOTATION_DRAWN. */
+/* Append a line; its formulas are QDOT_NOTATION_DRAWN. */
 void qdot_formula_page_line(qdot_formula_page *page, const qdot_formula *f, qdot_formula_id line);
 /* Append lines without formulas. */
 void qdot_formula_page_text(qdot_formula_page *page, const char *lines, size_t n);
 
-/* Append to `out` what the page holds: a fragment, the body of a page. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Append the contents of the page to `out`: a fragment, the body of a page. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_formula_page_end(qdot_formula_page *page, qdot_text *out);
 
-/* The same as a whole page of HTML: head with the title, style, body. */
+/* The same as a whole HTML page: head with the title, style, body. */
 QDOT_MUST_CHECK qdot_status qdot_formula_page_html(qdot_formula_page *page, const char *title, qdot_text *out);
 
 #endif

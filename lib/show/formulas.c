@@ -1,4 +1,4 @@
-/* formulas.c -- what a page with MathML carries for browsers without a font for it. */
+/* formulas.c -- the script of a page with MathML, for browsers without a mathematical font. */
 #include "show/formulas.h"
 
 static const char program[] = {

@@ -16,7 +16,7 @@ extern char **environ;
 
 enum { IN, OUT, SAID, FDS };
 
-/* What the child gets as 0, 1, 2, kept above these so that none overwrites another. */
+/* The child's file descriptors 0, 1, 2, kept above these so that none overwrites another. */
 typedef struct {
     int fd[FDS];
     int from; /* our end of the child's output; -1: none */
@@ -28,7 +28,7 @@ broken(const char *what)
     return qdot_fail(QDOT_EIO, "cannot %s: %s", what, strerror(errno));
 }
 
-/* `fd` moved above the three standard ones and closed on exec; -1 stays -1. */
+/* Move `fd` above the three standard ones, closed on exec; -1 stays -1. */
 static int
 above(int fd)
 {
@@ -41,7 +41,7 @@ above(int fd)
     return moved;
 }
 
-/* A file without a name that holds `text`, read from its beginning; -1 on failure. */
+/* A temporary file without a name that contains `text`, to be read from its beginning; -1 on failure. */
 static int
 nameless(const char *text, size_t length)
 {
@@ -149,7 +149,7 @@ gnuplot_start(pid_t *child, const plumbing *p)
     return broken("start gnuplot");
 }
 
-/* Append what comes from `fd` until it ends. */
+/* Append everything read from `fd` until its end. */
 static qdot_status
 drain(int fd, qdot_text *out)
 {
@@ -168,7 +168,7 @@ drain(int fd, qdot_text *out)
     }
 }
 
-/* Wait; the raw status, 0 where someone else has reaped the child. */
+/* Wait for gnuplot; returns the raw status, 0 if someone else has reaped the child. */
 static int
 gnuplot_finish(pid_t child, bool stop)
 {
@@ -221,7 +221,7 @@ complain(int said, int ended)
     return status;
 }
 
-/* A gnuplot that is ended from outside, behind a wrapper that does not say so, leaves a part of an image. */
+/* Check that the image is complete: gnuplot may have been killed behind a wrapper that hides it. */
 static qdot_status
 check_whole(const char *image, size_t n, const char *end)
 {

@@ -1,4 +1,4 @@
-/* gnuplot.h -- one run of gnuplot: a script in, an image out. */
+/* gnuplot.h -- runs gnuplot: a script in, an image out. */
 #ifndef QDOT_SHOW_GNUPLOT_H
 #define QDOT_SHOW_GNUPLOT_H
 

@@ -6,7 +6,7 @@
 
 #include "show/animation.h"
 
-/* In units of the picture, which is WIDE wide. */
+/* Sizes in units of the picture, whose width is WIDE. */
 enum {
     WIDE = 640,
     LOW = 170, /* height of a course */
@@ -58,7 +58,7 @@ svg_end(qdot_text *out, const char *caption, const char *behind)
     qdot_text_format(out, "%s</figcaption>\n</figure>\n", behind);
 }
 
-/* A line of the grid at x, and where its number begins. */
+/* Write a grid line at x, and begin its number. */
 static void
 grid_x(qdot_text *out, const frame *f, double x)
 {
@@ -77,7 +77,7 @@ grid_y(qdot_text *out, const frame *f, double y)
                      LEFT, down(f, y), WIDE - RIGHT, LEFT - 6, down(f, y) + 4);
 }
 
-/* The mark of look i about (x, y): five shapes, then the same hollow. */
+/* Draw mark i at (x, y): five shapes, then the same ones hollow. */
 static void
 add_mark(qdot_text *out, size_t i, double x, double y)
 {
@@ -90,7 +90,7 @@ add_mark(qdot_text *out, size_t i, double x, double y)
                      i / kinds % 2 == 1 ? " hollow" : "", x, y, shapes[i % kinds]);
 }
 
-/* The place of entry i of n in the key. */
+/* The position of entry i of n in the key. */
 static double
 key_at(size_t i, size_t n)
 {
@@ -107,7 +107,7 @@ add_key(qdot_text *out, double x, double y, const char *label)
 
 /* --- courses ------------------------------------------------------------------------ */
 
-/* 1, 2 or 5 times a power of ten: at most `most` steps in the span. */
+/* 1, 2 or 5 times a power of ten that divides the span into at most `most` steps. */
 static double
 nice_step(double span, double most)
 {
@@ -147,7 +147,7 @@ add_axes(qdot_text *out, const frame *f)
     }
 }
 
-/* The ranges of the courses, a little wider than what they hold; false: there is nothing. */
+/* The ranges of the curves, a little widened; false if there is nothing to draw. */
 static bool
 find_ranges(size_t n, const qdot_page_course *list, frame *f)
 {
@@ -230,7 +230,7 @@ is_shown(double x, double y)
     return x > 0 && y > 0 && isfinite(x) && isfinite(y);
 }
 
-/* Of what is above 0: powers of ten around the ranges; false: nothing is. */
+/* Powers of ten that enclose the positive values; false if there are none. */
 static bool
 find_decades(size_t n, const qdot_page_points *list, frame *f)
 {

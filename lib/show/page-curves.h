@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 
-/* y [n] at equal times from t0 to t1; NaN: nothing is drawn there. */
+/* A curve: y [n] at equidistant times from t0 to t1; nothing is drawn at NaN. */
 typedef struct {
     const char *label; /* of the key, which is there for two courses or more */
     double t0, t1;

@@ -1,4 +1,4 @@
-/* page.c -- answers as parts of a page: headings and formulas. */
+/* page.c -- answers as parts of an HTML page: headings and formulas. */
 #include "show/page.h"
 
 #include <string.h>
@@ -50,7 +50,7 @@ escape_n(qdot_text *out, const char *text, size_t n)
     }
 }
 
-/* Whether a line may be broken before a sign that is not the first of its formula. */
+/* Whether a line may be broken before the sign, which is not the first of its formula. */
 static bool
 is_break(const qdot_formula_node *node)
 {
@@ -74,7 +74,7 @@ write_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_parts *par
                                              i > 0 ? parts->part.at[i - 1] : 0, out));
             continue;
         }
-        /* the blank is the room before it */
+        /* the blank is the space before the sign */
         qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
         if (qdot_formula_write_page(f, parts->part.at[i], 0, &sign) == QDOT_OK)
             qdot_text_add(out, qdot_text_str(&sign) + strlen(tag));
@@ -106,7 +106,7 @@ qdot_page_is_heading(const char *text, bool more)
            (text[digits + 2] != '\0' || more);
 }
 
-/* The texts before the first formula; *more: there is one. */
+/* Read the texts before the first formula of a line; *more: there is a formula. */
 static void
 read_lead(const qdot_formula *f, qdot_formula_id line, qdot_text *lead, bool *more)
 {

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "formula/formula.h"
 
-/* Append what stands before the first section, with the style of the page; title: text. */
+/* Append the head of a page with its style and title (plain text); append its end. */
 void qdot_page_begin(qdot_text *out, const char *title);
 void qdot_page_end(qdot_text *out);
 
@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_page_line(qdot_text *out, const qdot_formula *f
 /* Whether a line that begins with this text is `12. Title`; more: something follows the text. */
 bool qdot_page_is_heading(const char *text, bool more);
 
-/* Append text as it stands, in equally wide letters. */
+/* Append text unchanged in a monospaced font. */
 void qdot_page_verbatim(qdot_text *out, const char *text);
 
 #endif

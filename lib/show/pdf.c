@@ -33,7 +33,7 @@ remove_one(const char *path, const struct stat *info, int kind, struct FTW *plac
     return remove(path);
 }
 
-/* A folder of our own in TMPDIR. */
+/* Make a temporary folder in TMPDIR. */
 static qdot_status
 make_folder(qdot_text *folder)
 {
@@ -48,7 +48,7 @@ make_folder(qdot_text *folder)
                      strerror(errno));
 }
 
-/* Start the first browser that there is, silent, with SIGINT as usual. */
+/* Start the first browser found, without output, with the usual handling of SIGINT. */
 static qdot_status
 browser_start(char *const arguments[], pid_t *child)
 {
@@ -80,7 +80,7 @@ browser_start(char *const arguments[], pid_t *child)
     return qdot_fail(QDOT_EIO, "cannot start Chromium: %s", strerror(failed));
 }
 
-/* Wait for it, up to a minute or Ctrl-C. */
+/* Wait for the browser, up to a minute or Ctrl-C. */
 static qdot_status
 wait_for(pid_t child)
 {
@@ -110,7 +110,7 @@ wait_for(pid_t child)
     return qdot_fail(QDOT_EIO, "Chromium did not print the report within %d s", SECONDS);
 }
 
-/* The file that the browser wrote becomes the report. */
+/* Copy the file that the browser wrote to the path of the report. */
 static qdot_status
 report_copy(const char *from, const char *path)
 {

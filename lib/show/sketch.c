@@ -1,4 +1,4 @@
-/* sketch.c -- curves in characters: a braille one has 2 x 4 dots. */
+/* sketch.c -- draws curves with characters: a braille character has 2 x 4 dots. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,7 +23,7 @@ enum { LOOKS = 4, DASHES = 8 };
 static const char marks[LOOKS + 1] = "*+ox";
 static const char dashes[LOOKS][DASHES + 1] = {"********", "*****   ", "*   *   ", "***** * "};
 
-/* Dot (x, y), y from above, unless it falls into a gap. */
+/* Set dot (x, y), with y counted from above, unless it falls into a gap of the curve's pattern. */
 static void
 grid_put(grid *g, double x, double y)
 {
@@ -92,7 +92,7 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
     }
 }
 
-/* Halftones; in ASCII a whole character is black or not. */
+/* Draw a map in halftones; in ASCII a whole character is black or not. */
 static void
 draw_map(grid *g, const qdot_figure_map *map, bool ascii)
 {
@@ -133,7 +133,7 @@ add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
         qdot_text_add(out, label->text != NULL ? label->text : "");
 }
 
-/* Which curve is which. */
+/* Write the key, which shows the pattern of each curve. */
 static void
 write_key(const qdot_panel *panel, bool ascii, qdot_text *out)
 {
@@ -150,7 +150,7 @@ write_key(const qdot_panel *panel, bool ascii, qdot_text *out)
     qdot_text_char(out, '\n');
 }
 
-/* The ends of the ordinate to the left, of the abscissa below, with what stands there. */
+/* Write the sketch, with the ends of the vertical axis on the left and of the horizontal one below. */
 static void
 sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bool ascii,
              qdot_text *out)

@@ -1,4 +1,4 @@
-/* trace.c -- points of a curve, where it bends more of them. */
+/* trace.c -- samples a curve, with more points where it bends. */
 #include "show/trace.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ qdot_trace_clear(qdot_trace *p)
     *p = (qdot_trace){0};
 }
 
-/* n points without numbers. */
+/* Allocate n points without values. */
 static qdot_status
 trace_reserve(qdot_trace *p, size_t axes, size_t n)
 {
@@ -63,7 +63,7 @@ qdot_trace_begin(const qdot_trace_source *source, size_t n, const double *s,
 
 /* --- as it is seen -------------------------------------------------------------------- */
 
-/* A point in cm; side: -1, 1 for each axis that it lies beyond. */
+/* A point in cm; side: -1 or 1 for each axis whose range it exceeds. */
 typedef struct {
     double at[3];
     int side[3];
@@ -90,7 +90,7 @@ seen(const qdot_figure_view *v, const qdot_trace *p, size_t axes, size_t k)
     return one;
 }
 
-/* Whether both ends lie beyond the same side. */
+/* Whether both ends lie beyond the same side of the view. */
 static bool
 segment_is_outside(const place *a, const place *b)
 {
@@ -100,7 +100,7 @@ segment_is_outside(const place *a, const place *b)
     return false;
 }
 
-/* From above the view to below it, or back. */
+/* Whether the segment jumps from above the view to below it, or back. */
 static bool
 is_across(const place *a, const place *b)
 {
@@ -132,7 +132,7 @@ segment_turn(const place *a, const place *b, const place *c)
     return atan2(cross, dot);
 }
 
-/* Which segments, k from point k to k + 1, are to be halved; how many. */
+/* Mark the segments, k from point k to k + 1, that are to be halved; returns their number. */
 static size_t
 mark(const place *places, size_t n, bool jumps, bool *halve)
 {
@@ -158,7 +158,7 @@ mark(const place *places, size_t n, bool jumps, bool *halve)
 
 /* --- more points ---------------------------------------------------------------------- */
 
-/* The points with those of `more` after each segment that was halved. */
+/* Insert the points of `more` after each segment that was halved. */
 static qdot_status
 trace_merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halve)
 {
@@ -183,7 +183,7 @@ trace_merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halv
     return QDOT_OK;
 }
 
-/* One round; *done: nothing was left to be halved. */
+/* Halve once; *done: no segment needed it. */
 static qdot_status
 halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
            qdot_trace *p, bool *done)
@@ -220,7 +220,7 @@ halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
     return status;
 }
 
-/* What still goes from above the view to below it is a pole, not a curve. */
+/* Interrupt the curve at segments that still jump from above the view to below it: these are poles. */
 static void
 break_jumps(const qdot_figure_view *view, qdot_trace *p, size_t axes)
 {

@@ -11,7 +11,7 @@
 
 #include "show/figure.h"
 
-/* The function: at s [n] its components [axes * n], one component after the other. */
+/* The function to trace: at s [n] its components [axes * n], one component after the other. */
 typedef struct {
     size_t axes; /* 2 or 3 */
     qdot_status (*values)(void *user, size_t n, const double *s, double *values);
@@ -27,10 +27,10 @@ typedef struct {
 
 enum { QDOT_TRACE_MOST = 20001 };
 
-/* The points at s [n], which is copied. */
+/* Make the points at s [n], which is copied. */
 QDOT_MUST_CHECK qdot_status qdot_trace_begin(const qdot_trace_source *source, size_t n,
                                               const double *s, qdot_trace *points);
-/* More points, as the view asks for. */
+/* Add points where the view needs them. */
 QDOT_MUST_CHECK qdot_status qdot_trace_refine(const qdot_trace_source *source,
                                                const qdot_figure_view *view,
                                                qdot_trace *points);
