@@ -15,7 +15,7 @@ static const struct {
     long call, addition;
 } number = {20, 6}, of_series = {2, 4};
 
-/* A base angle: unit * term; or, with term nil, a constant, whose pair costs nothing. */
+/* A base angle, unit * term; with term nil a constant, whose sine and cosine cost nothing. */
 typedef struct {
     qdot_expr term, unit;
     qdot_expr constant;
@@ -42,7 +42,7 @@ typedef struct {
     qdot_value sine, cosine;
 } angle_sum;
 
-/* One summand of one argument. */
+/* One summand of an argument. */
 typedef struct {
     qdot_expr term, coefficient; /* coefficient * term */
     qdot_expr source, of_source; /* a node of the walk that is of_source * term */
@@ -112,7 +112,7 @@ term_strip_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
     return e;
 }
 
-/* The parts of factor * e. `e` is a node of the walk when factor is one. */
+/* Read the summands of factor * e. If factor is one, `e` is a node of the walk. */
 static qdot_status
 read_sum(qdot_angles *a, qdot_expr e, qdot_expr factor, qdot_expr *constant)
 {
@@ -153,7 +153,7 @@ read_argument(qdot_angles *a, qdot_expr e)
                                                   .source = e, .of_source = c})));
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
-    /* The first part is to be positive: the sum or its negative. */
+    /* Make the first summand positive: use the sum or its negative. */
     if (a->parts.n > arg.first)
         arg.minus = qdot_expr_is_negative(pool, a->parts.at[arg.first].coefficient);
     for (size_t i = arg.first; i < a->parts.n; i++) {
@@ -194,7 +194,7 @@ common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
     return e;
 }
 
-/* x in units; 0 if that is not a small integer. */
+/* x as a multiple of the unit; 0 if it is not a small integer. */
 static long
 units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 {
@@ -218,7 +218,7 @@ find_base(qdot_angles *a, qdot_expr term, qdot_expr key, const base *fresh,
     return qdot_keymap_set(&a->by_term, term, key, 0, 0, *found);
 }
 
-/* The base of every part: its unit is known once all parts are read. */
+/* Find the base angle of every summand; the units are known once all summands are read. */
 static qdot_status
 find_bases(qdot_angles *a)
 {
@@ -294,7 +294,7 @@ find_sums(qdot_angles *a)
 
 /* --- the choice --------------------------------------------------------------------- */
 
-/* Compose the argument or give it its own call; returns the added cost. */
+/* Compose the argument from base angles, or give it a sine and cosine of its own; returns the added cost. */
 static long
 argument_set_composed(qdot_angles *a, argument *arg, bool composed)
 {
@@ -443,7 +443,7 @@ add_angles(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_va
     *c = qdot_code_op(code, minus ? QDOT_OP_ADD : QDOT_OP_SUB, cc, ss, 0);
 }
 
-/* unit * term, from a node of the walk that is of_source * term. */
+/* Compute unit * term, from a node of the walk that is of_source * term. */
 static void
 make_base(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
 {

@@ -13,7 +13,7 @@
 #include "tape/instruction.h"
 #include "tape/keymap.h"
 
-/* Higher powers use pow(). */
+/* Higher powers are computed by pow(). */
 #define QDOT_CODE_MOST_POWER 64
 
 typedef uint32_t qdot_value; /* a value of the code: an index */

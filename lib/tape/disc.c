@@ -30,7 +30,8 @@ of_quotient(double d, double ra, double b, double rb)
     return fabs(b) > rb ? (ra + radius_times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
 }
 
-/* f(c + w) - f(c) = f'(c) sin w - f(c) (1 - cos w), and the like of hyperbolic ones */
+/* |f(c + w) - f(c)| for sine or cosine, from f(c + w) - f(c) = f'(c) sin w - f(c) (1 - cos w); also
+ * hyperbolic. */
 static double
 of_wave(double slope, double value, double r)
 {
@@ -63,7 +64,7 @@ of_softplus(double a, double r)
     return r * fmin(small, r <= M_PI_2 ? 1 : 1 / sin(r));
 }
 
-/* erf: its slope 2 e^(-z^2)/sqrt(pi) is largest where x^2 - y^2 is least. */
+/* Bound for erf: its slope 2 e^(-z^2)/sqrt(pi) is largest where x^2 - y^2 is smallest. */
 static double
 of_normal(double a, double r)
 {
@@ -73,7 +74,7 @@ of_normal(double a, double r)
     return fmin(r * M_2_SQRTPI * exp(-least), x > 2 * r ? 2 : INFINITY);
 }
 
-/* atan2(y, x) is the imaginary part of log(x + i y): half a difference of two logarithms. */
+/* Bound for atan2(y, x), the imaginary part of log(x + i y): half the difference of two logarithms. */
 static double
 of_angle(double y, double ry, double x, double rx)
 {
@@ -122,7 +123,7 @@ qdot_disc_work(const qdot_tape *tape)
     return 4 * tape->places;
 }
 
-/* Add rounding to a radius that is not 0. */
+/* Add the rounding error to a radius, unless that is 0. */
 static double
 radius_add_rounding(double d, double rd)
 {
@@ -168,7 +169,7 @@ disc_execute(const qdot_instruction *i, double *work, double *radius)
     }
 }
 
-/* r NULL: all 0 */
+/* Load centres c and radii r of the inputs; r NULL: all 0. */
 static void
 disc_load(const qdot_tape *tape, const double *c, const double *r, double *work)
 {
@@ -201,7 +202,7 @@ qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *
     }
 }
 
-/* Places of inputs may be reused after their last use. */
+/* Which inputs are read before their slots are reused. */
 qdot_status
 qdot_disc_reads(const qdot_tape *tape, bool *used)
 {
@@ -247,7 +248,7 @@ qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
     return false;
 }
 
-/* The argument beyond which tanh is 1 in doubles. */
+/* For larger arguments tanh is 1 in double precision. */
 static const double saturated = 20;
 
 /* How far the argument of an operation that falls off, or its logarithm, may go where its value
@@ -345,7 +346,7 @@ multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
     }
 }
 
-/* B is far from 0 where its size changes by less than 5 times. */
+/* B counts as far from 0 if its magnitude varies by less than a factor of 5. */
 static const double far = 1.5;
 
 bool

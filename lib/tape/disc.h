@@ -22,7 +22,7 @@
 
 #include "tape/tape.h"
 
-/* Doubles of work space needed. */
+/* The number of doubles of work space. */
 size_t qdot_disc_work(const qdot_tape *tape);
 
 /* C, R [outputs] for discs c, r [inputs]; work [qdot_disc_work]. Never fails. */
@@ -32,7 +32,7 @@ void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, dou
 /* used [inputs]: which inputs the tape reads; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
-/* Operations by which a function that is large somewhere may be negligible at a distance. */
+/* Kinds of operations through which a function that is large elsewhere may be negligible at a point. */
 typedef enum {
     QDOT_HIDES_EXPONENTIALS, /* exponentials whose derivatives are all negligible at the start, too */
     QDOT_HIDES_QUOTIENTS     /* or because it is that much smaller there, as 1/x^2 is */
@@ -54,7 +54,7 @@ size_t qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double
 bool qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
                         double *most, double *work);
 
-/* The argument of the instruction k at the inputs x, and its result. Work as above. */
+/* The argument of instruction k at the inputs x, and its result. Work as above. */
 double qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *result,
                           double *work);
 

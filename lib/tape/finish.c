@@ -54,7 +54,7 @@ count_uses(finish *f)
             add_uses(f, (qdot_value)v, 1);
 }
 
-/* If only one of sine and cosine is used, compute only that. */
+/* If only one of a sine and cosine is used, compute only that one. */
 static void
 split_pairs(finish *f)
 {
@@ -62,7 +62,7 @@ split_pairs(finish *f)
         qdot_code_value *x = code_value_at(f, (qdot_value)v);
 
         if (x->op == QDOT_OP_SECOND && f->uses[v] > 0 && f->uses[x->a] == 1) {
-            /* Read by its second result alone. */
+            /* only the second result is read */
             *x = (qdot_code_value){QDOT_OP_COS, code_value_at(f, x->a)->a, 0, 0};
         }
     }
@@ -79,7 +79,7 @@ split_pairs(finish *f)
     }
 }
 
-/* The product that `v` is, if `v` is read only once. */
+/* The product that computes `v`, if `v` is read only once. */
 static const qdot_code_value *
 lone_product(finish *f, qdot_value v)
 {

@@ -12,7 +12,7 @@ typedef enum {
 #include "tape/operation.def"
 #undef X
     QDOT_OP_COUNT,
-    /* Only while written: */
+    /* only while a tape is being written: */
     QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: which */
     QDOT_OP_CONSTANT,              /* a: which */
     QDOT_OP_SECOND                 /* a: the SINCOS whose second result this is */
@@ -25,7 +25,7 @@ typedef struct {
 
 extern const qdot_operation qdot_operations[QDOT_OP_COUNT];
 
-/* An instruction of the finished tape: places. For SINCOS y is the second result. */
+/* An instruction of the finished tape, with slots as operands. For SINCOS y is the second result. */
 typedef struct {
     uint32_t op, to, x, y, z;
 } qdot_instruction;

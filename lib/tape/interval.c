@@ -40,7 +40,7 @@ qdot_interval_work(const qdot_tape *tape)
     return tape->places;
 }
 
-/* The operation on numbers, as the tape has it. */
+/* Apply the operation to numbers, as the tape does. */
 static void
 on_points(const qdot_instruction *i, double a, double b, double c, qdot_interval *to,
           qdot_interval *second)

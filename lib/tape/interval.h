@@ -20,7 +20,7 @@
 #include "num/interval.h"
 #include "tape/tape.h"
 
-/* Intervals of work space needed. */
+/* The number of intervals of work space. */
 size_t qdot_interval_work(const qdot_tape *tape);
 
 /* out [outputs] for in [inputs]; work [qdot_interval_work]. Never fails. */

@@ -1,11 +1,11 @@
-/* keymap.c -- open addressing, at most half full. */
+/* keymap.c -- a hash table with open addressing, at most half full. */
 #include "tape/keymap.h"
 
 #include "base/memory.h"
 
 enum { WIDTH = 5 };
 
-/* Index of the entry with that key, or of the free entry for it. */
+/* The index of the entry with that key, or of the free entry for it. */
 static size_t
 keymap_find_entry(const uint32_t *entries, size_t size, const uint32_t key[4])
 {

@@ -13,7 +13,7 @@
 
 #define QDOT_KEYMAP_NONE UINT32_MAX
 
-/* Start from {0}. */
+/* A hash table with keys of four numbers. Start from {0}. */
 typedef struct {
     uint32_t *entries; /* [size][5]: key, value; value QDOT_KEYMAP_NONE: free */
     size_t size, used;
@@ -21,7 +21,7 @@ typedef struct {
 
 void qdot_keymap_clear(qdot_keymap *map);
 
-/* The value of (a, b, c, d), QDOT_KEYMAP_NONE if there is none. */
+/* The value of key (a, b, c, d), QDOT_KEYMAP_NONE if there is none. */
 uint32_t qdot_keymap_get(const qdot_keymap *map, uint32_t a, uint32_t b, uint32_t c,
                          uint32_t d);
 

@@ -57,13 +57,13 @@ read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
     return x->v != QDOT_ZERO && x->c != QDOT_NIL;
 }
 
-/* (c (e^v + ratio e^w))^-n; with d = w - v, e^(b (d + log ratio)) beside it. */
+/* A factor (c (e^v + ratio e^w))^-n, with d = w - v, times e^(b (d + log ratio)). */
 typedef struct {
     qdot_expr c, v, w, ratio, d;
     qdot_expr n, b;
 } denominator;
 
-/* S = c_1 e^v + c_2 e^w, c_1 c_2 > 0, c_2 being taken out with its sign only where n is whole. */
+/* Read S = c_1 e^v + c_2 e^w with c_1 c_2 > 0; a negative c_2 is factored out only if n is an integer. */
 static bool
 read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
 {
@@ -98,7 +98,7 @@ read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
     return x->ratio != QDOT_NIL && has_sign(pool, x->ratio, QDOT_POS);
 }
 
-/* a/b if that is a rational number; else nil. */
+/* a/b if it is a rational number; else nil. */
 static qdot_expr
 quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -118,7 +118,7 @@ quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_expand(pool, qdot_sub(pool, a, qdot_mul(pool, q, b))) == QDOT_ZERO ? q : QDOT_NIL;
 }
 
-/* b, moved by as much of r as leaves it within -n/2 ... n/2 */
+/* b shifted by as much of r as leaves it within -n/2 ... n/2. */
 static qdot_expr
 within(qdot_pool *pool, const denominator *x, qdot_expr r)
 {
@@ -129,7 +129,7 @@ within(qdot_pool *pool, const denominator *x, qdot_expr r)
     return qdot_expr_is_negative(pool, qdot_add(pool, half, b)) ? qdot_neg(pool, half) : b;
 }
 
-/* Take what can be taken from e^*left into the denominator. */
+/* Move as much as possible of e^*left into the denominator. */
 static void
 absorb(qdot_pool *pool, denominator *x, qdot_expr *left)
 {
@@ -143,7 +143,7 @@ absorb(qdot_pool *pool, denominator *x, qdot_expr *left)
     x->b = b;
 }
 
-/* log(1 + e^d) */
+/* log(1 + e^d) as one value. */
 static qdot_expr
 softplus_of(qdot_pool *pool, qdot_expr d)
 {
@@ -152,7 +152,7 @@ softplus_of(qdot_pool *pool, qdot_expr d)
     return qdot_hold(pool, qdot_fun1(pool, QDOT_LOG, qdot_add(pool, QDOT_ONE, e)));
 }
 
-/* -(n/2 - b) l(d) - (n/2 + b) l(-d), d with its logarithm */
+/* -(n/2 - b) l(d) - (n/2 + b) l(-d) with l(d) = log(1 + e^d), d including log(ratio). */
 static qdot_expr
 exponent_of(qdot_pool *pool, const denominator *x)
 {
@@ -186,7 +186,7 @@ is_negative_number(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_NUM && qdot_expr_is_negative(pool, e);
 }
 
-/* Whether b^p is (c_1 e^v + c_2 e^w)^-n; then it is noted. */
+/* Whether b^p is (c_1 e^v + c_2 e^w)^-n; if so record it. */
 static bool
 take_denominator(quotients *q, qdot_expr b, qdot_expr p)
 {
@@ -212,7 +212,7 @@ take_denominator(quotients *q, qdot_expr b, qdot_expr p)
     return true;
 }
 
-/* cosh(u)^p sinh(u)^r with p + r <= 0, one of them negative, is tanh(u)^r cosh(u)^(p + r). */
+/* Replace cosh(u)^p sinh(u)^r with p + r <= 0, one exponent negative, by tanh(u)^r cosh(u)^(p + r). */
 static qdot_expr
 with_tangents(qdot_pool *pool, qdot_expr e)
 {
@@ -241,7 +241,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
 
 static qdot_expr form_of(qdot_pool *pool, qdot_expr e, void *user);
 
-/* c cosh(u)^a sinh(u)^b, a, b >= 0; u nil: it is c alone. */
+/* A term c cosh(u)^a sinh(u)^b, a, b >= 0; u nil: just c. */
 typedef struct {
     qdot_expr c, u;
     long a, b;
@@ -288,7 +288,8 @@ typedef struct {
     qdot_expr large, scaled;
 } factored;
 
-/* A polynomial of cosh(u) and sinh(u) as cosh(u)^N (its terms by tanh(u) and 1/cosh(u)); whether it is one. */
+/* Write a polynomial of cosh(u) and sinh(u) as cosh(u)^N times terms in tanh(u) and 1/cosh(u);
+ * whether it is one. */
 static bool
 over_cosine(qdot_pool *pool, qdot_expr e, factored *f)
 {
@@ -322,7 +323,7 @@ over_cosine(qdot_pool *pool, qdot_expr e, factored *f)
     return f->scaled != QDOT_NIL;
 }
 
-/* Term i of a sum, 0 its constant, as an exponential. */
+/* Read term i of a sum (0: its constant) as an exponential. */
 static bool
 read_term(qdot_pool *pool, qdot_expr e, uint32_t i, exponential *x)
 {
@@ -372,7 +373,7 @@ over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
     return f->scaled != QDOT_NIL;
 }
 
-/* Whether e is such a sum, but none of two exponentials of one sign (read_sum). */
+/* Factor e if it is such a sum, but not of two exponentials of the same sign (read_sum). */
 static bool
 factor_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 {
@@ -382,7 +383,7 @@ factor_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
            (over_cosine(pool, e, f) || over_exponentials(pool, e, f));
 }
 
-/* Negative powers of such sums by those of their factors. */
+/* Replace negative powers of such sums by those of their factors. */
 static qdot_expr
 with_factors(qdot_pool *pool, qdot_expr e)
 {
@@ -401,7 +402,7 @@ with_factors(qdot_pool *pool, qdot_expr e)
     return f;
 }
 
-/* A sum, or cosh(u) or sinh(u) as (e^u +- e^-u)/2; else nil. */
+/* b if it is a sum; cosh(u) or sinh(u) as (e^u +- e^-u)/2; else nil. */
 static qdot_expr
 as_sum(qdot_pool *pool, qdot_expr b)
 {
@@ -418,7 +419,7 @@ as_sum(qdot_pool *pool, qdot_expr b)
     return qdot_add(pool, qdot_mul(pool, QDOT_HALF, up), qdot_mul(pool, QDOT_HALF, down));
 }
 
-/* Sort the factors of e. */
+/* Sort the factors of e into denominators, exponentials and the rest. */
 static void
 quotients_sort(quotients *q, qdot_expr e)
 {
@@ -484,7 +485,7 @@ grows(const qdot_pool *pool, qdot_expr sum)
     return false;
 }
 
-/* The form of a product. */
+/* The finite form of a product. */
 static qdot_expr
 form_of(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -552,7 +553,7 @@ logarithm_of(qdot_pool *pool, qdot_expr large)
     return read_sum(pool, base, &x) ? qdot_mul(pool, N, logarithm_of_sum(pool, &x)) : QDOT_NIL;
 }
 
-/* log(S) of sums that grow exponentially, and of cosh(u) */
+/* Rewrite log(S) for sums that grow exponentially, and for cosh(u). */
 static qdot_expr
 logarithm(qdot_pool *pool, qdot_expr e, void *user)
 {

@@ -26,13 +26,13 @@
 
 #include "expr/walk.h"
 
-/* Whether there is anything of the kind among the nodes of a walk. */
+/* Whether the nodes of a walk contain such expressions. */
 bool qdot_logistic_occurs(const qdot_walk *w);
 
-/* e with its quotients in that form. Nil: a failure of the pool. */
+/* e with its quotients rewritten in the finite form. Nil: a failure of the pool. */
 qdot_expr qdot_logistic_form(qdot_pool *pool, qdot_expr e);
 
-/* d, if e is log(1 + e^d); else nil. */
+/* d if e is log(1 + e^d); else nil. */
 qdot_expr qdot_logistic_argument(const qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -13,7 +13,7 @@
 #include "tape/logistic.h"
 #include "tape/tape.h"
 
-/* One term of a group: terms of a sum whose coefficients are equal up to the sign. */
+/* A term in a group: terms of a sum whose coefficients are equal up to sign. */
 typedef struct {
     qdot_value value;
     bool minus;
@@ -41,7 +41,7 @@ typedef struct {
     bool series; /* are to run through it */
     qdot_angles *angles;
 
-    /* Scratch of lower_sum. */
+    /* work space of lower_sum: */
     qdot_vec(term) terms;
     qdot_vec(group) groups;
     qdot_keymap by_magnitude;
@@ -73,7 +73,7 @@ without_sign(lowering *l, qdot_value v, bool *minus)
 
 /* --- sums --------------------------------------------------------------------------- */
 
-/* Add coefficient * v to the groups of terms that share |coefficient|. */
+/* Add coefficient * v to the group of terms with the same |coefficient|. */
 static qdot_status
 groups_add_term(lowering *l, qdot_expr coefficient, qdot_value v)
 {
@@ -94,7 +94,7 @@ groups_add_term(lowering *l, qdot_expr coefficient, qdot_value v)
     return qdot_keymap_set(&l->by_magnitude, magnitude, 0, 0, 0, g);
 }
 
-/* A running sum that begins with a positive term where there is one. */
+/* A running sum, which begins with a positive term if there is one. */
 typedef struct {
     bool begun;
     qdot_value value;
@@ -200,7 +200,7 @@ product_times(lowering *l, product *p, qdot_value v)
     *p = (product){true, p->some ? op(l, QDOT_OP_MUL, p->value, v) : v};
 }
 
-/* Twice a rational exponent if that is an integer of reasonable size; else 0. */
+/* Twice a rational exponent if that is an integer of moderate size; else 0. */
 static long
 exponent_twice(const qdot_pool *pool, qdot_expr exponent)
 {
@@ -302,7 +302,7 @@ count_negatives(lowering *l)
 
 /* --- functions, relations ----------------------------------------------------------- */
 
-/* Functions that are one operation on their arguments; NEG, of which none is, stands for none. */
+/* The operation of each function that is a single one; NEG, which is none of them, means none. */
 #define QDOT_OP_NONE QDOT_OP_NEG
 
 static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
@@ -322,7 +322,7 @@ fold(lowering *l, qdot_op id, qdot_expr e)
     return v;
 }
 
-/* A held value includes its factor; only its sign is left to its readers. */
+/* Lower a held value: it includes its factor, and its readers only apply its sign. */
 static void
 lower_hold(lowering *l, qdot_expr x, known *k)
 {
@@ -336,7 +336,7 @@ lower_hold(lowering *l, qdot_expr x, known *k)
     k->factor = minus ? QDOT_MINUS_ONE : QDOT_ONE;
 }
 
-/* erf and erfc read their slope too: their series are made of it. */
+/* erf and erfc also read their slope, from which their series are made. */
 static qdot_value
 error_function(lowering *l, qdot_fun_id f, qdot_value x)
 {
@@ -350,7 +350,7 @@ error_function(lowering *l, qdot_fun_id f, qdot_value x)
               op(l, QDOT_OP_MUL, e, qdot_code_constant(&l->code, over)));
 }
 
-/* log(1 + e^d) reads its slope (1 + tanh(d/2))/2 too, of which log(1 + e^-d) has the same tanh. */
+/* log(1 + e^d) also reads its slope (1 + tanh(d/2))/2; log(1 + e^-d) has the same tanh. */
 static qdot_value
 lower_softplus(lowering *l, qdot_expr d)
 {
@@ -461,7 +461,7 @@ lower_node(lowering *l, size_t i)
     return qdot_fail(QDOT_ETYPE, "a number belongs here, not a vector, matrix or list");
 }
 
-/* Lower a node from the values of its children. */
+/* The value of a node multiplied by its constant factor. */
 static qdot_value
 value_with_factor(lowering *l, const known *k)
 {
@@ -474,7 +474,7 @@ value_with_factor(lowering *l, const known *k)
     return minus ? op(l, QDOT_OP_NEG, v, 0) : v;
 }
 
-/* Symbols and functions that are no inputs, all at once. */
+/* Refuse symbols and functions that are no inputs; the message lists all of them. */
 static qdot_status
 refuse_unset(lowering *l)
 {
@@ -544,7 +544,7 @@ lower_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qd
     return status;
 }
 
-/* The outputs [m] with quotients of exponentials that stay finite, owned, and the walk of them. */
+/* The outputs [m] with quotients of exponentials in a finite form, owned, and a new walk of them. */
 static qdot_status
 with_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **finite)
 {

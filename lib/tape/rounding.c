@@ -1,4 +1,4 @@
-/* rounding.c -- running error analysis of a tape; factors that make its errors visible. */
+/* rounding.c -- running error analysis of a tape; factors near 1 that make its rounding errors visible. */
 #include "tape/rounding.h"
 
 #include <float.h>
@@ -95,7 +95,7 @@ operand_place(const qdot_instruction *i, int operand)
     return operand == 0 ? i->x : operand == 1 ? i->y : i->z;
 }
 
-/* A slope times what it meets, which may be nothing. */
+/* slope * by, but 0 if `by` is 0, even for an infinite slope. */
 static double
 slope_times(double slope, double by)
 {
@@ -160,7 +160,7 @@ rounding_load(const qdot_tape *tape, const double *in, double *work)
         memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
 }
 
-/* The errors of all results behind their values in work. */
+/* Compute the errors of all results, stored after their values in work. */
 static void
 rounding_carry_out(const qdot_tape *tape, double rounding, double *work)
 {
@@ -221,14 +221,14 @@ qdot_rounding_underflows(const qdot_tape *tape, const double *in, double *bounds
  * of it. */
 static const double hidden = 8, hidden_still = 1.5, counts = 0.125;
 
-/* States that are tried: all inputs small, all large, then some of them small. Powers of 2. */
+/* Test states: all inputs small, all large, then some of them small. SMALL, LARGE: powers of 2. */
 enum { SMALL = -20, LARGE = 10, STATES = 8 };
 
 /* What is shown: two directions in which the inputs are moved, and what constants and factors
  * make. */
 enum { MOVED = 2, FACTORS = MOVED, SHOWN };
 
-/* A factor is off by so many doubles at most. */
+/* A factor differs from 1 by at most this many ulps. */
 enum { FARTHEST = 64 };
 
 typedef struct {
@@ -238,7 +238,7 @@ typedef struct {
     size_t count;
 } marking;
 
-/* Bits of input i in row k. */
+/* Pseudo-random bits for input i in row k. */
 static uint32_t
 mixed(size_t i, size_t k)
 {
@@ -307,7 +307,7 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
     }
 }
 
-/* How the result of an instruction changes with what is marked, by the slopes of its operands. */
+/* How the result of an instruction changes with the marked errors, from the slopes of its operands. */
 static void
 marking_show_result(const marking *m, const qdot_instruction *i, const double *slope, double *by)
 {
@@ -328,7 +328,7 @@ is_hidden(double error, double value, const double *by)
     return isfinite(error) && error > fmax(hidden * most, hidden_still * fabs(by[FACTORS]));
 }
 
-/* Carry out instruction `at`, with factors that it has and those that it needs. */
+/* Carry out instruction `at`, with its factors, and choose further ones if it needs them. */
 static void
 marking_carry_out(marking *m, size_t at)
 {
@@ -364,7 +364,7 @@ marking_carry_out(marking *m, size_t at)
 
 /* --- factors ------------------------------------------------------------------------- */
 
-/* Room for `more` constants behind those of the tape. */
+/* Make room for `more` constants after those of the tape. */
 static qdot_status
 factors_make_room(qdot_tape *t, size_t more)
 {
@@ -384,14 +384,14 @@ factors_make_room(qdot_tape *t, size_t more)
     return constant && side && low && exact ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The place behind as many more constants. */
+/* The slot after that many constants have been inserted before it. */
 static uint32_t
 moved_on(const qdot_tape *t, uint32_t place, size_t more)
 {
     return place < t->inputs + t->constants ? place : place + (uint32_t)more;
 }
 
-/* The constant 1 with that side, among those from `first` on; it is made if there is none. */
+/* The constant 1 + side ulps among those from `first` on; it is added if missing. */
 static uint32_t
 factor_constant(qdot_tape *t, size_t first, size_t *made, signed char side)
 {
@@ -409,7 +409,7 @@ factor_constant(qdot_tape *t, size_t first, size_t *made, signed char side)
     return (uint32_t)(t->inputs + k);
 }
 
-/* The constants begin behind those of the tape, at most `most` of them. */
+/* Insert the factors into the code; their constants, at most `most`, follow those of the tape. */
 static qdot_status
 put_factors(qdot_tape *t, const marking *m)
 {

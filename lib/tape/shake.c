@@ -1,4 +1,4 @@
-/* shake.c -- a copy with other neighbours of the constants. */
+/* shake.c -- copies a tape with constants replaced by neighbouring doubles. */
 #include "tape/shake.h"
 
 #include <math.h>

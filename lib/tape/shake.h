@@ -14,7 +14,7 @@
 /* A copy, owned by the caller. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken);
 
-/* The neighbouring double of x on that side, after |side| of them; x itself for side 0. */
+/* The double |side| ulps from x in the direction of the sign of side; x itself for side 0. */
 double qdot_shake_double(double x, int side);
 
 #endif

@@ -1,4 +1,4 @@
-/* tape.c -- a finished tape: reading it, evaluating it in double. */
+/* tape.c -- reads and evaluates finished tapes in double precision. */
 #include "tape/tape.h"
 
 #include <math.h>

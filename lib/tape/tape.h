@@ -31,7 +31,7 @@ size_t qdot_tape_inputs(const qdot_tape *tape);
 size_t qdot_tape_outputs(const qdot_tape *tape);
 size_t qdot_tape_work(const qdot_tape *tape);       /* doubles of work space needed */
 size_t qdot_tape_operations(const qdot_tape *tape); /* operations an evaluation */
-/* How many of these are calls of elementary functions (sincos counts once). */
+/* The number of calls of elementary functions (sincos counts once). */
 size_t qdot_tape_calls(const qdot_tape *tape);
 
 /* out [m] = outputs at in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
