@@ -1,4 +1,4 @@
-/* ask.c -- what a system is told and asked: statements, formulas, claims, numbers. */
+/* ask.c -- calls that carry out statements and ask for formulas, claims and numbers. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* motion.c -- runs, and what is known of a run as a whole. */
+/* motion.c -- makes runs, and answers questions about a run as a whole. */
 #include "api/motion.h"
 
 #include <string.h>
@@ -49,7 +49,7 @@ qdot_motion_free(qdot_motion *motion)
     qdot_free(motion);
 }
 
-/* The names of the coordinates, while the pool of the run is there for certain. */
+/* Copy the names of the coordinates now, as the pool of the run may not live as long. */
 static qdot_status
 copy_names(qdot_motion *m)
 {

@@ -13,7 +13,7 @@ struct qdot_motion {
     const char **coordinates; /* [qdot_motion_coordinates], in the arena */
 };
 
-/* Where the run is in the session, whose expressions it is read with; runs.n: it is not there. */
+/* The index of the run among the session's runs; runs.n if the session no longer has it. */
 size_t qdot_api_place(const qdot_motion *motion);
 
 #endif

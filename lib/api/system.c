@@ -1,4 +1,4 @@
-/* system.c -- a system begun and ended; calls, what they say and what goes wrong in them. */
+/* system.c -- begins and ends a system and each call of it, with its messages and errors. */
 #include "api/system.h"
 
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 
 /* --- results -------------------------------------------------------------------------- */
 
-/* The public results are the statuses of base/status.h under names of their own. */
+/* The public results are the statuses of base/status.h with public names; check that the values agree. */
 #define SAME(result, status)                                                             \
     _Static_assert((int)QDOT_RESULT_##result == (int)QDOT_##status, #result)
 SAME(OK, OK);
@@ -151,7 +151,7 @@ qdot_api_begin(qdot_system *system)
     return QDOT_OK;
 }
 
-/* Without the records of `undo`, which would keep every run of the past. */
+/* Delete the records for `undo`, which would keep every past run in memory. */
 static void
 forget_call(qdot_session *session)
 {
@@ -204,7 +204,7 @@ qdot_api_refuse(qdot_system *system, const char *format, ...)
     return qdot_api_end(system, status);
 }
 
-/* The statement's own failure is the one to tell, not what the pool made of it. */
+/* Clear a failure of the pool, but report the statement's own failure if it had one. */
 static void
 settle_pool(qdot_pool *pool)
 {

@@ -27,7 +27,7 @@ struct qdot_system {
 
 /* Begin a call. QDOT_ENOMEM: qdot_api_end must still be called. */
 QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
-/* End it with this status; returns it, or that there was no memory for what was said. */
+/* End a call with this status and return it as a result; QDOT_ENOMEM if its messages found no memory. */
 qdot_result qdot_api_end(qdot_system *system, qdot_status status);
 
 /* A call that needs neither: it succeeded. */
@@ -35,13 +35,13 @@ qdot_result qdot_api_accept(qdot_system *system);
 /* End a call at once, because of an argument: "CALL: what is wrong" (printf). */
 qdot_result qdot_api_refuse(qdot_system *system, const char *format, ...) QDOT_PRINTF(2, 3);
 
-/* Reads a text from its first token to its end. */
+/* Reads a text as tokens, from the first to the last. */
 typedef qdot_status (*qdot_api_reader)(qdot_cursor *c, void *data);
-/* Have the reader read the whole text; an error is reported as one of `call`. */
+/* Let `reader` read the whole text; an error is reported as one of `call`. */
 QDOT_MUST_CHECK qdot_status qdot_api_read(qdot_system *system, const char *call, const char *text,
                                           qdot_api_reader reader, void *data);
 
-/* One use less; the last frees the system. */
+/* Count one user of the system less; the last one frees it. */
 void qdot_api_release(qdot_system *system);
 
 #endif

@@ -1,4 +1,4 @@
-/* values.c -- numbers along a run: values, extrema and means, events. */
+/* values.c -- numbers along a run: values, extrema, means, events. */
 #include "api/motion.h"
 #include "lang/language/read.h"
 #include "lang/session/member.h"
@@ -9,7 +9,7 @@ _Static_assert((int)QDOT_OVER_MIN == (int)QDOT_RANGE_MIN, "range");
 _Static_assert((int)QDOT_OVER_MEAN == (int)QDOT_RANGE_MEAN, "range");
 _Static_assert((int)QDOT_OVER_DRIFT == (int)QDOT_RANGE_DRIFT, "range");
 
-/* Expressions are read in the session, so the run must be one of its runs still. */
+/* Fail unless the run is still one of the session's runs, as expressions are read in the session. */
 static qdot_status
 motion_check_place(const qdot_motion *motion)
 {
@@ -18,7 +18,7 @@ motion_check_place(const qdot_motion *motion)
     return qdot_fail(QDOT_ENAME, "the run `%s` is no longer in the system", motion->run.name);
 }
 
-/* The components [k] of the expression that the text holds. */
+/* Read the expression of the text into columns, one for each of its components [k]. */
 static qdot_status
 values_read_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
 {
@@ -131,7 +131,7 @@ qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, do
 
 /* --- events --------------------------------------------------------------------------- */
 
-/* Begin a call; the list [*n] of what occurred. */
+/* Begin a call that returns the run's occurrences of an event; *n of them. */
 static const qdot_run_occurrence *
 occurrences(qdot_motion *motion, size_t *n, qdot_status *status)
 {
