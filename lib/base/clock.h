@@ -1,10 +1,10 @@
-/* clock.h -- CPU time, and time as it passes. */
+/* clock.h -- CPU time and wall-clock time. */
 #ifndef QDOT_BASE_CLOCK_H
 #define QDOT_BASE_CLOCK_H
 
 #include <time.h>
 
-/* CPU time of this thread, in seconds. */
+/* The CPU time of this thread, in seconds. */
 static inline double
 qdot_cpu_now(void)
 {
@@ -14,7 +14,7 @@ qdot_cpu_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Time as it passes, in seconds from some moment. */
+/* The wall-clock time in seconds, from an arbitrary origin. */
 static inline double
 qdot_wall_now(void)
 {

@@ -1,4 +1,4 @@
-/* file-lock.c -- a record lock of POSIX on a file beside the other. */
+/* file-lock.c -- locks a file by a POSIX record lock on a second file next to it. */
 #include "base/file-lock.h"
 
 #include <errno.h>
@@ -21,7 +21,7 @@ lock_refuse(const char *path, int reason)
     return qdot_fail(QDOT_EIO, "cannot lock `%.200s`: %s", path, strerror(reason));
 }
 
-/* Lock the file of that descriptor; *gone: it has been removed since it was opened. errno on failure. */
+/* Lock the open file fd; *gone: the file was removed after it was opened. Returns errno on failure. */
 static int
 lock_whole(const char *path, int fd, bool *gone)
 {

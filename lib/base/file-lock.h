@@ -15,9 +15,9 @@ typedef struct {
     int fd;
 } qdot_file_lock;
 
-/* QDOT_EIO: another process has it, or it cannot be made; QDOT_ENOMEM. */
+/* Lock a file. QDOT_EIO: another process has locked it, or the lock cannot be made; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_file_lock_acquire(const char *path, qdot_file_lock *lock);
-/* Remove the lock file and unlock it; does nothing for a lock {0}. */
+/* Remove the lock file and unlock; does nothing for a lock {0}. */
 void qdot_file_lock_release(qdot_file_lock *lock);
 
 #endif

@@ -1,4 +1,4 @@
-/* interrupt.h -- Ctrl-C arms a flag; long computations look at it and return QDOT_EINTR. */
+/* interrupt.h -- Ctrl-C sets a flag; long computations test it and return QDOT_EINTR. */
 #ifndef QDOT_BASE_INTERRUPT_H
 #define QDOT_BASE_INTERRUPT_H
 
@@ -8,7 +8,7 @@
 
 extern volatile sig_atomic_t qdot_interrupt_flag;
 
-/* Safe in a signal handler. */
+/* Set or clear the flag; safe in a signal handler. */
 void qdot_interrupt_set(void);
 void qdot_interrupt_clear(void);
 

@@ -1,4 +1,4 @@
-/* memory-failure.h -- that an allocation failed: heard by who answers, brought about by tests. */
+/* memory-failure.h -- reports a failed allocation to its handler; tests can make one fail. */
 #ifndef QDOT_BASE_MEMORY_FAILURE_H
 #define QDOT_BASE_MEMORY_FAILURE_H
 

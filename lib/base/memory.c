@@ -1,4 +1,4 @@
-/* memory.c -- every allocation of the library, so that any of them can be made to fail. */
+/* memory.c -- all allocations of the library, each of which tests can make fail. */
 #include "base/memory.h"
 
 #include <stdatomic.h>

@@ -9,7 +9,7 @@
 
 #include "base/status.h"
 
-/* As malloc, calloc, realloc, free, strndup. size 0 gives a block that may be freed. */
+/* As malloc, calloc, realloc, free, strndup; size 0 gives a block that may be freed. */
 void *qdot_malloc(size_t size);
 void *qdot_calloc(size_t count, size_t size);
 void *qdot_realloc(void *block, size_t size);
@@ -26,7 +26,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_calloc_parts(double **block, size_t count,
                                               const qdot_part *parts);
 
-/* For tests: the n-th allocation from now (n = 0: the next) and all after it fail; n < 0: none. */
+/* For tests: make the n-th allocation from now (0: the next) and all later ones fail; n < 0: none. */
 void qdot_memory_fail_at(long n);
 /* For tests: simulate Ctrl-C at the n-th allocation from now (n = 0: the next); n < 0: not. */
 void qdot_memory_press_at(long n);
@@ -43,14 +43,14 @@ QDOT_MUST_CHECK qdot_status qdot_grow(void *block, size_t *capacity, size_t want
         size_t n, capacity;                                                              \
     }
 
-/* Append `value`; a qdot_status. */
+/* Append `value` to a vector; returns a qdot_status. */
 #define qdot_vec_push(v, value)                                                          \
     ((v)->n < (v)->capacity ||                                                           \
              qdot_grow(&(v)->at, &(v)->capacity, (v)->n + 1, sizeof *(v)->at) == QDOT_OK \
          ? ((v)->at[(v)->n] = (value), (v)->n++, QDOT_OK)                                \
          : QDOT_ENOMEM)
 
-/* A block that many small things share and that is freed at once. */
+/* A memory block shared by many small objects and freed as a whole. */
 typedef struct qdot_arena qdot_arena;
 
 qdot_arena *qdot_arena_new(void);

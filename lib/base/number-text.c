@@ -1,11 +1,11 @@
-/* number-text.c -- doubles as people read them, and for JSON. */
+/* number-text.c -- writes doubles for people and for JSON. */
 #include "base/number-text.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* 1e-9, not 1e-09. */
+/* Shorten the exponent of a number: 1e-9 for 1e-09. */
 static void
 tidy_exponent(qdot_text *text, size_t from)
 {

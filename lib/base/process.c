@@ -1,4 +1,4 @@
-/* process.c -- what a process knows of itself among others. */
+/* process.c -- the number of this process among the ranks that mpirun started. */
 #include "base/process.h"
 
 #include <stdlib.h>

@@ -11,10 +11,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether mpirun started this process; whether, then, as another rank than 0. Known from the start on. */
+/* Whether mpirun started this process, and whether as another rank than 0; valid from the start of
+ * the program. */
 bool qdot_ranks_are_there(void);
 bool qdot_ranks_are_others(void);
-/* How many ranks there are; which this is. 1 and 0 until qdot_rank_set has been told. */
+/* The number of ranks, and the number of this one; 1 and 0 until qdot_rank_set sets them. */
 size_t qdot_ranks_count(void);
 size_t qdot_rank(void);
 void qdot_rank_set(size_t rank, size_t count);

@@ -18,9 +18,9 @@ typedef struct qdot_progress {
     double t0, t1, t; /* the variable that advances: its start, its end, where it is */
     double speed;     /* steps a second; 0: not known yet */
     double left;      /* seconds; NaN: not known yet */
-    /* called after half a second and then some times a second; it may show a line */
+    /* called after half a second and then a few times a second; may show a line */
     void (*show)(const struct qdot_progress *progress);
-    /* called before anything else is written, if a line was shown */
+    /* called before other output is written, if a line was shown */
     void (*clear)(void);
 
     /* its own */
@@ -31,10 +31,10 @@ typedef struct qdot_progress {
     bool shown;
 } qdot_progress;
 
-/* The progress of this thread; NULL: nobody waits. */
+/* The progress shown for this thread; NULL: none. */
 extern _Thread_local qdot_progress *qdot_progress_open;
 
-/* Work on t0..t1 begins, called by that name (printf). */
+/* Begin to show progress of work on t0..t1, named by the printf format. */
 void qdot_progress_begin(double t0, double t1, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -42,10 +42,10 @@ void qdot_progress_begin(double t0, double t1, const char *format, ...)
  * so. */
 void qdot_progress_within(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A look at the clock is due. */
+/* Read the clock, and show the progress if that is due. */
 void qdot_progress_look(qdot_progress *progress);
 
-/* A step has reached t. */
+/* Report that a step has reached t. */
 static inline void
 qdot_progress_at(double t)
 {
@@ -57,7 +57,7 @@ qdot_progress_at(double t)
     }
 }
 
-/* Take the line away, if there is one. What goes on is waited for anew. */
+/* Remove the progress line if there is one; the next is shown after the usual delay. */
 void qdot_progress_clear(void);
 
 #endif

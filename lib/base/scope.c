@@ -1,4 +1,4 @@
-/* scope.c -- a hash table of blocks; its own memory is not counted. */
+/* scope.c -- a hash table of the blocks allocated in a scope, its own memory not included. */
 #include "base/scope.h"
 
 #include <stdint.h>
@@ -118,7 +118,7 @@ qdot_scope_release(void *block)
     gap = scope_find_slot(s, block);
     s->n--;
     s->bytes -= s->slot[gap].size;
-    /* those behind move up where the gap would hide them */
+    /* move entries behind the gap back if the gap would hide them */
     for (i = (gap + 1) & s->mask; s->slot[i].block != NULL; i = (i + 1) & s->mask) {
         size_t from = home(s, s->slot[i].block);
 

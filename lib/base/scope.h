@@ -21,16 +21,16 @@ typedef struct {
     size_t bytes; /* of all blocks noted */
 } qdot_scope;
 
-/* The thread's scope, NULL outside. */
+/* The thread's scope; NULL outside of any. */
 extern _Thread_local qdot_scope *qdot_scope_now;
 
 /* Make *s the current scope, empty. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_scope_begin(qdot_scope *s);
-/* End the scope; its blocks stay, or all are freed. */
+/* End the scope: _end leaves its blocks allocated, _discard frees them. */
 void qdot_scope_end(qdot_scope *s);
 void qdot_scope_discard(qdot_scope *s);
 
-/* Between the two nothing is noted: what is allocated outlives the scope. */
+/* Blocks allocated between _pause and _resume do not belong to the scope and outlive it. */
 qdot_scope *qdot_scope_pause(void);
 void qdot_scope_resume(qdot_scope *s);
 

@@ -1,4 +1,4 @@
-/* sink.c -- writing a file beside its place and hearing of every failure. */
+/* sink.c -- writes a file under a temporary name, reports every failure, and renames it at the end. */
 #include "base/sink.h"
 
 #include <errno.h>
@@ -53,7 +53,7 @@ find_place(qdot_sink *sink, struct stat *old, bool *direct)
     return sink->place != NULL ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* A new file in the folder of the place, with a name of its own. */
+/* Create a new file, of a unique name, in the folder of the target. */
 static qdot_status
 create_beside(qdot_sink *sink, const struct stat *old)
 {

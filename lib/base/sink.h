@@ -32,10 +32,10 @@ QDOT_MUST_CHECK qdot_status qdot_sink_put(qdot_sink *sink, const char *bytes,
  * disk): then what was there before stays. */
 QDOT_MUST_CHECK qdot_status qdot_sink_close(qdot_sink *sink);
 
-/* Close after another failure, which stays the last error; what was there before stays. */
+/* Close after another failure, which stays the last error; an existing target file is unchanged. */
 void qdot_sink_abandon(qdot_sink *sink);
 
-/* A whole file of `length` bytes: opened, put, closed. Errors as theirs. */
+/* Write a whole file of `length` bytes; errors as of opening, writing and closing a sink. */
 QDOT_MUST_CHECK qdot_status qdot_sink_write(const char *path, const char *bytes,
                                             size_t length);
 

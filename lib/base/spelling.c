@@ -63,7 +63,7 @@ qdot_spelling_offer(qdot_spelling *s, const char *candidate)
         s->length > m + 3)
         return;
     d = spelling_distance(s->name, s->length, candidate, m);
-    /* a one-letter name is never a slip of another one, only of its other case */
+    /* a one-letter name is taken for a slip of the same letter in the other case only */
     if (m < 2 && d > 1)
         return;
     if (d < s->least) {

@@ -1,4 +1,4 @@
-/* status.c -- the one place every failure passes. */
+/* status.c -- records the last failure of each thread. */
 #include "base/status.h"
 
 #include <stdarg.h>

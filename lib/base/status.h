@@ -35,7 +35,7 @@ typedef enum {
 #define QDOT_PRINTF(f, a) __attribute__((format(printf, f, a)))
 #define QDOT_API __attribute__((visibility("default")))
 
-/* Return the status of `call` from the enclosing function unless it is QDOT_OK. */
+/* Return from the enclosing function with the status of `call`, unless it is QDOT_OK. */
 #define QDOT_TRY(call)                                                                   \
     do {                                                                                 \
         qdot_status try_status_ = (call);                                                \
@@ -43,7 +43,8 @@ typedef enum {
             return try_status_;                                                          \
     } while (0)
 
-/* Failures after which no other method should be tried: QDOT_ENOMEM, QDOT_EINTR; else QDOT_OK. */
+/* The status if it is a failure after which no other method should be tried (QDOT_ENOMEM,
+ * QDOT_EINTR); else QDOT_OK. */
 static inline qdot_status
 qdot_grave(qdot_status status)
 {
@@ -66,7 +67,7 @@ qdot_status qdot_hint(const char *format, ...) QDOT_PRINTF(1, 2);
 /* The last failure of this thread; owned by the thread, valid until the next failure. */
 const qdot_error *qdot_last_error(void);
 
-/* Put a saved failure back as the last one; returns its status. */
+/* Restore a saved failure as the last one; returns its status. */
 qdot_status qdot_fail_again(const qdot_error *saved);
 
 #endif

@@ -1,4 +1,4 @@
-/* terminal.c -- the size of a terminal, asked of the system. */
+/* terminal.c -- asks the system for the size of a terminal. */
 #include "base/terminal.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Whether a stream goes to one. What mpirun gives its ranks looks so and is none. */
+/* Whether a stream is a terminal; false for the pseudo-terminals that mpirun gives its ranks. */
 bool qdot_terminal_is(const FILE *stream);
 
 /* The size of the terminal in characters; 80 x 24 if it is not known. false: the stream goes

@@ -1,4 +1,4 @@
-/* text.h -- a growing string. An append that fails marks the string; ask once, at the end. */
+/* text.h -- a growing string. A failed append marks the string; its status is asked once, at the end. */
 #ifndef QDOT_BASE_TEXT_H
 #define QDOT_BASE_TEXT_H
 
@@ -18,7 +18,7 @@ void qdot_text_add(qdot_text *s, const char *text);
 void qdot_text_add_n(qdot_text *s, const char *text, size_t length);
 void qdot_text_char(qdot_text *s, char c);
 void qdot_text_format(qdot_text *s, const char *format, ...) QDOT_PRINTF(2, 3);
-/* All that the file still has, or a block more than `most` bytes; false: it cannot be read. */
+/* Append the rest of a file, or one block more than `most` bytes; false if it cannot be read. */
 bool qdot_text_add_stream(qdot_text *s, FILE *from, size_t most);
 /* Append all that a file still has, as _add_stream; errors name `path`: QDOT_EIO, also of a directory;
  * QDOT_ELIMIT: it is larger than `most`; QDOT_ENOMEM. */
@@ -30,25 +30,25 @@ void qdot_text_clear(qdot_text *s);
 /* The characters, "" where nothing was appended. */
 const char *qdot_text_str(const qdot_text *s);
 
-/* QDOT_ENOMEM if any append failed. */
+/* The status of all appends: QDOT_ENOMEM if any failed. */
 QDOT_MUST_CHECK qdot_status qdot_text_status(const qdot_text *s);
 
-/* A double as the C locale writes it, `digits` significant ones; inf and nan in words. */
+/* Append a double in the C locale, with `digits` significant digits; "inf" or "nan" if it is not finite. */
 void qdot_text_double(qdot_text *s, double x, int digits);
 
-/* The fewest digits, not below `least`, with which %g writes a double that reads back as x; 17 of NaN. */
+/* The fewest digits, at least `least`, with which %g writes a double that reads back as x; 17 for NaN. */
 int qdot_double_digits(double x, int least);
 
-/* Whether text ends in `ending`, with something before it: "a.csv" in ".csv". */
+/* Whether text ends in `ending` and is longer: "a.csv" for ".csv". */
 bool qdot_ends_in(const char *text, const char *ending);
 
-/* Whether text holds the word by itself, with no letter or _ beside it. */
+/* Whether text contains the word with no letter or _ next to it. */
 bool qdot_has_word(const char *text, const char *word);
 
 /* Append text [n] of a page of HTML: & < > as entities, and where `quotes`, as in an attribute, " too. */
 void qdot_text_html(qdot_text *s, const char *text, size_t n, bool quotes);
 
-/* `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
+/* Append `text` as a quoted JSON string; bytes that are not UTF-8 become U+FFFD. */
 void qdot_text_json(qdot_text *s, const char *text);
 
 #endif

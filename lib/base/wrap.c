@@ -7,13 +7,13 @@
 #include "base/memory.h"
 #include "base/utf8.h"
 
-/* A piece of the text. */
+/* A part of the text that is wrapped. */
 typedef struct {
     const char *at;
     size_t n;
 } piece;
 
-/* The columns it takes; codes for colours and marks of cells take none. */
+/* The number of terminal columns of a part; colour codes and cell marks take none. */
 static size_t
 piece_columns(piece p)
 {
@@ -120,7 +120,7 @@ add_plain(qdot_text *out, piece p)
 
 enum { USUAL_INDENT = 2, LEAST_ROOM = 16 };
 
-/* Columns of blanks before a line that goes on. */
+/* The indent, in columns, of the lines that continue `line`. */
 static size_t
 indent_of(piece line, size_t width)
 {
@@ -242,7 +242,7 @@ typedef struct {
     size_t *width;         /* [n] */
 } table;
 
-/* Cell k of a line, empty where it has none. */
+/* Cell k of a table line; empty if the line has fewer cells. */
 static piece
 cell_of(piece line, size_t k)
 {
@@ -269,7 +269,7 @@ count_cells(piece line)
     return n;
 }
 
-/* A piece of text without the blanks at both ends. */
+/* A part of the text without blanks at its two ends. */
 static piece
 trimmed(piece p)
 {
@@ -282,7 +282,7 @@ trimmed(piece p)
     return p;
 }
 
-/* The next line of *text, whose end is stepped over. */
+/* Take the next line of *text and move *text past its newline. */
 static piece
 take_line(const char **text)
 {
@@ -358,7 +358,7 @@ table_add_cell(qdot_text *out, const table *t, size_t row, size_t k, bool last)
     add_blanks(out, last ? 0 : t->width[k] - piece_columns(cell));
 }
 
-/* The first columns and columns [from, to) of all rows. */
+/* Append the key columns and the columns [from, to) of all rows. */
 static void
 table_add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
 {
