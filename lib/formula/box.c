@@ -1,4 +1,4 @@
-/* box.c -- a formula as boxes: those of a node are finished, and measured, where it is left. */
+/* box.c -- lays out a formula as nested boxes, each measured when all its children are. */
 #include "formula/box.h"
 
 #include <inttypes.h>
@@ -36,7 +36,7 @@ box_finish(reader *r, qdot_box x)
     return qdot_vec_push(&r->done, (uint32_t)(r->to->box.n - 1));
 }
 
-/* What has been added to the text from `from` on. */
+/* Make a box of the text added from byte `from` on. */
 static qdot_status
 finish_text(reader *r, size_t from, qdot_box_role role)
 {
@@ -74,7 +74,7 @@ term_begins(const reader *r)
            role == QDOT_BOX_OPENING || role == QDOT_BOX_WORD;
 }
 
-/* A word of a text is one by the blank behind it. */
+/* Append words of a text as one box: a word of a relation if it ends in a blank, otherwise a name. */
 static qdot_status
 box_add_words(reader *r, const char *text, size_t n)
 {
@@ -150,7 +150,7 @@ static const character fractions[] = {
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
-/* Append the text by characters of a table; false, and nothing appended, where one has none. */
+/* Append the text in characters of a table, as superscripts; false, and nothing appended, if one is missing. */
 static bool
 translate(qdot_text *to, const char *text, size_t bytes, const character *table,
           size_t count)
@@ -208,7 +208,7 @@ beside(qdot_box *row, const qdot_box *x)
         row->below = x->below;
 }
 
-/* Widths of the columns of a table, and what its rows take. */
+/* Find the column widths and row heights of a table. */
 static qdot_status
 measure_table(qdot_boxes *b, qdot_box *table)
 {
@@ -239,7 +239,7 @@ measure_table(qdot_boxes *b, qdot_box *table)
     return QDOT_OK;
 }
 
-/* Brackets are as high as what they hold. */
+/* Make brackets as high as their contents. */
 static void
 stretch(qdot_boxes *b, const qdot_box *row)
 {
@@ -269,7 +269,7 @@ finish_row(reader *r, qdot_box x)
     return box_finish(r, x);
 }
 
-/* ½ where there is such a character. */
+/* Finish a fraction; as ½ if there is such a character. */
 static qdot_status
 finish_fraction(reader *r, qdot_box x)
 {
@@ -298,7 +298,7 @@ finish_fraction(reader *r, qdot_box x)
     return box_finish(r, x);
 }
 
-/* The script by characters of its own, in the row of its base; *own: it has them. */
+/* Write a super- or subscript in characters of its own, on the line of its base; *own: they exist. */
 static qdot_status
 append_script(reader *r, const qdot_box *x, bool super, bool *own)
 {
@@ -333,7 +333,7 @@ append_script(reader *r, const qdot_box *x, bool super, bool *own)
     return finish_row(r, row);
 }
 
-/* The script beside its base, above or below. */
+/* Set a script as a raised or lowered box next to its base. */
 static qdot_status
 finish_beside(reader *r, qdot_box x)
 {
@@ -349,7 +349,7 @@ finish_beside(reader *r, qdot_box x)
     return box_finish(r, x);
 }
 
-/* p with θ below and a square: the square by its character in the row of p, above θ; *own: it has one. */
+/* p with index θ and a square: write ² as a character on the line of p, above θ; *own: it exists. */
 static qdot_status
 append_above_index(reader *r, const qdot_box *x, bool *own)
 {
@@ -389,7 +389,7 @@ finish_script(reader *r, qdot_box x)
     return own ? QDOT_OK : finish_beside(r, x);
 }
 
-/* Indices above, then below. */
+/* Finish a symbol with upper indices, then lower ones. */
 static qdot_status
 finish_tensor(reader *r, qdot_box x)
 {
@@ -406,7 +406,7 @@ finish_tensor(reader *r, qdot_box x)
     return finish_script(r, lower);
 }
 
-/* Dots over the first letter: θ and one dot become θ̇; over what is drawn there are none. */
+/* Put dots over the first letter: θ with one dot is θ̇; a drawn box gets none. */
 static qdot_status
 finish_accent(reader *r, const qdot_box *x, uint32_t dots)
 {
@@ -442,7 +442,7 @@ finish_root(reader *r, qdot_box x)
 
 /* --- nodes ------------------------------------------------------------------------------------ */
 
-/* The boxes finished since the innermost open node, which is closed, become the children of x. */
+/* Close the innermost open node x: the boxes finished since it was opened become its children. */
 static qdot_status
 close_node(reader *r, qdot_box *x)
 {
@@ -457,7 +457,7 @@ close_node(reader *r, qdot_box *x)
     return QDOT_OK;
 }
 
-/* Likewise one row, or the one box that there is. */
+/* Close the innermost node as one row; a single box stays itself. */
 static qdot_status
 close_row(reader *r)
 {
@@ -473,7 +473,7 @@ open_node(reader *r)
     return qdot_vec_push(&r->open, r->done.n);
 }
 
-/* Whether each child of a node is a box of its own. */
+/* Whether each child of a node becomes a box of its own. */
 static bool
 is_of_cells(const qdot_formula_node *node)
 {
@@ -488,7 +488,7 @@ is_of_cells(const qdot_formula_node *node)
     }
 }
 
-/* Whether all children of a node together are one box, which it is about. */
+/* Whether all children of a node form one box, which the node decorates. */
 static bool
 is_about_one(const qdot_formula_node *node)
 {
@@ -496,7 +496,7 @@ is_about_one(const qdot_formula_node *node)
            node->kind == QDOT_FORMULA_PRIMES;
 }
 
-/* Whether the boxes of a node stand in the row around it. */
+/* Whether the boxes of a node join the row around it. */
 static bool
 is_open_row(const qdot_formula_node *node)
 {
@@ -540,7 +540,7 @@ box_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
                                                           : QDOT_OK;
 }
 
-/* The cells between their brackets. */
+/* Finish a table with its brackets. */
 static qdot_status
 leave_table(reader *r, const qdot_formula_node *node)
 {
@@ -557,7 +557,7 @@ leave_table(reader *r, const qdot_formula_node *node)
     return close_row(r);
 }
 
-/* Primes, or the order of a derivative in brackets: what is written behind. */
+/* Append primes, or the order of a derivative in brackets. */
 static qdot_status
 box_add_order(reader *r, uint32_t n)
 {
@@ -570,7 +570,7 @@ box_add_order(reader *r, uint32_t n)
     return finish_text(r, from, QDOT_BOX_NAME);
 }
 
-/* What is about or made of whole boxes. */
+/* Finish a node that decorates or contains whole boxes. */
 static qdot_status
 leave_structure(reader *r, const qdot_formula_node *node)
 {
@@ -616,7 +616,7 @@ box_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     return QDOT_OK;
 }
 
-/* All of it: one row, even of one box. */
+/* Finish the formula as one row, even if it has one box. */
 static qdot_status
 finish_all(reader *r)
 {

@@ -25,7 +25,7 @@ typedef enum {
     QDOT_BOX_TABLE  /* cells row by row */
 } qdot_box_kind;
 
-/* What a text is in its row. */
+/* The role of a text in its row. */
 typedef enum {
     QDOT_BOX_NAME, /* a number, a name */
     QDOT_BOX_RELATION,
@@ -58,14 +58,14 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_boxes_build(const qdot_formula *f, qdot_formula_id id, qdot_boxes *boxes);
 void qdot_boxes_clear(qdot_boxes *boxes);
 
-/* Columns of a root's sign, beside what stands under it. */
+/* The columns of a root sign in front of its radicand. */
 static inline uint32_t
 qdot_box_root_sign(const qdot_box *under)
 {
     return under->above + under->below == 0 ? 1 : under->above + under->below + 3;
 }
 
-/* Rows of a box. */
+/* The height of a box, in lines. */
 static inline uint32_t
 qdot_box_height(const qdot_box *b)
 {

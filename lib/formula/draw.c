@@ -5,12 +5,12 @@
 
 #include "base/utf8.h"
 
-/* A character and the mark over it; 0: a space, none. */
+/* A character (0: a space) and the mark over it (0: none). */
 typedef struct {
     uint32_t c, mark;
 } cell;
 
-/* What is to be drawn: a box by its left end and its baseline. */
+/* A box to be drawn, the column of its left end and the line of its baseline. */
 typedef struct {
     uint32_t box;
     size_t x, y;
@@ -59,7 +59,7 @@ draw_text(canvas *c, const char *text, size_t bytes, size_t x, size_t y)
     }
 }
 
-/* A bracket as high as its row: its upper end, what goes on, its lower end, its middle. */
+/* Draw a bracket as high as its row: upper end, repeated part, lower end, middle. */
 static void
 draw_bracket(canvas *c, const qdot_box *b, size_t x, size_t y)
 {
@@ -209,7 +209,7 @@ add_character(qdot_text *out, uint32_t c)
     qdot_text_char(out, (char)(0x80 | (c & 0x3F)));
 }
 
-/* Lines without the spaces at their ends; on the baseline the first columns in colour. */
+/* Write the lines without trailing spaces, the first columns of the baseline in colour. */
 static void
 canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdot_text *out)
 {
@@ -239,7 +239,7 @@ canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, q
     }
 }
 
-/* Rows above and below the baseline of what stands beside each other. */
+/* The lines above and below the baseline of items next to each other. */
 static void
 items_measure(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
               size_t *below)

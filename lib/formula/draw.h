@@ -7,13 +7,13 @@
 
 #include "formula/box.h"
 
-/* A box and the column that it begins at. */
+/* A box and its first column. */
 typedef struct {
     uint32_t box;
     size_t x;
 } qdot_draw_item;
 
-/* The first columns of the baseline stand between these codes; code NULL: none. */
+/* The first columns of the baseline are written between these terminal codes; code NULL: none. */
 typedef struct {
     size_t columns;
     const char *code, *end;
@@ -24,7 +24,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items,
                                            size_t n, const qdot_draw_colour *colour,
                                            qdot_text *out, size_t *lines);
-/* As many lines as that would be. */
+/* The number of lines that drawing the items takes. */
 size_t qdot_draw_height(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n);
 
 #endif

@@ -171,7 +171,7 @@ qdot_formula_sign_duty(const qdot_formula_node *node)
     return node->kind == QDOT_FORMULA_SIGN ? (qdot_formula_duty)duties[node->what] : QDOT_DUTY_NONE;
 }
 
-/* Brackets in LaTeX: braces, \left ... \right, \begin ... \end. */
+/* The change of nesting by a LaTeX bracket at this byte: braces, \left ... \right, \begin ... \end. */
 static int
 latex_depth(const char *at, size_t n)
 {
@@ -189,7 +189,7 @@ latex_depth(const char *at, size_t n)
     return 0;
 }
 
-/* The length of the sign between two terms or sides that stands there; 0: none. */
+/* The length of the sign at this byte that joins terms or sides of an equation; 0: none. */
 static size_t
 latex_sign(const char *at, size_t n, qdot_formula_sign *sign)
 {

@@ -45,7 +45,7 @@ typedef enum {
     QDOT_FORMULA_APPLY     /* a function, its bracket */
 } qdot_formula_kind;
 
-/* Of a TEXT. */
+/* The roles of a TEXT node. */
 typedef enum {
     QDOT_TEXT_NAME,     /* a name; where formulas are drawn its letters for the eye, θ, its indices apart */
     QDOT_TEXT_NUMBER,   /* an integer or a decimal number without its sign */
@@ -54,7 +54,7 @@ typedef enum {
     QDOT_TEXT_WORDS     /* a text for people; in LaTeX what is LaTeX already */
 } qdot_formula_role;
 
-/* Of a BRACKET. */
+/* The kinds of a BRACKET node. */
 typedef enum {
     QDOT_BRACKET_ROUND,
     QDOT_BRACKET_SQUARE,
@@ -62,7 +62,7 @@ typedef enum {
     QDOT_BRACKET_FLOOR
 } qdot_formula_shape;
 
-/* What a sign does in its row. */
+/* The function of a sign in its row. */
 typedef enum {
     QDOT_DUTY_NONE,
     QDOT_DUTY_COLON,
@@ -108,7 +108,7 @@ typedef struct {
 } qdot_formula;
 
 void qdot_formula_clear(qdot_formula *f);
-/* Forget all nodes, keep the memory. */
+/* Remove all nodes but keep the memory. */
 void qdot_formula_empty(qdot_formula *f);
 
 /* QDOT_ENOMEM if anything failed for want of memory. */
@@ -117,35 +117,35 @@ QDOT_MUST_CHECK qdot_status qdot_formula_status(const qdot_formula *f);
 /* A node without children, in no list. */
 qdot_formula_id qdot_formula_new(qdot_formula *f, qdot_formula_kind kind, unsigned what, unsigned flags);
 
-/* child, in no list yet, becomes the last one of parent. */
+/* Make child, which has no parent yet, the last child of parent. */
 void qdot_formula_append(qdot_formula *f, qdot_formula_id parent, qdot_formula_id child);
 
-/* The same at once; returned is the child. */
+/* Create a node and append it to parent; returns the node. */
 qdot_formula_id qdot_formula_add(qdot_formula *f, qdot_formula_id parent, qdot_formula_kind kind, unsigned what,
                                  unsigned flags);
 qdot_formula_id qdot_formula_add_sign(qdot_formula *f, qdot_formula_id parent, qdot_formula_sign sign);
 qdot_formula_id qdot_formula_add_text(qdot_formula *f, qdot_formula_id parent, qdot_formula_role role,
                                       const char *text, size_t n);
-/* The text is what was appended to f->text from byte `from` on. */
+/* Append a text node whose text is what f->text contains from byte `from` on. */
 qdot_formula_id qdot_formula_add_tail(qdot_formula *f, qdot_formula_id parent, qdot_formula_role role, size_t from);
 
-/* Set the number of dots, primes, cells in a row. */
+/* Set the number of dots, of primes, or of cells in a row. */
 void qdot_formula_count(qdot_formula *f, qdot_formula_id id, uint32_t n);
 
-/* Node `to` becomes what node `of` is, with the same children. */
+/* Make node `to` a copy of node `of`, with the same children. */
 void qdot_formula_share(qdot_formula *f, qdot_formula_id to, qdot_formula_id of);
 
-/* A SPAN with one child that is no SPAN, which may be filled later, becomes that child. */
+/* Replace a SPAN with a single child, itself no SPAN, by that child, which may be filled later. */
 void qdot_formula_unwrap(qdot_formula *f, qdot_formula_id id);
 
-/* A node by its number, which is not nil. */
+/* The node with this number, which must not be nil. */
 static inline const qdot_formula_node *
 qdot_formula_at(const qdot_formula *f, qdot_formula_id id)
 {
     return f->nodes.at + id;
 }
 
-/* The child after `child`, 0: the first one; 0 behind the last. Nil has no children. */
+/* The next child after `child` (0: the first one); 0 after the last. Nil has no children. */
 static inline qdot_formula_id
 qdot_formula_child(const qdot_formula *f, qdot_formula_id parent, qdot_formula_id child)
 {
@@ -154,7 +154,7 @@ qdot_formula_child(const qdot_formula *f, qdot_formula_id parent, qdot_formula_i
     return child == last ? 0 : qdot_formula_at(f, child != 0 ? child : last)->next;
 }
 
-/* What stands in a row, from left to right. */
+/* The parts of a row, from left to right. */
 typedef struct {
     qdot_vec(qdot_formula_id) part, todo; /* todo: work space */
 } qdot_formula_parts;
@@ -165,7 +165,7 @@ QDOT_MUST_CHECK qdot_status qdot_formula_find_parts(const qdot_formula *f, qdot_
                                                     qdot_formula_parts *parts);
 void qdot_formula_parts_clear(qdot_formula_parts *parts);
 
-/* What a node does if it is a sign, else QDOT_DUTY_NONE. */
+/* The function of a node that is a sign; else QDOT_DUTY_NONE. */
 qdot_formula_duty qdot_formula_sign_duty(const qdot_formula_node *node);
 
 /* Append a text in LaTeX: the signs between its terms and sides outside braces are nodes, what stands between them

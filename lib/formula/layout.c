@@ -1,4 +1,4 @@
-/* layout.c -- a formula as a sequence of boxes, and where its lines are broken. */
+/* layout.c -- writes a formula as a sequence of boxes and chooses where to break its lines. */
 #include "formula/layout.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ static const double deeper = 0.35, between_factors = 0.75, before_sign = 0.15, a
  * beginning of a name that is cut. */
 enum { usual_indent = 4, least_room = 16, least_cut = 8 };
 
-/* A box that is not broken, in so many brackets. */
+/* A box that cannot be broken, and the number of brackets around it. */
 typedef struct {
     uint32_t box, depth;
 } item;
@@ -43,7 +43,7 @@ box_of(const layout *l, uint32_t box)
 
 /* --- parts of what is too wide ---------------------------------------------------------------- */
 
-/* What is pushed last stands first. */
+/* Push a box; the last pushed is the leftmost. */
 static void
 layout_push(layout *l, uint32_t box, uint32_t depth)
 {
@@ -70,7 +70,7 @@ push_text(layout *l, const char *text, qdot_box_role role, uint32_t depth)
         layout_push(l, (uint32_t)(l->boxes.box.n - 1), depth);
 }
 
-/* In brackets, unless it is a name. */
+/* Push a box in brackets, unless it is a name. */
 static void
 push_bracketed(layout *l, uint32_t box, uint32_t depth)
 {
@@ -83,7 +83,7 @@ push_bracketed(layout *l, uint32_t box, uint32_t depth)
         push_text(l, "(", QDOT_BOX_OPENING, depth);
 }
 
-/* Its brackets are those of a line. */
+/* Push the boxes of a row; its brackets become those of a line. */
 static void
 layout_push_row(layout *l, const qdot_box *row, uint32_t depth)
 {
@@ -214,7 +214,7 @@ indent_of(const layout *l)
     return blanks + usual_indent;
 }
 
-/* Whether a box loses more than a line where it is broken: a fraction, a root, a matrix. */
+/* Whether breaking a box costs more than a line: a fraction, a root, a matrix. */
 static bool
 is_drawn(const layout *l, const qdot_box *b)
 {
@@ -302,7 +302,7 @@ ends_label(const layout *l, size_t i)
     return b->count >= 2 && l->boxes.text.at[b->first + b->count - 2] == ':';
 }
 
-/* What a break before item i loses, as a part of the line. */
+/* The cost of a line break before item i, as a fraction of a line. */
 static double
 loss(const layout *l, size_t i)
 {
@@ -355,7 +355,7 @@ end_of_line(const layout *l, size_t from, size_t x)
     return l->items.n;
 }
 
-/* A sign that begins a line has no space before it; a product is seen there. */
+/* Remove the space before a sign that begins a line, and make a product sign visible there. */
 static qdot_status
 trim_first(layout *l, size_t i)
 {
@@ -387,7 +387,7 @@ count_labels(layout *l)
             l->name = l->labels + 1;
 }
 
-/* `x = 0, y = 1, stable when a > 0`: a line may end between these, seldom within one. */
+/* Count the relations in `x = 0, y = 1, stable when a > 0`: a line break is preferred between them. */
 static void
 count_relations(layout *l)
 {

@@ -34,7 +34,7 @@ QDOT_MUST_CHECK qdot_status qdot_layout_part(const qdot_formula *f, qdot_formula
                                              const qdot_layout_request *request, qdot_text *out,
                                              qdot_layout_size *size);
 
-/* The same, all of it without colour; size may be NULL. */
+/* As qdot_layout_part, with all lines and without colour; size may be NULL. */
 QDOT_MUST_CHECK qdot_status qdot_layout(const qdot_formula *f, qdot_formula_id id, size_t width, qdot_text *out,
                                         qdot_layout_size *size);
 

@@ -1,4 +1,4 @@
-/* name.c -- names as they are spelled: their letters, digits, indices. */
+/* name.c -- splits names into letters, digits and indices, and spells Greek letters. */
 #include "formula/name.h"
 
 #include <string.h>
@@ -62,7 +62,7 @@ is_greek(const char *at, size_t length)
     return next_greek(at, length) >= 0;
 }
 
-/* The letters of a name as they are shown: as they are, or where `all_greek` names of Greek letters as these. */
+/* Append the letters of a name as shown: unchanged, or Greek letters for their names if `all_greek`. */
 static void
 add_letters(const char *at, size_t length, bool all_greek, qdot_text *out)
 {
@@ -148,7 +148,7 @@ qdot_name_index(const char *name, qdot_name_digits *index)
 
 /* --- in a line -------------------------------------------------------------------------------- */
 
-/* One part after the other: names and numbers apart by a sign; *part is the text of one. */
+/* A copy of the next part of a name, up to the sign `between`; moves *i past it. */
 static char *
 next_part(const char *at, size_t length, char between, size_t *i)
 {

@@ -7,7 +7,7 @@
 
 #include "formula/formula.h"
 
-/* The name of the Greek letter, of two bytes, that stands there: "theta" of "θ"; NULL: none. */
+/* The spelled name of the two-byte Greek letter at `letter`: "theta" for "θ"; NULL if it is none. */
 const char *qdot_name_greek(const char *letter);
 
 /* An index of digits: x_1, x[1]. */
@@ -18,7 +18,7 @@ typedef struct {
     bool brackets; /* x[1] */
 } qdot_name_digits;
 
-/* Whether a name has no other index than digits behind `_` or in brackets: it may be written as x₁. */
+/* Whether the only index of a name is digits after `_` or in brackets, so that it may be written as x₁. */
 bool qdot_name_index(const char *name, qdot_name_digits *index);
 
 /* Append the name in a line, with dots or primes for a derivative: θ̇₁. lowered: an index of digits is written so. */

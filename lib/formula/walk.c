@@ -14,7 +14,7 @@ walk_enter(qdot_formula_walk *walk, qdot_formula_id id)
     return qdot_vec_push(&walk->open, ((qdot_formula_frame){.id = id}));
 }
 
-/* The next child of the innermost open node, or its end. */
+/* Step to the next child of the innermost open node, or leave that node. */
 static qdot_status
 walk_step(qdot_formula_walk *walk)
 {

@@ -9,7 +9,7 @@
 
 #include "formula/formula.h"
 
-/* A node whose children are passed through. */
+/* A node whose children are being traversed. */
 typedef struct {
     qdot_formula_id id, child; /* child: the latest one; 0: none yet */
     uint32_t k;                /* its number */
@@ -28,10 +28,10 @@ struct qdot_formula_walk {
     qdot_status (*leave)(qdot_formula_walk *walk, const qdot_formula_node *node);
 };
 
-/* Pass through the node and all below it. Errors: QDOT_ENOMEM, QDOT_EINTR, what the functions return. */
+/* Traverse a node and all its descendants. Errors: QDOT_ENOMEM, QDOT_EINTR, those of the callbacks. */
 QDOT_MUST_CHECK qdot_status qdot_formula_pass(qdot_formula_walk *walk, qdot_formula_id id);
 
-/* The node around the present one; NULL: none. */
+/* The parent of the present node; NULL: none. */
 static inline const qdot_formula_node *
 qdot_formula_outer(const qdot_formula_walk *walk)
 {

@@ -6,7 +6,7 @@
 #include "base/utf8.h"
 #include "formula/walk.h"
 
-/* As many letters as a sign has of its own, without the blanks about it. */
+/* The number of letters of a sign, without the blanks around it. */
 static size_t
 sign_letters(unsigned sign)
 {
@@ -20,7 +20,7 @@ sign_letters(unsigned sign)
     }
 }
 
-/* The order of a derivative: as many marks, or its digits in brackets. */
+/* The width of the order of a derivative: so many marks, or its digits in brackets. */
 static size_t
 order_letters(uint32_t n, uint32_t most)
 {

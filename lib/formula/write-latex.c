@@ -12,7 +12,7 @@ static const char *const signs[] = {
 #undef QDOT_SIGN
 };
 
-/* Functions that have a command. */
+/* Functions with a LaTeX command. */
 static const struct {
     const char *name, *command;
 } functions[] = {
@@ -124,7 +124,7 @@ latex_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k
     return QDOT_OK;
 }
 
-/* Behind a base with an index: the order of a derivative that dots do not show. */
+/* Append the order of a derivative that has too many dots, after a base with an index. */
 static void
 latex_add_order(qdot_text *out, const qdot_formula_node *accent)
 {

@@ -1,4 +1,4 @@
-/* write-line.c -- formulas in one line: as the language reads them, or for the eye. */
+/* write-line.c -- writes a formula on one line, as input of the language or for people. */
 #include <inttypes.h>
 
 #include "formula/walk.h"
@@ -84,7 +84,7 @@ line_add_primes(const writer *w, uint32_t n)
     }
 }
 
-/* Whether a table has one row. */
+/* Whether a table has a single row. */
 static bool
 is_one_row(const qdot_formula *f, const qdot_formula_node *table)
 {

@@ -20,7 +20,7 @@ typedef struct {
         size_t) above; /* of the open tensors: where the indices above begin, and end */
 } writer;
 
-/* What stands around the children of a node, or around a text. */
+/* The MathML tags around the children of a node, or around a text. */
 typedef struct {
     const char *open, *close;
 } tags;
@@ -56,7 +56,7 @@ static const tags texts[] = {[QDOT_TEXT_NAME] = {"<mi>", "</mi>"},
                              [QDOT_TEXT_LABEL] = {"<mtext>", "</mtext>"},
                              [QDOT_TEXT_WORDS] = {"<mtext>", "</mtext>"}};
 
-/* Derivatives with as many dots, or else with their order behind. */
+/* The most dots on a derivative; a higher order is written after it. */
 enum { MOST_DOTS = 3 };
 
 void
@@ -82,7 +82,7 @@ mathml_add_text(qdot_text *out, const qdot_formula_node *node, const char *text)
 
 /* --- the form for pages ------------------------------------------------------------------------- */
 
-/* Stops at what is higher than a line. */
+/* Stop the traversal at a node that is higher than one line. */
 static qdot_status
 high_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
@@ -101,7 +101,7 @@ high_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     return QDOT_OK;
 }
 
-/* Begin a bracket: on pages a round one about one line does not stretch. */
+/* Begin a bracket; on web pages a round one around a single line does not stretch. */
 static qdot_status
 mathml_open_bracket(writer *w, const qdot_formula *f, const qdot_formula_node *node)
 {
@@ -127,7 +127,7 @@ mathml_close_bracket(writer *w, const qdot_formula_node *node)
                                                   : brackets[node->what].close);
 }
 
-/* The one node that stands for a node, where SPANs and rows of one child are passed over. */
+/* The node that is written for `id`, without SPANs and rows of a single child around it. */
 static const qdot_formula_node *
 alone(const qdot_formula *f, qdot_formula_id id)
 {
@@ -139,14 +139,14 @@ alone(const qdot_formula *f, qdot_formula_id id)
     return node;
 }
 
-/* The first child, as alone has it. */
+/* The first child, without SPANs and rows of a single child around it. */
 static const qdot_formula_node *
 first_child(const qdot_formula *f, const qdot_formula_node *node)
 {
     return node->child == 0 ? node : alone(f, qdot_formula_at(f, node->child)->next);
 }
 
-/* Whether a power (or primes) of a name with an index sets both at the same place. */
+/* Whether a power (or primes) of a name with an index is written directly above that index. */
 static bool
 is_above_index(const writer *w, const qdot_formula *f, const qdot_formula_node *node)
 {
@@ -155,7 +155,7 @@ is_above_index(const writer *w, const qdot_formula *f, const qdot_formula_node *
            first_child(f, node)->kind == QDOT_FORMULA_INDEX;
 }
 
-/* Whether the present node, an index or a row about one, is the base of such a power, which writes the tags. */
+/* Whether the present node, an indexed name or a row of one, is the base of a power that writes its tags. */
 static bool
 is_index_below(const writer *w, const qdot_formula_walk *walk)
 {
@@ -184,7 +184,7 @@ is_word_applied(const qdot_formula *f, const qdot_formula_node *apply)
            f->text.at[name->child] >= 'a' && f->text.at[name->child] <= 'z';
 }
 
-/* Whether a node is a product that is not seen. */
+/* Whether a node is an invisible product sign. */
 static bool
 is_times(const qdot_formula_node *node)
 {
@@ -269,7 +269,7 @@ mathml_leave_primes(qdot_text *out, uint32_t n, bool above_index)
     qdot_text_add(out, above_index ? "</mo></msubsup>" : "</mo></msup>");
 }
 
-/* MathML has the indices below before those above. */
+/* Exchange lower and upper indices, as MathML needs the lower ones first. */
 static void
 mathml_exchange_indices(writer *w)
 {

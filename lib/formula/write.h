@@ -13,10 +13,10 @@
 QDOT_MUST_CHECK qdot_status qdot_formula_write_line(const qdot_formula *f, qdot_formula_id id,
                                                     qdot_notation_kind notation, qdot_text *out);
 
-/* The same in LaTeX, for its mathematics mode. */
+/* Write a formula in LaTeX, for its mathematics mode. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
 
-/* The same in presentation MathML, the contents of <math>. */
+/* Write a formula in presentation MathML, the contents of <math>. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_mathml(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
 
 /* The same for a page: an index and a power stand one above the other, round brackets about one line do not stretch
@@ -25,11 +25,11 @@ QDOT_MUST_CHECK qdot_status qdot_formula_write_mathml(const qdot_formula *f, qdo
 QDOT_MUST_CHECK qdot_status qdot_formula_write_page(const qdot_formula *f, qdot_formula_id id, qdot_formula_id before,
                                                     qdot_text *out);
 
-/* What MathML begins with and ends with within a text. */
+/* The tags at the two ends of a MathML formula in a text. */
 #define QDOT_FORMULA_MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
 #define QDOT_FORMULA_MATH_END "</math>"
 
-/* Append text that stands between tags, & and < as entities. */
+/* Append HTML text, with & and < as entities. */
 void qdot_formula_escape(const char *text, size_t n, qdot_text *out);
 
 #endif
