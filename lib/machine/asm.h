@@ -75,7 +75,7 @@ typedef enum {
     QDOT_ASM_BASES
 } qdot_asm_base;
 
-/* A register, or a place in memory; one double there may stand for every lane (AVX-512 only). */
+/* A register or a memory address; with `spread` one double in memory stands for all lanes (AVX-512 only). */
 typedef struct {
     bool memory, spread;
     int reg; /* or a qdot_asm_base */
@@ -90,7 +90,7 @@ typedef struct {
     int mask;     /* of AVX-512, of what follows; 0: none */
     bool zeroing; /* what it leaves out becomes 0, else stays */
     unsigned char nowhere[16]; /* what is written after a failure */
-    /* Of registers: when they were used last, and whether they cannot be had. */
+    /* For each register: when it was last used, and whether it is reserved. */
     unsigned clock, used[QDOT_ASM_REGISTERS];
     bool taken[QDOT_ASM_REGISTERS];
 } qdot_asm;
@@ -109,7 +109,7 @@ qdot_asm_in(int reg)
     return (qdot_operand){.reg = reg};
 }
 
-/* offset: in bytes. */
+/* An operand in memory, at an offset in bytes. */
 static inline qdot_operand
 qdot_asm_at(qdot_asm_base base, int32_t offset)
 {
@@ -129,7 +129,7 @@ void qdot_asm_clear(qdot_asm *m, int reg);
  * those below it, `known` both. AVX-512 has these sets in mask registers, the others in two
  * vectors. */
 
-/* The first register that is free for what the code is about, where lanes enter. */
+/* The first free register when the code for the lanes begins. */
 int qdot_asm_first_free(const qdot_asm *m);
 
 typedef enum {
@@ -146,7 +146,7 @@ void qdot_asm_next_lane(qdot_asm *m);
 /* The newest lane of reg = a double in memory. AVX-512 only: the others read such vectors from
  * memory. */
 void qdot_asm_insert(qdot_asm *m, int reg, qdot_operand one);
-/* to += factor * b, in these lanes; b is in memory if that is not all. `spare` is overwritten. */
+/* to += factor * b in these lanes; b must be in memory if they are not all. `spare` is overwritten. */
 void qdot_asm_add_product(qdot_asm *m, int to, int factor, qdot_operand b,
                           qdot_asm_lane_set lanes, int spare);
 /* to = the lanes of low from the second on, then the first of high, NULL: then 0. `to` may be the
@@ -156,28 +156,28 @@ void qdot_asm_slide(qdot_asm *m, int to, qdot_operand low, const qdot_operand *h
 
 /* --- addresses, loops, calls ---------------------------------------------------------- */
 
-/* to = from + offset; the address of a place in the code. */
+/* to = from + offset; _set_code: to = the address of a position in the code. */
 void qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset);
 void qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place);
 /* What stands between the two is run `times`, at least once; returns its place. Not one in
  * another. _repeat_as: as often as the 32 bits at that place say, when it is run. */
 size_t qdot_asm_repeat(qdot_asm *m, int times);
 size_t qdot_asm_repeat_as(qdot_asm *m, qdot_operand times);
-/* Right behind _repeat_as: return if that number is 0. The loop begins behind it. */
+/* Directly after _repeat_as: return if the number of repetitions is 0; the loop begins after it. */
 void qdot_asm_return_if_none(qdot_asm *m);
 void qdot_asm_again(qdot_asm *m, size_t from);
-/* What begins at that place, or at an address, is run up to its end, _leave. */
+/* Call the code at this position, or at an address; _leave ends it. */
 void qdot_asm_enter(qdot_asm *m, size_t place);
 void qdot_asm_enter_at(qdot_asm *m, qdot_asm_base at);
 void qdot_asm_leave(qdot_asm *m);
-/* The end of the code. */
+/* Return to the caller of the generated code. */
 void qdot_asm_return(qdot_asm *m);
 /* A C function is called; what the code was run with is there again after it, registers are not.
  * Between _frame and _unframe, the latter before the return. */
 void qdot_asm_frame(qdot_asm *m);
 void qdot_asm_call(qdot_asm *m, void (*function)(void));
 void qdot_asm_unframe(qdot_asm *m);
-/* Addresses that belong to the caller are kept, and put back before the return. */
+/* Save the caller's address registers, and restore them before the return. */
 void qdot_asm_save(qdot_asm *m);
 void qdot_asm_restore(qdot_asm *m);
 
@@ -189,7 +189,7 @@ qdot_asm_use(qdot_asm *m, int reg)
     m->used[reg] = ++m->clock;
 }
 
-/* The least recently used of from ... end - 1 that is not taken; it is used now. */
+/* The least recently used register of from ... end - 1 that is not reserved; marks it as used. */
 int qdot_asm_fresh(qdot_asm *m, int from, int end);
 
 #endif

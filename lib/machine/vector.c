@@ -1,4 +1,4 @@
-/* vector.c -- lanes by masks, or by vectors that stand for them. */
+/* vector.c -- operations on some lanes of a vector, by masks or by vectors that replace them. */
 #include "machine/x86.h"
 
 enum {
@@ -79,7 +79,7 @@ qdot_asm_add_product(qdot_asm *m, int to, int factor, qdot_operand b,
     m->mask = 0;
 }
 
-/* What is in memory is loaded. */
+/* Load an operand into a register if it is in memory. */
 static int
 in_register(qdot_asm *m, qdot_operand b, int reg)
 {

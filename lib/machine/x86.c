@@ -5,7 +5,7 @@
 
 #include "num/kinds.h"
 
-/* Opcode map, opcode. Of one number a fused operation has the opcode behind it. */
+/* The opcode map and opcode of each operation; for scalars a fused operation has the next opcode. */
 static const struct {
     unsigned char map, opcode;
 } instructions[QDOT_X86_COUNT] = {
@@ -24,7 +24,8 @@ static const struct {
 
 enum { RAX, RCX, RDX, RBX, RSP, RBP, RSI, RDI, R8, R9, R10, R11, R12, R13, R14, R15 };
 
-/* RCX counts loops. R12 is no address of an operand: it would take a byte more. */
+/* General registers; RCX counts loops. R12 is not used for addresses, as it makes instructions one
+ * byte longer. */
 static const unsigned char general[QDOT_ASM_BASES] = {
     [QDOT_ASM_ROWS] = RDI,          [QDOT_ASM_CONSTANTS] = RSI,
     [QDOT_ASM_WORK] = RDX,          [QDOT_ASM_ROWS_NOW] = R9,
@@ -58,10 +59,10 @@ opcode(int name, bool wide)
     return (unsigned char)(instructions[name].opcode + (is_fused(name) && !wide));
 }
 
-/* No instruction is longer. */
+/* The length of the longest instruction, in bytes. */
 enum { longest = 16 };
 
-/* Room for one more. After a failure they are all written to the same place. */
+/* Space for one more instruction; after a failure all are written to the same place. */
 static unsigned char *
 room(qdot_asm *m)
 {
@@ -107,14 +108,14 @@ asm_write_number(qdot_asm *m, uint32_t value)
     write_bytes(m, sizeof bytes, bytes);
 }
 
-/* A place in the code, seen from behind this number. */
+/* Write the position of code relative to the end of this number. */
 static void
 asm_write_place(qdot_asm *m, size_t place)
 {
     asm_write_number(m, (uint32_t)(place - (m->bytes.n + 4)));
 }
 
-/* A byte with the number of a register in its low bits; in the three above them. */
+/* A byte with the low three bits of a register in its low bits; middle: in the three above. */
 static unsigned char
 low(unsigned byte, int reg)
 {
@@ -127,14 +128,14 @@ middle(unsigned byte, int reg)
     return (unsigned char)(byte | (reg & 7) << 3);
 }
 
-/* The prefix that has the fourth bit of registers. */
+/* The part of the prefix with the fourth bit of the registers. */
 static unsigned char
 high(unsigned byte, int reg, int base)
 {
     return (unsigned char)(byte | reg >> 3 << 2 | base >> 3);
 }
 
-/* Bit `at` of a register's number, at place `to` of a byte, inverted as EVEX has it. */
+/* Bit `at` of a register's number, moved to bit `to` and inverted, as EVEX needs it. */
 static unsigned
 inverted(int reg, int at, int to)
 {
@@ -158,7 +159,7 @@ prefix(const qdot_asm *m, unsigned char *at, int name, bool wide, int reg, int f
     return at;
 }
 
-/* VEX, by which no lane is masked; a broadcast alone is of the other width there. */
+/* Write a VEX prefix, which cannot mask lanes; only a broadcast has another width. */
 static unsigned char *
 narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_operand b)
 {
@@ -172,7 +173,7 @@ narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_o
     return at;
 }
 
-/* Offsets that are a multiple of what is read take a byte, if that multiple does. */
+/* Write the operands; an offset divisible by the operand's size takes one byte if the quotient does. */
 static unsigned char *
 asm_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
 {
@@ -221,14 +222,14 @@ two_operands(qdot_asm *m, int name, bool wide, int reg, qdot_operand b)
     written(m, start, asm_operands(m, at, reg, b, 1));
 }
 
-/* All of a register, or as much of what is in memory as the instruction reads. */
+/* Load a whole register, or as much memory as the instruction reads. */
 static void
 asm_load(qdot_asm *m, bool wide, int reg, qdot_operand b)
 {
     two_operands(m, QDOT_ASM_LOAD, wide || !b.memory, reg, b);
 }
 
-/* What is no sum of a product. Whole vectors in memory need not be aligned. */
+/* An operation of two operands other than a fused product and sum; vectors in memory may be unaligned. */
 static void
 from_two(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
@@ -241,7 +242,7 @@ from_two(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
     two_operands(m, name, wide, reg, b);
 }
 
-/* What AVX2 rounds once. */
+/* Compute in two instructions what AVX2 can compute fused, with a single rounding. */
 static void
 product_then_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
@@ -310,7 +311,7 @@ qdot_asm_do(qdot_asm *m, qdot_asm_operation op, qdot_asm_width width, int reg, i
     qdot_x86_emit(m, op, !one || (op == QDOT_ASM_LOAD && !b.memory), reg, first, b);
 }
 
-/* Of one with itself, which takes no time; the shorter form clears lanes beyond its own. */
+/* Clear a register by XOR with itself; the short form also clears lanes beyond its own width. */
 void
 qdot_asm_clear(qdot_asm *m, int reg)
 {
@@ -447,7 +448,7 @@ qdot_asm_return(qdot_asm *m)
 void
 qdot_asm_frame(qdot_asm *m)
 {
-    /* push rdi, rsi, rdx: with the way back these are 32 bytes, as calls want it */
+    /* push rdi, rsi, rdx: with the return address 32 bytes, the alignment that calls need */
     BYTES(m, 0x57, 0x56, 0x52);
 }
 

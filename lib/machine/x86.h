@@ -13,7 +13,7 @@
 
 #include "machine/asm.h"
 
-/* Behind the operations; of whole vectors. */
+/* Further instructions on whole vectors, numbered after the operations. */
 enum {
     QDOT_X86_XOR = QDOT_ASM_OPERATIONS,
     QDOT_X86_AND,
@@ -24,7 +24,7 @@ enum {
     QDOT_X86_COUNT
 };
 
-/* One of all of them; one that is told by a byte more how lanes go. */
+/* Emit any instruction; _move_lanes: one whose extra byte `how` says how lanes move. */
 void qdot_x86_emit(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b);
 void qdot_x86_move_lanes(qdot_asm *m, int name, int reg, int first, qdot_operand b,
                          int how);
