@@ -1,4 +1,4 @@
-/* items.c -- items that are left. */
+/* items.c -- keeps account of which items of some work are left. */
 #include "parallel/items.h"
 
 enum { ANSWERED = 1, KILLED = 2 };
@@ -21,7 +21,7 @@ qdot_items_free(qdot_items *items)
     qdot_free(items->state);
 }
 
-/* Of those that nobody has had. */
+/* Take a chunk of the items that were never handed out. */
 static qdot_items_chunk
 take_fresh(qdot_items *items, double most)
 {

@@ -21,20 +21,21 @@ typedef struct {
     unsigned char *state;             /* [end - first] what has happened to each */
 } qdot_items;
 
-/* All of first ... end - 1 that are not skipped, if fresh; else none, until some are given. */
+/* Start with all items of first ... end - 1 that are not skipped; if not `fresh`, with none until
+ * some are given. */
 QDOT_MUST_CHECK qdot_status qdot_items_new(qdot_items *items, size_t first, size_t end,
                                            const bool *skip, bool fresh);
 void qdot_items_free(qdot_items *items);
 
-/* The next chunk, of at most so many (1 at least); count 0: there is none now. */
+/* Take the next chunk, of at most `most` items (at least 1); count 0 if there is none now. */
 qdot_items_chunk qdot_items_take(qdot_items *items, double most);
-/* Those of the chunk that have no answer are to be handed out (again). */
+/* Hand out again the items of the chunk that have no answer. */
 QDOT_MUST_CHECK qdot_status qdot_items_give(qdot_items *items, qdot_items_chunk chunk);
-/* Those of the chunk are to be done, whatever has been before. */
+/* Mark the items of the chunk as not answered, and hand them out again. */
 QDOT_MUST_CHECK qdot_status qdot_items_begin(qdot_items *items, qdot_items_chunk chunk);
-/* Item k has an answer; false: it had one. */
+/* Record that item k has an answer; false if it already had one. */
 bool qdot_items_answer(qdot_items *items, size_t k);
-/* A worker has died of item k; false: it is the second. */
+/* Record that a worker died during item k; false the second time. */
 bool qdot_items_survives(qdot_items *items, size_t k);
 
 #endif

@@ -1,4 +1,4 @@
-/* mates.c -- items handed out to other ranks, and their answers. */
+/* mates.c -- hands out items to other ranks, and receives their answers. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ struct qdot_mate {
     size_t workers;
 };
 
-/* The beginnings of messages. */
+/* The headers of messages. */
 typedef struct {
     uint64_t number, workers;
 } ready;
@@ -50,7 +50,7 @@ qdot_mates_free(qdot_crew *c)
     qdot_text_clear(&c->out);
 }
 
-/* Two chunks at most, so that it need not wait for the second. */
+/* Give a rank up to two chunks, so that it need not wait for the second. */
 static void
 give(qdot_crew *c, size_t rank)
 {
@@ -94,7 +94,7 @@ mate_hear(qdot_crew *c, const qdot_rank_message *m)
     return QDOT_OK;
 }
 
-/* What the lost have not answered is for others. One that is heard again is no longer lost. */
+/* Hand out again what lost ranks have not answered. A rank that is heard again is no longer lost. */
 static qdot_status
 miss(qdot_crew *c)
 {

@@ -29,7 +29,7 @@ static struct {
     MPI_Errhandler errors_return;
 } mpi;
 
-/* Bytes that are being sent to one or more. */
+/* A message that is being sent to one or more ranks. */
 typedef struct {
     size_t references;
     char at[];
@@ -56,7 +56,7 @@ mpi_find_function(void *handle, const char *name, bool *all)
 static qdot_status
 mpi_load(void)
 {
-    /* the parts that it loads later look for its symbols among those of all */
+    /* RTLD_GLOBAL: the parts that MPI loads later need its symbols */
     void *handle = dlopen(library, RTLD_NOW | RTLD_GLOBAL);
     bool all = true;
 
@@ -81,7 +81,7 @@ qdot_mpi_begin(size_t *count, size_t *mine)
     int n = 1, rank = 0;
 
     QDOT_TRY(mpi_load());
-    /* workers are copies of a rank; they send nothing */
+    /* workers are forked from a rank and send no messages, so no warning is needed */
     setenv("OMPI_MCA_mpi_warn_on_fork", "0", 0);
     if (mpi.Init(NULL, NULL) != MPI_SUCCESS)
         return qdot_fail(QDOT_EIO, "MPI does not begin");

@@ -23,12 +23,12 @@ void qdot_mpi_gather(const void *bytes, size_t n, void *all);
 void qdot_mpi_send(size_t first, size_t end, int what, const void *bytes, size_t n);
 /* How many messages are still being sent. */
 size_t qdot_mpi_sending(void);
-/* Whether a message has come, the next one; from whom, and what it is. */
+/* Whether a message has arrived, its sender and its kind. */
 bool qdot_mpi_look(size_t *from, int *what);
-/* Take what was looked at; `bytes` is emptied first. */
+/* Receive the message that qdot_mpi_look found, into `bytes`, which is emptied first. */
 void qdot_mpi_take(size_t from, int what, qdot_text *bytes);
 
-/* The end: with the others, which call it too; or theirs too, with that exit status. */
+/* End MPI together with all ranks, each of which calls this; _abort: end all ranks with that exit status. */
 void qdot_mpi_finalize(void);
 void qdot_mpi_abort(int status) __attribute__((noreturn));
 

@@ -1,4 +1,4 @@
-/* ranks.c -- the ranks: who they are, what rank 0 shares, how one is missed, the end. */
+/* ranks.c -- starts the ranks, shares data from rank 0, notices lost ranks, and ends them all. */
 #define _GNU_SOURCE
 #include "parallel/ranks.h"
 
@@ -22,7 +22,7 @@ static const double longest = 30; /* one that computes for itself may be, at the
 enum { GATHERING = 120 };         /* seconds until all ranks must have begun */
 enum { PIECE = 1 << 26 };         /* bytes of a message at most */
 
-/* A process as one machine knows it. */
+/* Identifies a process on its machine. */
 typedef struct {
     uint64_t machine, digits;
     int64_t pid;
@@ -37,7 +37,7 @@ static struct {
     int sentinel;    /* a pipe to it; -1: none */
 } ranks = {.sentinel = -1};
 
-/* The last words. */
+/* How a rank ends: together with the others, or alone. */
 enum { GO_TOGETHER, GO_ALONE };
 
 static void
@@ -76,7 +76,7 @@ machine_here(void)
     return hash(0xcbf29ce484222325, bytes, n + (size_t)m);
 }
 
-/* The digits of this C library on this processor. */
+/* A hash of results of this C library's functions on this processor, to compare machines. */
 static uint64_t
 digits_here(void)
 {
@@ -126,7 +126,7 @@ set_sentinel(void)
     ranks.sentinel = ends[1];
 }
 
-/* MPI's own beginning waits for all, and for ever for one that has died. The sentinel ends the others. */
+/* End all ranks if MPI_Init, which waits for every rank, does not return because one has died. */
 static void
 ranks_give_up(int signal_number)
 {
@@ -222,7 +222,7 @@ static void __attribute__((noreturn)) leave(void)
     _exit(0);
 }
 
-/* Whether a message has come. */
+/* Whether a message has arrived; also continues sending. */
 static bool
 ranks_poll(size_t *from, int *what)
 {
@@ -270,7 +270,7 @@ qdot_ranks_has_shared(void)
     return ranks_poll(&from, &what) && what == QDOT_RANK_SHARED;
 }
 
-/* Whether this machine knows that it is dead. */
+/* Whether rank is on this machine and its process is known to be dead. */
 static bool
 is_dead(size_t rank)
 {
@@ -288,13 +288,13 @@ qdot_ranks_is_lost(size_t rank)
 
 /* --- what rank 0 shares ------------------------------------------------------------------ */
 
-/* Goes before the pieces of a text. */
+/* The header of a text sent in pieces. */
 typedef struct {
     uint64_t number, n;
     qdot_error error; /* its status is that of all */
 } share_head;
 
-/* As long as some take what was sent; who once took nothing is not waited for again. */
+/* Wait as long as ranks receive what was sent; one that received nothing is not waited for again. */
 static void
 wait_until_sent(double seconds)
 {
@@ -393,7 +393,7 @@ qdot_ranks_read(qdot_text *text, FILE *from, const char *path, size_t most)
 
 /* --- the end ----------------------------------------------------------------------------- */
 
-/* Wait for those that may still come. Returns how many were missed; *asleep: one may be alive. */
+/* Wait for the goodbyes of ranks that may still come. Returns the number missed; *asleep: one may be alive. */
 static size_t
 wait_for_goodbyes(bool *asleep)
 {

@@ -18,7 +18,7 @@
 
 enum { QDOT_RANKS_SHORT = 4000 };
 
-/* What a message is. Those from QDOT_RANK_ALIVE on are this module's own. */
+/* The kind of a message; kinds from QDOT_RANK_ALIVE on are internal to this module. */
 typedef enum {
     QDOT_RANK_READY = 1, /* to rank 0: give me work */
     QDOT_RANK_CHUNK,     /* of rank 0: this work */
@@ -40,12 +40,12 @@ typedef struct {
  * takes no part and says so. QDOT_ENOTBUILT: this program has no MPI; QDOT_EIO: it cannot be loaded. */
 QDOT_MUST_CHECK qdot_status qdot_ranks_begin(size_t *kind);
 
-/* Send bytes [n], which are copied. */
+/* Send a copy of bytes [n]. */
 void qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n);
 /* The next message that has come, if there is one; m->bytes is emptied or filled. Not rank 0: ends
  * this process if rank 0 has said so. */
 bool qdot_ranks_next(qdot_rank_message *m);
-/* Whether what rank 0 shares has come next. */
+/* Whether the next message is what rank 0 shares with all. */
 bool qdot_ranks_has_shared(void);
 /* A rank that has work says so again and again: it sends a sign of life if it has sent nothing for a
  * second. */

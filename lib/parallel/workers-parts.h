@@ -39,25 +39,25 @@ typedef struct qdot_crew {
     qdot_text out;    /* other ranks: answers for rank 0 */
 } qdot_crew;
 
-/* A chunk for it, if there is one, that takes about so many seconds; count 0: there is none. */
+/* A chunk for a worker that takes about `seconds`; count 0 if there is none. */
 qdot_items_chunk qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most);
-/* Bytes have come: the answers that are whole go to `done`, or on to rank 0. */
+/* Read bytes from a worker: complete answers go to `done`, or on to rank 0. */
 QDOT_MUST_CHECK qdot_status qdot_hand_take(qdot_crew *c, qdot_hand *h, const char *bytes,
                                            size_t n);
-/* It works no more: what it has not answered is to be handed out again. */
+/* A worker has ended: hand out again what it has not answered. */
 QDOT_MUST_CHECK qdot_status qdot_hand_drop(qdot_crew *c, qdot_hand *h);
-/* Item k is answered; bytes NULL: it cannot be. */
+/* Record the answer of item k; bytes NULL: it cannot be computed. */
 QDOT_MUST_CHECK qdot_status qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes,
                                              size_t n);
 
-/* Of mates.c. Rank 0: hear all others, give them chunks, miss those that are lost. */
+/* (mates.c) On rank 0: receive from all other ranks, give them chunks, drop those that are lost. */
 QDOT_MUST_CHECK qdot_status qdot_mates_new(qdot_crew *c);
 void qdot_mates_free(qdot_crew *c);
 QDOT_MUST_CHECK qdot_status qdot_mates_serve(qdot_crew *c);
-/* Other ranks: take chunks from rank 0; *over: it wants no more. */
+/* (mates.c) On other ranks: take chunks from rank 0; *over: rank 0 wants no more. */
 void qdot_mates_report(const qdot_crew *c);
 QDOT_MUST_CHECK qdot_status qdot_mates_take(qdot_crew *c, bool *over);
-/* Send the answers that wait, if there are enough or `all`. */
+/* Send the answers collected so far, if there are enough or `all`. */
 QDOT_MUST_CHECK qdot_status qdot_mates_send(qdot_crew *c, bool all);
 
 #endif

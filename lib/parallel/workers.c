@@ -191,7 +191,7 @@ qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most)
     return r;
 }
 
-/* It has answered one of its items. The time of a chunk is known when it is done. */
+/* Record that a worker has answered item k, and the time of a chunk when it is complete. */
 static void
 hand_note_answer(qdot_hand *h, size_t k)
 {
@@ -279,7 +279,7 @@ feed(qdot_crew *c, worker *w)
         kill(w->pid, SIGKILL);
 }
 
-/* A worker has died: what it had not answered is done again, by another in its place. */
+/* Replace a worker that died; its unanswered items are done again. */
 static qdot_status
 worker_replace(qdot_crew *c, worker *w)
 {
@@ -295,7 +295,7 @@ worker_replace(qdot_crew *c, worker *w)
         killer = rest.first;
         if (!qdot_items_survives(&c->items, killer))
             QDOT_TRY(qdot_crew_answer(c, killer, NULL, 0));
-        /* one by one: which of them it was shows next time */
+        /* hand them out one by one: the next death shows which of them caused it */
         for (size_t k = rest.first; k < rest.first + rest.count; k++)
             QDOT_TRY(qdot_items_give(&c->items, (qdot_items_chunk){k, 1}));
     }
@@ -321,7 +321,7 @@ listen_to(qdot_crew *c, worker *w)
     return QDOT_OK;
 }
 
-/* Until all is answered; or, in other ranks, until rank 0 wants no more. */
+/* Work until all items are answered; on other ranks, until rank 0 wants no more. */
 static qdot_status
 workers_carry_out(qdot_crew *c, struct pollfd *polled)
 {

@@ -25,14 +25,14 @@ typedef struct qdot_workers_job {
     size_t least;      /* items that are handed out together, where there are so many; 0: 1 */
     /* In a worker: the items first ... first + count - 1 are next; NULL: nobody wants to know. */
     void (*begin)(size_t first, size_t count, void *user);
-    /* In a worker: do item k; its answer is appended. */
+    /* in a worker: compute item k and append its answer */
     void (*work)(size_t k, qdot_text *answer, void *user);
     /* Here: item k is answered, in whatever order; bytes NULL: two workers died of it. An error ends
      * the work. */
     qdot_status (*done)(size_t k, const char *bytes, size_t n, void *user);
 } qdot_workers_job;
 
-/* The processors that this process may use. */
+/* The number of processors that this process may use. */
 size_t qdot_workers_processors(void);
 
 /* Do all items. With several ranks: in rank 0; in the others do what rank 0 hands out, until it shares
