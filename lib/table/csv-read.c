@@ -14,7 +14,7 @@
 
 enum { FILE_LIMIT = 1 << 28, SHOWN = 40 };
 
-/* A piece of a line. */
+/* A part of a line. */
 typedef struct {
     const char *at, *end;
 } piece;
@@ -68,7 +68,7 @@ piece_strip(piece *p)
         p->end--;
 }
 
-/* The next cell of the line from *at on, moved past it and its separator; whether there is one. */
+/* Take the next cell of the line at *at, and move past its separator; false if there is none. */
 static bool
 next_cell(const reader *r, const char **at, piece *cell)
 {
@@ -101,7 +101,7 @@ next_cell(const reader *r, const char **at, piece *cell)
     return true;
 }
 
-/* Whether it is written as a decimal number: 1, -.5, 2.5e-3. */
+/* Whether a cell is written as a decimal number: 1, -.5, 2.5e-3. */
 static bool
 piece_is_number(piece p)
 {
@@ -127,7 +127,7 @@ piece_is_number(piece p)
     return c == p.end;
 }
 
-/* Whether it holds a word as numbers that are none are written. */
+/* Whether a cell contains a word for a missing number, such as nan or n/a. */
 static bool
 is_no_number(piece p)
 {
@@ -162,7 +162,7 @@ say_cell(const reader *r, piece cell)
     return qdot_hint("`#` begins a comment; names of columns stand above the first row");
 }
 
-/* The number of a cell. */
+/* Read the number in a cell. */
 static qdot_status
 read_cell(const reader *r, piece cell, double *x)
 {
@@ -201,7 +201,7 @@ find_separator(piece line)
     return ' ';
 }
 
-/* Whether the line has a number in it, a cell by itself. */
+/* Whether the line has a cell that is a number. */
 static bool
 has_number(reader *r)
 {
@@ -215,7 +215,7 @@ has_number(reader *r)
     return found;
 }
 
-/* The words of a line before the first row, of the first such line. */
+/* Read the names of the columns from the first line of words before the first row. */
 static qdot_status
 read_names(reader *r)
 {

@@ -37,12 +37,12 @@ typedef struct {
 /* Read the file. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;
  * QDOT_EINVAL: what stands in it is no table of numbers; QDOT_ELIMIT: it is larger than 256 MB. */
 QDOT_MUST_CHECK qdot_status qdot_csv_read(const char *path, qdot_csv *csv);
-/* The same of a text [length], called `name` in errors. */
+/* Read CSV from a text [length], which errors call `name`. */
 QDOT_MUST_CHECK qdot_status qdot_csv_read_text(const char *name, const char *text,
                                                size_t length, qdot_csv *csv);
 void qdot_csv_clear(qdot_csv *csv);
 
-/* Fail at the place of a number: "NAME:LINE:COLUMN: MESSAGE". */
+/* Fail with the position of a number: "NAME:LINE:COLUMN: MESSAGE". */
 qdot_status qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format, ...)
     QDOT_PRINTF(3, 4);
 

@@ -1,4 +1,4 @@
-/* file.c -- a table written to a file row by row. */
+/* file.c -- writes a table to a file, row by row. */
 #include "table/file.h"
 
 #include "base/interrupt.h"
@@ -7,7 +7,7 @@
 
 enum { CHUNK = 1 << 16 };
 
-/* Write what has gathered, if it is at least so much. */
+/* Write the collected text if it has at least `least` bytes. */
 static qdot_status
 file_pass_on(qdot_sink *sink, qdot_text *text, size_t least)
 {

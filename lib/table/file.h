@@ -1,10 +1,10 @@
-/* file.h -- a table being written to a file, in pieces. Internal to table/. */
+/* file.h -- writes a table to a file in pieces. Internal to table/. */
 #ifndef QDOT_TABLE_FILE_H
 #define QDOT_TABLE_FILE_H
 
 #include "table/table.h"
 
-/* What stands before the rows, a row, what stands behind them; a function NULL: nothing. */
+/* How a format writes what precedes the rows, each row, and what follows; a function NULL: nothing. */
 typedef struct {
     void (*head)(const qdot_table *t, qdot_text *out);
     void (*row)(const qdot_table *t, size_t row, qdot_text *out);

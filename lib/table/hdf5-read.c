@@ -39,7 +39,7 @@ read_little_endian(const unsigned char *at, int bytes)
     return x;
 }
 
-/* The bytes of a regular file (a pipe would be waited for, a device may have no end); Ctrl-C is heard between blocks. */
+/* Read a regular file (a pipe would block, a device may never end); Ctrl-C is tested between blocks. */
 static qdot_status
 hdf5_load(const char *path, qdot_text *out)
 {
@@ -70,7 +70,7 @@ hdf5_load(const char *path, qdot_text *out)
 
 /* --- messages ------------------------------------------------------------------------- */
 
-/* The messages of an object header, one after the other. */
+/* Iterates over the messages of an HDF5 object header. */
 typedef struct {
     const unsigned char *at, *end; /* the next one */
     int type;
@@ -152,7 +152,7 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
     return QDOT_OK;
 }
 
-/* A link to a column, or an attribute that is a text. */
+/* Read a message that links a column, or is a text attribute. */
 static qdot_status
 take_message(const file *f, const messages *m, qdot_hdf5_columns *out)
 {

@@ -124,7 +124,7 @@ real_type(qdot_text *out)
     bytes(out, 1023, 4);
 }
 
-/* A text of so many bytes in UTF-8, its NUL with it: 8 bytes. */
+/* Append the type of a UTF-8 text of `size` bytes, including its NUL: 8 bytes. */
 static void
 text_type(qdot_text *out, size_t size)
 {
@@ -133,7 +133,7 @@ text_type(qdot_text *out, size_t size)
     bytes(out, size, 4);
 }
 
-/* One fact as an attribute. */
+/* Append one fact as an attribute. */
 static void
 attribute(qdot_text *header, const qdot_table_fact *fact)
 {
@@ -203,7 +203,7 @@ entry_text(const qdot_table *t, size_t j, size_t i)
     return text != NULL ? text : "";
 }
 
-/* Bytes of one entry of the column: a double, or the longest text and its NUL. */
+/* The bytes of one entry of a column: a double, or the longest text and its NUL. */
 static size_t
 entry_size(const qdot_table *t, size_t j)
 {
@@ -260,7 +260,8 @@ enum { OBJECT = 14 }; /* bytes of a header beside its messages */
 
 /* --- the file --------------------------------------------------------------------------- */
 
-/* The label without what a name may not have; one met before gets its column's number. */
+/* Append a column's name: its label without forbidden characters, with the column's number if it
+ * was used before. */
 static void
 column_name(const qdot_table *t, size_t j, qdot_text *out)
 {
@@ -340,7 +341,7 @@ column_headers(const qdot_table *t, places *at, uint64_t *where, qdot_text *out)
     return failed;
 }
 
-/* All headers; the size of each does not depend on the addresses in it. */
+/* Append all headers; their sizes do not depend on the addresses in them. */
 static qdot_status
 headers(const qdot_table *t, qdot_text *out)
 {
@@ -375,7 +376,7 @@ headers(const qdot_table *t, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* One entry, a text filled up with NUL to its size. */
+/* Append one entry; a text is filled up with NULs. */
 static void
 put_entry(const qdot_table *t, size_t j, size_t i, size_t size, qdot_text *out)
 {

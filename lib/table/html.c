@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "table/file.h"
 
-/* Of numbers on a page of their own. */
+/* The digits of numbers on a page of their own. */
 enum { PAGE_DIGITS = 12 };
 
 static void
@@ -15,7 +15,7 @@ html_add_text(const char *text, qdot_text *out)
     qdot_text_html(out, text, strlen(text), false);
 }
 
-/* How a part of a page and a page of its own differ. */
+/* The differences between a table within a page and a page of its own. */
 typedef struct {
     bool names; /* of columns, not their heads */
     int digits;

@@ -1,4 +1,4 @@
-/* table.c -- the cells of a table, and rows that it owns. */
+/* table.c -- the cells of a table and the rows it owns. */
 #include "table/table.h"
 
 #include <math.h>

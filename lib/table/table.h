@@ -22,7 +22,7 @@ typedef enum {
     QDOT_CELL_FLAG /* a number: 1 yes, 0 no, NaN undecided */
 } qdot_cell_kind;
 
-/* A number as people read it; in data files it has the digits of a double. */
+/* How a number is shown to people; data files have all digits of a double. */
 typedef enum {
     QDOT_NUMBER_GENERAL,         /* `digits` significant ones */
     QDOT_NUMBER_FIXED,           /* `digits` behind the point */
@@ -32,7 +32,7 @@ typedef enum {
     QDOT_NUMBER_BOUND            /* one, rounded up */
 } qdot_number_form;
 
-/* Where a column stands. */
+/* Where a column appears. */
 enum {
     QDOT_IN_TERMINAL = 1, /* in answers that people read */
     QDOT_IN_ANSWERS = 2,  /* in rows of JSON as answers */
@@ -48,13 +48,13 @@ typedef struct {
     unsigned in;      /* QDOT_IN_...; 0: everywhere */
     qdot_cell_kind kind;
 
-    /* as people read it */
+    /* the format for people */
     qdot_number_form form;
     int digits;
     bool left;           /* aligned; else right */
     unsigned gap, width; /* blanks before it, but for the first; the least width */
 
-    /* as programs read it */
+    /* the format for programs */
     int exact;         /* significant digits in CSV; 0: those of a double */
     bool blank;        /* in CSV nothing stands where there is no number; else nan */
     bool measured;     /* rows of JSON have its errors */
@@ -69,7 +69,7 @@ typedef struct {
     const char *present, *absent;  /* what stands for any text, for none; NULL: the text itself, nothing */
 } qdot_table_column;
 
-/* What is known of a table as a whole: a text or a number by its name. */
+/* A fact about the whole table: a text or a number with its name. */
 typedef struct {
     const char *name, *text; /* text NULL: the number */
     double number;
@@ -99,7 +99,7 @@ QDOT_MUST_CHECK qdot_status qdot_table_begin(qdot_table *t, size_t n, const qdot
 void qdot_table_add_number(qdot_table *t, double value, double error);
 /* The text is copied; NULL: none. */
 void qdot_table_add_text(qdot_table *t, const char *text);
-/* The same, and the text is cleared. */
+/* Add a cell with the contents of `text`, which is then cleared. */
 void qdot_table_add_written(qdot_table *t, qdot_text *text);
 /* QDOT_ENOMEM if any cell could not be added. */
 QDOT_MUST_CHECK qdot_status qdot_table_status(const qdot_table *t);
@@ -124,9 +124,9 @@ qdot_table_shows(const qdot_table *t, size_t column, unsigned where)
  * QDOT_EINVAL: it has no column; QDOT_ENOMEM, also if cells could not be added. */
 QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_table *t, unsigned where, qdot_table *out);
 
-/* The column's head as people read it. */
+/* The heading of a column for people. */
 const char *qdot_table_head(const qdot_table *t, size_t column);
-/* Append a cell as people read it, `none` where there is no number; digits: of all numbers, 0: as the column has it. */
+/* Append a cell for people, `none` if it has no number; digits: of all numbers, 0: as the column says. */
 void qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
 
 #endif

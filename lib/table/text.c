@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/utf8.h"
 
-/* Rows between two looks at the interrupt flag. */
+/* The number of rows between two tests of the interrupt flag. */
 enum { OFTEN = 1024 };
 
 typedef struct {
@@ -28,7 +28,8 @@ text_add_blanks(qdot_text *out, size_t n)
     qdot_text_add_n(out, blanks, n);
 }
 
-/* The cell of a row, or of the heads for row == rows, as it will stand; its columns on a terminal. */
+/* Write the cell of a row (of the headings for row == rows) into w->cell; returns its width in
+ * terminal columns. */
 static size_t
 text_write_cell(text_writer *w, size_t row, size_t column)
 {
