@@ -16,11 +16,11 @@ bool qdot_constant_is(const qdot_pool *pool, qdot_expr e);
  * QDOT_EUNSET names a symbol without a value; QDOT_EDOMAIN: not real or undefined. */
 QDOT_MUST_CHECK qdot_status qdot_constant_double(qdot_pool *pool, qdot_expr e, double *value);
 
-/* The same; *side is the sign of the exact value minus *value: -1, 0 or 1. */
+/* As qdot_constant_double; *side is the sign of the exact value minus *value: -1, 0 or 1. */
 QDOT_MUST_CHECK qdot_status qdot_constant_round(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side);
 
-/* The same; *low: e = *value + *low to about twice the precision. */
+/* As qdot_constant_round; *low: e = *value + *low to about twice the precision. */
 QDOT_MUST_CHECK qdot_status qdot_constant_split(qdot_pool *pool, qdot_expr e,
                                                 double *value, int *side, double *low);
 

@@ -14,7 +14,7 @@
 QDOT_MUST_CHECK qdot_status qdot_print(const qdot_pool *pool, qdot_expr e, qdot_style style,
                                        qdot_text *out);
 
-/* The same for a series in the symbols of the LIST `in`: terms of lowest degree first. */
+/* As qdot_print, for a series in the symbols of the LIST `in`: terms of lowest degree first. */
 QDOT_MUST_CHECK qdot_status qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in,
                                               qdot_style style, qdot_text *out);
 

@@ -60,7 +60,7 @@ void qdot_symbol_hide(qdot_pool *pool, qdot_expr x);
 void qdot_symbol_show(qdot_pool *pool, qdot_expr x);
 /* Whether a parameter, coordinate, formal argument or multiplier has that name. */
 bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
-/* The same without formal arguments. */
+/* As qdot_symbol_is_known, without formal arguments. */
 bool qdot_symbol_is_declared(const qdot_pool *pool, const char *name);
 /* The order-th time derivative of a coordinate (order 0: itself) or of a time derivative. */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);

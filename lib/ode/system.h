@@ -189,7 +189,7 @@ typedef struct qdot_ode_system {
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
     void *user; /* borrowed */
-    /* The Jacobian of the form with M; NULL if there is none; borrowed */
+    /* the system written as M dy/dt = f, with its Jacobian; NULL if not available; borrowed */
     const qdot_ode_mass_form *mass_form;
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */

@@ -134,7 +134,8 @@ lanes_allocate(qdot_lanes *t, int most)
     return QDOT_OK;
 }
 
-/* Set a number in all lanes: its other neighbour if shaken, otherwise drawn at random from both. */
+/* Set a constant in all lanes: to its other neighbouring double if `shaken`, otherwise at random to
+ * one of the two. */
 static void
 set_constant(qdot_lanes *t, double *row, const qdot_program_constant *c, bool shaken)
 {

@@ -145,7 +145,7 @@ precise_order(qdot_precise *precise, const qdot_program_step *i, int k)
     }
 }
 
-/* Compute order k of all steps, ahead by their leads. */
+/* Compute the coefficients of order k of all steps, each shifted by the step's lead. */
 void
 qdot_precise_order(qdot_precise *p, int k)
 {

@@ -125,7 +125,7 @@ integral_part(const qdot_taylor *t, int k)
     return t->unit / k;
 }
 
-/* Integrate the unknowns given by a row, when their order k is known. */
+/* Integrate the unknowns whose derivatives have a row of coefficients, once coefficient k is known. */
 static void
 integrate_given(const qdot_taylor *t, int k)
 {

@@ -160,7 +160,7 @@ qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
     }
 }
 
-/* Add the recorded change of a row to its coefficient of that order. */
+/* Add the recorded change of a series to its coefficient of this order. */
 static void
 two_apply_note(qdot_tape_two *t, qdot_program_row row, int order)
 {

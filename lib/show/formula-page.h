@@ -48,7 +48,7 @@ void qdot_formula_page_text(qdot_formula_page *page, const char *lines, size_t n
 /* Append the contents of the page to `out`: a fragment, the body of a page. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_formula_page_end(qdot_formula_page *page, qdot_text *out);
 
-/* The same as a whole HTML page: head with the title, style, body. */
+/* As qdot_formula_page_end, but a whole HTML page: head with the title, style, body. */
 QDOT_MUST_CHECK qdot_status qdot_formula_page_html(qdot_formula_page *page, const char *title, qdot_text *out);
 
 #endif

@@ -9,7 +9,7 @@
 QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
-/* The same for operands of a statement: a parameter or p[NAME]; q or q'; a value. */
+/* The same operands within a filled statement: a parameter or p[NAME]; q or q'; a value. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_filled *name,
                                                     qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);

@@ -21,9 +21,9 @@ bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
  * system's, or a statement that declares it. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
 qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,
                                const char *member);
-/* The same where only a coordinate is allowed. */
+/* As qdot_hints_unknown, where only a coordinate is allowed. */
 qdot_status qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member);
-/* The same for the name of a called function. */
+/* As qdot_hints_unknown, for the name of a called function. */
 qdot_status qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token);
 /* Report a function's name without brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */
 qdot_status qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token);

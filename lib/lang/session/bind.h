@@ -11,7 +11,7 @@ qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
  * NULL) is propagated from theirs. */
 QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
                                                 double *value, double *error);
-/* The same, with *low = the exact value minus the double; 0 if e contains results of runs. */
+/* As qdot_session_number, and *low = the exact value minus the double; 0 if e contains results of runs. */
 QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
                                                double *value, double *low);
 /* As an integer: QDOT_ETYPE with the value otherwise. */

@@ -202,7 +202,7 @@ columns_measure_at(qdot_session *session, qdot_run *run, const qdot_runs_columns
     return status;
 }
 
-/* The same for a run with `digits`, at an exact time. */
+/* As columns_measure_at, for a run with `digits`, at an exact time. */
 static qdot_status
 measure_exactly(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
                 qdot_expr time, qdot_measured *m)

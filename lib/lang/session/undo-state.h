@@ -58,7 +58,7 @@ QDOT_MUST_CHECK qdot_status qdot_undo_make_room(qdot_scene_part *part, size_t n)
 /* Replace the items [at, at + gone) by `come` items of `in`; there must be room. */
 void qdot_undo_splice(const qdot_scene_part *part, size_t at, size_t gone,
                       const unsigned char *in, size_t come);
-/* The same in a copy of the state, which has references of its own. */
+/* As qdot_undo_splice, in a copy of the state, which has references of its own. */
 void qdot_undo_splice_kept(qdot_undo_state *kept, int k, size_t size, size_t at,
                            size_t gone, const unsigned char *in, size_t come);
 void qdot_undo_clear(qdot_undo_state *state);

@@ -36,7 +36,7 @@ typedef qdot_status (*qdot_member_use)(qdot_cursor *c, qdot_run *run, qdot_expr 
  * QDOT_EFAILED with its reason. */
 QDOT_MUST_CHECK qdot_status qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k,
                                              double *swept, qdot_member_use use, void *user);
-/* The same for a run of no duration, which shows only its start. */
+/* As qdot_members_run, for a run of no duration, which shows only its start. */
 QDOT_MUST_CHECK qdot_status qdot_members_begin(qdot_cursor *c, const qdot_members *m, size_t k,
                                                double *swept, qdot_member_use use, void *user);
 

@@ -171,7 +171,7 @@ measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, 
     return QDOT_OK;
 }
 
-/* The same for row k, with its parameter values set, into values and errors [columns]. */
+/* As measure_way, for row k of the sweep with its parameter values set, into values and errors [columns]. */
 static qdot_status
 read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
 {

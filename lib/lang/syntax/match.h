@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_match(const qdot_cursor *c, const qdot_statemen
  * has its own usage. Errors as before, and QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_match_operands(const qdot_cursor *c, const qdot_statement *row,
                                                 qdot_record *record);
-/* The same for tokens that end before `end`, within a statement. */
+/* As qdot_match_operands, for tokens that end before `end`, within a statement. */
 QDOT_MUST_CHECK qdot_status qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end,
                                                    const qdot_statement *row, qdot_record *record);
 /* Read the operands and carry the statement out; the cursor ends after them, or its error_at at the failure. */

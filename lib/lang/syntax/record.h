@@ -80,7 +80,7 @@ QDOT_MUST_CHECK qdot_status qdot_record_range(qdot_record *r, const qdot_filled 
 /* The scalar k of a tuple. */
 QDOT_MUST_CHECK qdot_status qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
-/* The value of expression k of the part, one side of a comparison. */
+/* The value of expression k of an operand, one side of a comparison. */
 QDOT_MUST_CHECK qdot_status qdot_record_side(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
 /* The sides of an equation; of a motion: what a loop holds moves there. `A = B` or an equation by its

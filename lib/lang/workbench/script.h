@@ -12,7 +12,8 @@
  * statement failed or a check was refuted, 2 a syntax error. */
 int qdot_script_run_text(qdot_session *session, const char *name, const char *text,
                          size_t length);
-/* The same for a file ("-": standard input); an error if it is unreadable, a directory, or not UTF-8. */
+/* As qdot_script_run_text, for a file ("-": standard input); an error if it is unreadable, a
+ * directory, or not UTF-8. */
 int qdot_script_run_file(qdot_session *session, const char *path);
 
 /* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */

@@ -14,7 +14,7 @@
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
-/* With more coordinates groups are not looked for. */
+/* Above this number of coordinates no groups of them are searched for. */
 enum { MOST_COORDINATES = 12 };
 
 /* Nor with more work than so many calls of constructors, some tenths of a second: those found by

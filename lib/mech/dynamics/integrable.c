@@ -345,7 +345,7 @@ find_integral(const forms *f, size_t k, const bool *held, qdot_integrability *re
     result->factor = F == QDOT_NIL ? QDOT_NIL : mu;
 }
 
-/* Find coordinates held constant by another form of the system, of the kind a dz = 0. */
+/* Find coordinates that another form of the system, a dz = 0, keeps constant. */
 static void
 find_held(const forms *f, size_t k, bool *held)
 {

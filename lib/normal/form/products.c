@@ -118,7 +118,7 @@ number_in(qdot_pool *pool, qdot_expr e)
                                                                                     : e;
 }
 
-/* The same if the sum is one factor of a product: c (c1 a + ...) x. */
+/* As number_in, if the sum is one factor of a product: c (c1 a + ...) x. */
 static qdot_expr
 number_into(qdot_pool *pool, qdot_expr e, void *user)
 {

@@ -547,7 +547,7 @@ known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return is.verdict == QDOT_PROVED ? 1 : is_not.verdict == QDOT_PROVED ? -1 : 0;
 }
 
-/* The same for the condition of an if: comparisons joined by and, or, not. */
+/* As known_relation, for the condition of an if: comparisons joined by and, or, not. */
 static int
 known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 {

@@ -450,7 +450,7 @@ has_no_branches(const struct cases *c)
     return none;
 }
 
-/* In a case with a zero, a side that divides by that has no value: then nothing is claimed. */
+/* Whether an expression has no value because it divides by the zero of this case; nothing is claimed then. */
 static bool
 no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
 {

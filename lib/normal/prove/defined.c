@@ -160,7 +160,7 @@ function_is_defined(struct job *j, qdot_expr e)
     }
 }
 
-/* Whether b^x may have been taken out of a root beside it, and may be zero. */
+/* Whether b^x may have been taken out of a root in the same product, and may be zero. */
 static bool
 may_have_come_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {

@@ -36,7 +36,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_facts *facts,
                                               qdot_solutions *out);
 
-/* The same for an equation as it was typed. */
+/* As qdot_solve_inside, for an equation as it was typed. */
 QDOT_MUST_CHECK qdot_status qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                                const qdot_written *written, const qdot_facts *facts,
                                                qdot_solutions *out);

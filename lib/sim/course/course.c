@@ -78,7 +78,8 @@ crosses_places(const qdot_piece *x)
     return places;
 }
 
-/* Whether the state may jump where the piece ends: by an event, or coordinates without mass by a switch. */
+/* Whether the state may jump at the end of this piece of the run: by an event, or coordinates
+ * without mass by a switch. */
 static bool
 may_jump(const qdot_piece *x)
 {

@@ -13,7 +13,7 @@ static const double alike = 1e-9;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides
  * them. */
 static const double least_height = DBL_EPSILON / 8;
-/* The same for a surface that moves with time, as its position at a root is rounded, too. */
+/* As least_height, for a surface that moves with time, as its position at a root is rounded, too. */
 static const double least_moving = 0x1p10 * DBL_EPSILON;
 /* This part for methods without series, from which a state within a step is known only to that part of its size. The
  * search of a step tells heights above a sixth of that from rounding. */

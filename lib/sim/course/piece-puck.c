@@ -169,7 +169,7 @@ start_of(const response *r, double *e)
     return low;
 }
 
-/* Raise the uncertainty of the times at which the last piece ended to at least `late`. */
+/* Raise the uncertainty of the times at which the last piece of the run ended to at least `late`. */
 static void
 leave_late(qdot_piece *x, double late)
 {

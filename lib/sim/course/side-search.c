@@ -23,7 +23,7 @@ enum { MOST_DOUBTS = 4 };
 
 /* --- words --------------------------------------------------------------------------- */
 
-/* End the run as failed at a surface; c->reason says `before` and `behind` around its description. */
+/* Let the run fail at a surface; c->reason is `before`, the surface's description, and `behind`. */
 static void
 say(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
@@ -183,7 +183,7 @@ put_start(qdot_piece *x, const double *y)
     memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
 }
 
-/* Integrate with the sides x->side: the whole piece, or only its first step. */
+/* Integrate this piece of the run on the sides x->side of the surfaces, or only its first step. */
 static qdot_status
 go(qdot_piece *x)
 {
@@ -375,7 +375,7 @@ say_resting(qdot_piece *x)
 qdot_status
 qdot_piece_search(qdot_piece *x)
 {
-    /* each time a contact more lasts */
+    /* allow one more lasting contact in each round */
     for (size_t k = 0; k <= x->c->stage->switches.contacts; k++) {
         bool lasts, soon;
         const size_t surfaces = x->c->stage->switches.surfaces.n;

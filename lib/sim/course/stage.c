@@ -114,7 +114,7 @@ watch_between(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const 
     }
 }
 
-/* Watch the rims of a layer that bound the present side: u = layer, u = -layer. */
+/* Watch the boundaries of a layer at which the motion leaves the present side: u = layer, u = -layer. */
 static void
 watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
 {

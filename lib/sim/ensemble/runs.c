@@ -223,7 +223,7 @@ pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
     p->run.term_tol = qdot_companion_term_tol(e->tol, p->number - 1);
 }
 
-/* The series of a companion, shaken or not. */
+/* Make the Taylor series of a companion run, with slightly perturbed constants if it is `shaken`. */
 static qdot_status
 make_series(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {

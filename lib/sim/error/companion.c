@@ -30,7 +30,7 @@ goal(const qdot_run *run)
 
 /* --- comparing ----------------------------------------------------------------------- */
 
-/* A last piece shorter than this, relative to t, may be caused by rounding of t. */
+/* A last piece of the run shorter than this, relative to t, may be caused by rounding of t. */
 static const double no_length = 8 * DBL_EPSILON;
 
 /* Whether the last piece has no duration, as at a switch where the motion would slide. */

@@ -9,7 +9,7 @@ static const double little = 1e-2;
 /* The most points that are inspected. */
 enum { MOST = 4096 };
 
-/* The rates f [n] at point k of the run's only piece; false if undefined. */
+/* The rates f [n] of the state at stored point k of a run of one piece; false if undefined. */
 static bool
 slopes_at(const qdot_run *run, size_t k, double *f)
 {

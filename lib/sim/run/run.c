@@ -353,7 +353,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     qdot_run_drop_companions(run);
     qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     if (run->t0 != run->t1) {
-        /* if M with the shaken constants has no inverse, the error remains unknown */
+        /* if M with slightly perturbed constants has no inverse, the error remains unknown */
         estimate.error = estimate.plain = NAN;
         status = start_companion(run, tol, &companion);
         if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)

@@ -12,7 +12,7 @@ static const double resolved = 0x1p-44, resolved_start = 1e-9;
 /* A value is not small if it is at least this fraction of the function's largest value. */
 static const double least_of_size = 1e-3;
 
-/* Beside a root a function is below this part of its size; beside a jump or pole it is not. */
+/* Near a root a function falls below this fraction of its size; near a jump or pole it does not. */
 static const double rest_of_size = 1e-6;
 
 /* The factor from the rounding of a function to that of its slope at a zero: nodes lie densely near an end. */
