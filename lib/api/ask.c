@@ -39,7 +39,7 @@ qdot_system_declare(qdot_system *system, const char *text)
     return qdot_api_end(system, status);
 }
 
-/* The answers of the call become the caller's. */
+/* Return the text of the answers, which the caller then owns. */
 static char *
 take_answers(qdot_system *system)
 {

@@ -30,7 +30,7 @@ QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
 /* End a call with this status and return it as a result; QDOT_ENOMEM if its messages found no memory. */
 qdot_result qdot_api_end(qdot_system *system, qdot_status status);
 
-/* A call that needs neither: it succeeded. */
+/* Record the success of a call that needs neither begin nor end. */
 qdot_result qdot_api_accept(qdot_system *system);
 /* End a call at once, because of an argument: "CALL: what is wrong" (printf). */
 qdot_result qdot_api_refuse(qdot_system *system, const char *format, ...) QDOT_PRINTF(2, 3);

@@ -23,7 +23,7 @@ typedef struct qdot_progress {
     /* called before other output is written, if a line was shown */
     void (*clear)(void);
 
-    /* its own */
+    /* fields used by base/progress.c only */
     char text[80], within[80];
     uint64_t steps, pause,
         until;                  /* steps since `what` began; between looks at the clock */

@@ -67,7 +67,7 @@ of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
     bound_end(&qdot_fun_facts_of(id)->hi, true, hi);
 }
 
-/* Of f^k, k a positive integer, |f| <= 1 or f >= 1. */
+/* Bounds of f^k for a positive integer k, where |f| <= 1 or f >= 1. */
 static void
 bounds_of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
 {

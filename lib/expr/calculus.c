@@ -263,7 +263,7 @@ qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x)
     return derive_by(pool, e, 0, NODE(pool, x)->touches, with_respect_to, &x);
 }
 
-/* All but parameters, formal arguments and constants. */
+/* Flags of nodes that may change with time: all but parameters, formal arguments and constants. */
 static const uint32_t in_time_holds =
     QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
     QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;

@@ -18,7 +18,7 @@ qdot_expr qdot_ddt(qdot_pool *pool, qdot_expr e);
 /* de = sum de/dq dq + de/dt dt. */
 qdot_expr qdot_differential(qdot_pool *pool, qdot_expr e);
 
-/* All replacements at once; `from` any nodes (symbols, usually). */
+/* Make n replacements at once; from[i] may be any node, usually a symbol. */
 qdot_expr qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
                     const qdot_expr *to);
 

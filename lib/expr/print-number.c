@@ -147,7 +147,7 @@ integer(const fmpz_t n, qdot_text *out)
         qdot_free(digits);
 }
 
-/* With more zeros after the point than this a power of ten is written. */
+/* A number with more zeros after the point than this is written with a power of ten. */
 enum { MOST_ZEROS = 3 };
 
 /* Append the digits of |n| factor^times. */

@@ -29,7 +29,7 @@ typedef struct qdot_walk {
     uint64_t few_value[QDOT_WALK_FEW];
 } qdot_walk;
 
-/* All nodes reachable from e (nil: none). Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Walk over all nodes reachable from e (nil: none). Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w);
 /* Begin a walk over the nodes reachable from several roots. */
 QDOT_MUST_CHECK qdot_status qdot_walk_begin_n(const qdot_pool *pool, size_t n,

@@ -82,7 +82,7 @@ typedef enum {
     QDOT_SIGNS
 } qdot_formula_sign;
 
-/* Flags. */
+/* Flags of nodes: how a node is written. */
 enum {
     QDOT_FORMULA_SLANTED = 1, /* FRACTION of numbers, an exponent: LaTeX writes it with a slash */
     QDOT_FORMULA_RAISED = 2,  /* POWER in a line: the exponent is an integer, written by superscripts */
@@ -114,7 +114,7 @@ void qdot_formula_empty(qdot_formula *f);
 /* QDOT_ENOMEM if anything failed for want of memory. */
 QDOT_MUST_CHECK qdot_status qdot_formula_status(const qdot_formula *f);
 
-/* A node without children, in no list. */
+/* Create a node without children and without a parent. */
 qdot_formula_id qdot_formula_new(qdot_formula *f, qdot_formula_kind kind, unsigned what, unsigned flags);
 
 /* Make child, which has no parent yet, the last child of parent. */

@@ -120,7 +120,7 @@ qdot_asm_at(qdot_asm_base base, int32_t offset)
 
 void qdot_asm_do(qdot_asm *m, qdot_asm_operation op, qdot_asm_width width, int reg,
                  int first, qdot_operand b);
-/* All lanes of reg = 0. */
+/* Set all lanes of reg to 0. */
 void qdot_asm_clear(qdot_asm *m, int reg);
 
 /* --- vectors whose lanes are orders, one after another (vector.c) --------------------- *

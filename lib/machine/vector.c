@@ -2,7 +2,7 @@
 #include "machine/x86.h"
 
 enum {
-    /* Of AVX-512 masks, of AVX2 registers. */
+    /* registers that select lanes: masks of AVX-512, or AVX2 registers */
     older = 4,
     known = 5,
     newest = 1, /* masks only */
@@ -89,7 +89,7 @@ in_register(qdot_asm *m, qdot_operand b, int reg)
     return reg;
 }
 
-/* Of low (a, b, c, d) and high (e, ...): spare = (c, d, e, ...), to = (b, c, d, e). */
+/* With low = (a, b, c, d) and high = (e, ...): spare = (c, d, e, ...), to = (b, c, d, e). */
 static void
 slide_by_halves(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high,
                 int spare)
@@ -103,7 +103,7 @@ slide_by_halves(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high,
                         second_then_first);
 }
 
-/* Of low (a, b) and high (c, d): (b, c). */
+/* With low = (a, b) and high = (c, d): to = (b, c). */
 static void
 slide_by_pairs(qdot_asm *m, int to, qdot_operand low, const qdot_operand *high, int spare)
 {

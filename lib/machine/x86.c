@@ -192,7 +192,7 @@ asm_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int 
     return at;
 }
 
-/* By AVX-512, or (`narrow`) by AVX2. */
+/* Emit an instruction of three operands, for AVX-512 or (`narrow`) AVX2. */
 static void
 three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first,
                qdot_operand b)

@@ -402,7 +402,7 @@ invert(node *v, const size_t m, const size_t c, size_t unknowns, const double *b
     return c;
 }
 
-/* A, B, H, and the remaining I in `rest`; returns as `invert`. */
+/* Compute A, B, H of a node, and the inertia I that remains for its parent, in `rest`; returns as `invert`. */
 INLINE size_t
 eliminate(node *v, const size_t m, const size_t c, size_t unknowns, const double *below,
           double *lost)

@@ -222,7 +222,7 @@ series_shorten(int n, const double *c)
     return n;
 }
 
-/* By the Illinois variant of the secant method. */
+/* Find a root of a Chebyshev series in lo..hi by the Illinois variant of the secant method. */
 double
 qdot_chebyshev_root(int n, const double *c, double lo, double hi)
 {

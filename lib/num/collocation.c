@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-/* Nodes are the zeros of P_s, of P_s - P_(s-1), of P_s - P_(s-2): the number says how far back. */
+/* Families of nodes: the zeros of P_s, P_s - P_(s-1), P_s - P_(s-2); the value is the difference of degrees. */
 typedef enum { GAUSS, RADAU, LOBATTO } family;
 
 /* P_s(x) minus the second polynomial; s >= 1, for Lobatto s >= 2. */

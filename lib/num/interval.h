@@ -42,7 +42,7 @@ qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* atan2 */
 /* The image of a under a function that is increasing, or decreasing, on all of it. */
 qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
 qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);
-/* Of sin (top pi/2) or cos (top 0): highest at top + 2 pi k, lowest halfway between. */
+/* Bounds of sin (top = pi/2) or cos (top = 0): maxima at top + 2 pi k, minima halfway between. */
 qdot_interval qdot_interval_wave(double (*f)(double), qdot_interval a, double top);
 
 #endif

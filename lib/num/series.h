@@ -27,7 +27,7 @@
 /* sum_{j=0..n-1} a[j] b[-j], for the n for which it was compiled. */
 typedef double qdot_series_dot(const double *a, const double *b);
 
-/* Both sum_{j=0..n-1} a[j] b[-j] and sum a[j] c[-j]. */
+/* The two sums of a[j] b[-j] and a[j] c[-j] over j = 0..n-1. */
 typedef struct {
     double b, c;
 } qdot_series_two;

@@ -150,7 +150,7 @@ typedef struct {
     /* sum_{j<n} a[j] b[j], sum_{j<n} a[j] b[-j] */
     qdot_two (*dot)(size_t n, const qdot_two *a, const qdot_two *b);
     qdot_two (*convolve)(size_t n, const qdot_two *a, const qdot_two *b);
-    /* two[k] = s^k for k <= m, power[k] likewise for k <= p, p >= m >= 1 */
+    /* two[k] = s^k for k <= m and power[k] = s^k, as a double, for k <= p; p >= m >= 1 */
     void (*powers)(qdot_two s, int m, int p, qdot_two *two, double *power);
     /* sum_{k=0..m} first[k] two[k] + sum_{k=m+1..p} x[k] power[k] */
     qdot_two (*series)(int m, int p, const qdot_two *first, const qdot_two *two,

@@ -148,7 +148,7 @@ series_coefficient(const batch *b, size_t i, int k)
     return b->system->x + (i * b->system->stride + (size_t)k) * L;
 }
 
-/* As `confirms` of taylor.c, for all lanes. */
+/* Confirm the steps of all lanes, as `confirms` of taylor.c does for one solution. */
 static void
 confirm(batch *b)
 {

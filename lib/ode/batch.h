@@ -47,7 +47,7 @@ typedef struct {
     void (*take)(size_t lane, size_t member, void *user);
     /* Compute orders 0 and 1 through y [n groups] at t [a group], in units of time [a group]. */
     void (*begin)(const double *t, const double *y, const double *unit, void *user);
-    /* Then compute orders 2 ... p. */
+    /* Compute orders 2 ... p, after the orders below them. */
     void (*extend)(int p, void *user);
     /* Project y + carry [n groups], each lane at its t [a group], as qdot_ode_system.project
      * does; moved [a group] as there, NaN in a lane in which that fails. NULL: no projection. */

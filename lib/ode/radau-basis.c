@@ -41,7 +41,7 @@ derivative(size_t degree, const double *N, size_t k, double x)
     return sum;
 }
 
-/* All roots of sum_k N^(k)(0) lambda^(s-k), by Weierstrass' iteration. */
+/* Find all roots of sum_k N^(k)(0) lambda^(s-k) by Weierstrass' iteration. */
 static void
 find_eigenvalues(size_t s, const double *N, double complex *lambda)
 {

@@ -26,7 +26,7 @@ static const double rounding_of_projection = 1e-13;
  * this of the state over the step. */
 static const double falls = 0.125, most_noise = 1e-5;
 
-/* After this many steps undone, two doubles for the first orders are given up. */
+/* After this number of rejected steps the lowest orders are no longer computed in two doubles. */
 enum { taken_back = 100 };
 
 /* Attempts at a point where f is undefined, each with a quarter of the step. */

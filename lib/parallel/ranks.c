@@ -198,7 +198,7 @@ qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n)
     qdot_mpi_send(to, to + 1, what, bytes, n);
 }
 
-/* Not rank 0: leave, as rank 0 says. */
+/* Leave a rank other than 0 as rank 0 commands. */
 static void __attribute__((noreturn)) leave(void)
 {
     qdot_text word = {0};

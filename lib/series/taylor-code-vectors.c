@@ -2,7 +2,7 @@
 #include "series/taylor-generator.h"
 
 enum {
-    /* with this many vectors most are kept in memory */
+    /* with more vectors than this most are kept in memory */
     many_vectors = 40,
     temporary = 0,
     spare = 1,

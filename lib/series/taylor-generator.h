@@ -31,7 +31,7 @@ enum {
     QDOT_CODE_TWICE_LOW = 5 * QDOT_CODE_TABLE,
     QDOT_CODE_PAIRS = 6 * QDOT_CODE_TABLE,
     QDOT_CODE_ONES = 7 * QDOT_CODE_TABLE,
-    /* 32 bits in each double: how often a loop is run. */
+    /* numbers of repetitions of loops, 32 bits in each double */
     QDOT_CODE_COUNTS = QDOT_CODE_ONES + QDOT_CODE_LANES,
     QDOT_CODE_PHASES = (2 * QDOT_CODE_BLOCKS + 7) / 8 * 8,
     QDOT_CODE_MOMENT = QDOT_CODE_COUNTS + QDOT_CODE_PHASES, /* one number */
@@ -111,7 +111,7 @@ qdot_code_is_narrow(int lanes)
     return lanes < QDOT_CODE_LANES;
 }
 
-/* An operation on single numbers, on vectors. */
+/* Emit an operation: do_one on one number, do_all on whole vectors. */
 static inline void
 do_one(qdot_generator *g, qdot_asm_operation op, int reg, int first, qdot_operand b)
 {

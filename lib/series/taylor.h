@@ -74,7 +74,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_prepare(qdot_taylor *taylor, int to, int
 /* Take such code if it is kept from an earlier run, without writing any. This is tried
  * once, and not if there is other code. False: nothing has changed. */
 bool qdot_taylor_take_kept(qdot_taylor *taylor, int to, int most);
-/* All is evaluated by the kernels again. */
+/* Evaluate everything by the kernels again, without generated code. */
 void qdot_taylor_drop_code(qdot_taylor *taylor);
 /* Evaluate all by the kernels, and write no code from now on, for the reason `why`, borrowed. */
 void qdot_taylor_refuse_code(qdot_taylor *taylor, const char *why);

@@ -95,7 +95,7 @@ see(view *w, place p, double more)
     w->hi[1] = fmax(w->hi[1], p.y + more);
 }
 
-/* All points of all frames, with a margin. */
+/* Find a view that contains all points of all frames, with a margin. */
 static qdot_status
 fit(view *w)
 {

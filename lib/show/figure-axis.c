@@ -334,7 +334,7 @@ void
 qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
                            const qdot_figure_label *label, size_t width)
 {
-    /* at the middle of the front edges, and at the upper end of the left one */
+    /* positions of the axis labels: the middle of the two front edges and the upper end of the left one */
     const double at[3][3] = {
         {(axes[0].least + axes[0].most) / 2, axes[1].least, axes[2].least},
         {axes[0].most, (axes[1].least + axes[1].most) / 2, axes[2].least},

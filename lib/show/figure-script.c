@@ -63,7 +63,7 @@ curve_add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curv
     return qdot_text_status(out);
 }
 
-/* All curves as data blocks $p<panel>c<curve>. */
+/* Write all curves as data blocks $p<panel>c<curve>. */
 static qdot_status
 figure_add_data(const qdot_figure_drawing *d)
 {

@@ -72,10 +72,10 @@ QDOT_MUST_CHECK qdot_status qdot_sheet_formula(qdot_sheet *sheet, qdot_expr e);
 bool qdot_sheet_at_begin(const qdot_sheet *sheet);
 bool qdot_sheet_is_empty(const qdot_sheet *sheet);
 
-/* The lines are answered if the status is good; the sheet is cleared. With --json as the text `name`. */
+/* Print the lines if status is QDOT_OK (with --json as the text `name`), and clear the sheet. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_sheet *sheet, const char *name, qdot_status status);
 
-/* Likewise append the lines to a text. */
+/* As qdot_sheet_end, but append the lines to a text. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_text(qdot_sheet *sheet, qdot_status status, qdot_text *out);
 
 /* The sheet is cleared, and nothing is answered. */

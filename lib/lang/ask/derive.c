@@ -96,7 +96,7 @@ typedef struct {
     bool square;
 } symbol;
 
-/* In a line: letter, index in brackets, square. */
+/* Add a symbol, squared or not, in one line of text: letter, index in brackets, square. */
 static qdot_status
 add_linear(derivation *d, const symbol *x)
 {
@@ -121,7 +121,7 @@ add_linear(derivation *d, const symbol *x)
     return status;
 }
 
-/* With the index below and the square above. */
+/* Add a symbol, squared or not, to a drawn formula: index below, square above. */
 static qdot_status
 add_drawn(derivation *d, const symbol *x)
 {

@@ -232,7 +232,7 @@ bracket_with(qdot_pool *pool, qdot_expr scalar, void *user)
     return qdot_value_map(pool, b->g, bracket_with, &inner);
 }
 
-/* Of each component where f or g is a vector. */
+/* Compute {f, g}, component by component where f or g is a vector. */
 static qdot_status
 call_poisson(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {

@@ -138,7 +138,7 @@ reduce_above(parser *p, waiting_kind kind)
     return QDOT_OK;
 }
 
-/* All operators down to the bracket. */
+/* Apply all waiting operators down to the opening bracket. */
 static qdot_status
 reduce_all(parser *p)
 {

@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
 QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
 /* Read a sum without relations, which must be a scalar: QDOT_ETYPE otherwise. */
 QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
-/* As numbers of the moment, parameters with their values. */
+/* Read an expression and evaluate it now, with the values of parameters. */
 QDOT_MUST_CHECK qdot_status qdot_read_number(qdot_cursor *c, double *value);
 QDOT_MUST_CHECK qdot_status qdot_read_integer(qdot_cursor *c, long *value);
 /* a..b, exact. */

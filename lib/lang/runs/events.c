@@ -76,7 +76,7 @@ list_numbers(qdot_session *session, const qdot_run_occurrence *list, size_t n)
     return QDOT_OK;
 }
 
-/* Of a run with `digits`: the times as strings. */
+/* List the times of events of a run with `digits`, as strings. */
 static qdot_status
 list_exact(qdot_session *session, const qdot_run *run, const qdot_run_occurrence *list,
            size_t n)

@@ -85,7 +85,7 @@ clear_records(records *list)
         clear_record(&list->at[--list->n]);
 }
 
-/* Nothing can be undone any more. */
+/* Forget all records, so that nothing can be undone. */
 static void
 forget(qdot_undo *u)
 {

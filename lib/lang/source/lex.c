@@ -442,7 +442,7 @@ lex_blank(lexer *x, bool *found)
     return QDOT_OK;
 }
 
-/* One token. */
+/* Read one token. */
 static qdot_status
 lex_token(lexer *x, qdot_text *buffer)
 {

@@ -33,7 +33,7 @@ typedef struct {
  * are run, how long it takes; s as for qdot_sweep_make_rows. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text);
 
-/* Of a statement `plan sweep ...`. */
+/* Carry out the statement `plan sweep ...`. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_plan(qdot_record *r);
 
 /* Make row k of the table in this process. Failures such as QDOT_EFAILED concern this row. */

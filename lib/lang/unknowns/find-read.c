@@ -262,7 +262,7 @@ names_event(const qdot_find *f)
     return false;
 }
 
-/* The later of two times, from a time on; nil is none. */
+/* Set *time to the later of *time and `other`, as seen from the time `from`; nil stands for no time. */
 static qdot_status
 later(qdot_session *session, qdot_expr from, qdot_expr *time, qdot_expr other)
 {

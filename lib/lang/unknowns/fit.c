@@ -217,7 +217,7 @@ options_find(qdot_record *r, qdot_fit *f)
     return name != NULL ? qdot_record_name(r, name, &f->name) : QDOT_OK;
 }
 
-/* Of several values some are weighted, or none. */
+/* Refuse weights for only some of several fitted values. */
 static qdot_status
 check_weights(qdot_cursor *c, qdot_fit *f)
 {

@@ -563,7 +563,7 @@ enter(engine *x, size_t i, size_t *next)
     return status;
 }
 
-/* At the `}` of the innermost block: round again or on. */
+/* At the `}` of the innermost block: start its next iteration, or leave it. */
 static qdot_status
 round_again(engine *x, size_t *next)
 {

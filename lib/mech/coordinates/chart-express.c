@@ -65,7 +65,7 @@ is_of(const qdot_chart_moved *m, bool hyperbolic)
     return m->sort == (hyperbolic ? QDOT_CHART_HYPERBOLIC : QDOT_CHART_ANGLE);
 }
 
-/* Of the sum of two angles; or of two lengths, by cosh and sinh. */
+/* Sine and cosine of the sum of two angles; cosh and sinh of the sum of two lengths if `hyperbolic`. */
 static direction
 turned(qdot_pool *pool, direction a, direction b, bool hyperbolic)
 {

@@ -175,7 +175,7 @@ QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_g
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);
 /* Inside: de/dt, e in new coordinates and roots. */
 qdot_expr qdot_chart_rate(const qdot_chart *chart, qdot_expr e);
-/* For use inside: e without roots if it is regular; else nil, without a failure. */
+/* For use inside the chart: e without roots if it is regular; else nil, without a failure. */
 qdot_expr qdot_chart_regular(const qdot_chart *chart, qdot_expr e);
 
 #endif

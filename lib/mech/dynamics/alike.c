@@ -24,7 +24,7 @@ typedef struct {
     qdot_expr sum[UNITS], symbol[UNITS];
 } units;
 
-/* A parameter as positive as the sum. */
+/* A new parameter with number k, declared positive if the sum is positive. */
 static qdot_expr
 unit_symbol(qdot_pool *pool, qdot_expr sum, size_t k)
 {

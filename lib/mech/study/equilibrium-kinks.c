@@ -523,7 +523,7 @@ never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
            qdot_condition(r->pool, qdot_neg(r->pool, u), true, facts) == QDOT_TRUE;
 }
 
-/* *yes: one of the `zeros` vanishes at an equilibrium; *may: one may vanish, which is unknown. */
+/* *yes: one of the `zeros` certainly vanishes at the equilibrium e; *may: one may vanish, which is not decided. */
 static qdot_status
 lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
 {

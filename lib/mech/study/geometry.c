@@ -11,7 +11,7 @@
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
 
-/* The metric of R, taken apart. */
+/* The metric of positions R, with what follows from it: determinant, whether it is diagonal. */
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;

@@ -125,7 +125,7 @@ rows(const search *f)
     return f->n + 1 + f->s->constraints.n;
 }
 
-/* All conditions, a column for each of the unknowns [m]. */
+/* Fill in all conditions, with a column for each of the unknowns [m]. */
 static bool
 conditions_fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
 {
@@ -289,7 +289,7 @@ works_nothing(const search *f, size_t m, const qdot_expr *e, const qdot_expr *v)
     return true;
 }
 
-/* The common denominator of the coefficients v; v is multiplied by it. */
+/* Multiply the coefficients v [m] by their common denominator, and return it. */
 static qdot_expr
 denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
 {

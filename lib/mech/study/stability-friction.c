@@ -120,7 +120,7 @@ split_forces(held *h, bool *yes)
                    (n == i ? !qdot_expr_contains(pool, slope, side) : slope == QDOT_ZERO);
             if (n != i)
                 continue;
-            /* of sign(c q') with c < 0 the limit is the slope itself */
+            /* the limit of sign(c q') with c < 0 is the slope itself */
             h->limit[i] = qdot_neg(pool, slope);
             if (qdot_positive(pool, h->limit[i], &h->j.facts, h->j.known.n, h->j.known.at) !=
                 QDOT_TRUE)

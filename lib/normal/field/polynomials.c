@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 
-/* Of the exponents and the low bits of the coefficients. False: no memory. */
+/* Hash the exponents and the low bits of the coefficients. False: no memory. */
 static bool
 hash_of(const qdot_field *f, const fmpz_mpoly_t p, uint64_t *hash)
 {

@@ -43,7 +43,7 @@ qdot_expr qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p);
 
 bool qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p);
 
-/* Without trigonometric variables: as a sum, common powers out. */
+/* The polynomial as a sum with common powers taken out, if it has no trigonometric variables. */
 qdot_expr qdot_form_horner(qdot_form *form, const fmpz_mpoly_t p);
 
 /* c p as a sum of squares of two terms and what is left, each times c (squares.c); nil if

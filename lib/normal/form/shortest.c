@@ -160,7 +160,7 @@ origin(qdot_pool *pool, qdot_expr node, void *user)
 
     if (!qdot_map_get(&o->map, node, &before))
         return QDOT_NIL;
-    /* of two as long a sum: sqrt(v^2 - x^2), not sqrt((v - x)*(v + x)) */
+    /* of two equally long forms prefer the sum: sqrt(v^2 - x^2), not sqrt((v - x)*(v + x)) */
     return qdot_expr_size(pool, before) <
                    qdot_expr_size(pool, node) +
                        (qdot_expr_kind(pool, before) == QDOT_SUM &&

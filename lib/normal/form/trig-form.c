@@ -402,7 +402,7 @@ by_factors(qdot_form *form, const fmpz_mpoly_t p)
     return e;
 }
 
-/* Of two as long a product of functions before a sum. */
+/* Keep e if it is shorter than *best; of equally long ones prefer a product of functions to a sum. */
 static void
 keep_product(qdot_pool *pool, qdot_expr *best, qdot_expr e)
 {

@@ -472,7 +472,8 @@ by_slopes(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
     return qdot_pool_failed(pool) ? qdot_grave(qdot_pool_check(pool)) : QDOT_OK;
 }
 
-/* Bounded by MOST_SLOPES, whatever the input. */
+/* Prove that e is positive or not negative by cases, then by derivatives; the work is bounded by
+ * MOST_SLOPES. */
 static qdot_status
 prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *work,
               bool *proved)

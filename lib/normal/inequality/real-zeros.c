@@ -110,7 +110,7 @@ isolation_push(isolation *s, const fmpz_poly_t p, const fmpz_t number, slong dep
     return true;
 }
 
-/* p(t/2) 2^degree. */
+/* Replace p by p(t/2) 2^degree, divided by the common factor of its coefficients. */
 static void
 halve_argument(fmpz_poly_t p)
 {

@@ -241,7 +241,7 @@ need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return QDOT_OK;
 }
 
-/* Two LISTs joined. */
+/* The concatenation of two LISTs. */
 static qdot_expr
 joined(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {

@@ -17,7 +17,7 @@
 
 #include "expr/id.h"
 
-/* gap >= 0, and > 0 unless weak. */
+/* Receives a condition for e to be defined: gap >= 0 if `weak`, else gap > 0. */
 typedef qdot_status (*qdot_defined_gap)(void *user, qdot_expr gap, bool weak);
 
 /* Tell of each gap of e[n] that the nodes' signs do not know. Errors: QDOT_ENOMEM, QDOT_EINTR, what

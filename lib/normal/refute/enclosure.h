@@ -52,7 +52,7 @@ void qdot_enclosure_eval(qdot_enclosure *s, const qdot_interval *X, bool slopes)
 size_t qdot_enclosure_size(const qdot_enclosure *s);
 
 size_t qdot_enclosure_count(const qdot_enclosure *s); /* m, of qdot_enclosure_new */
-/* Of the i-th of the e; until the next evaluation. */
+/* The value of the i-th expression, valid until the next evaluation. */
 const qdot_enclosure_value *qdot_enclosure_get(const qdot_enclosure *s, size_t i);
 
 #endif

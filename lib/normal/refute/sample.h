@@ -49,7 +49,7 @@ typedef struct {
     bool possible; /* there can be points */
 } qdot_sample;
 
-/* For e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
+/* Begin to sample e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n,
                                               const qdot_expr *e,
                                               const qdot_facts *facts);
@@ -76,7 +76,7 @@ qdot_expr qdot_sample_list(qdot_sample *s);
 void qdot_sample_set(qdot_sample_atom *a, slong prec);
 /* The range in which a value of an atom is searched at the present point. */
 void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
-/* For qdot_ball_eval. */
+/* The value of an atom at the sample, as a callback of qdot_ball_eval. */
 bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
 /* atom = solution; or (implicit) the solution is a relation that vanishes at the atom's value. */
 typedef struct {

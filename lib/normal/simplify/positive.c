@@ -61,7 +61,7 @@ known_sign(job *j, const fmpz_mpoly_t p)
     return sign;
 }
 
-/* Of an expression without symbols: by an enclosure. */
+/* The sign of an expression without symbols, by an enclosure. */
 static int
 sign_of_constant(job *j, qdot_expr e)
 {

@@ -24,7 +24,7 @@
 #include "sim/model/equations.h"
 #include "tape/disc.h"
 
-/* Start from {0}. */
+/* What is recorded to find pulses: forces that act for a shorter time than a step. Initialise with {0}. */
 typedef struct {
     const qdot_tape *tape; /* of M and f; NULL: none yet */
     size_t n, m;           /* coordinates; outputs that are inspected */

@@ -16,7 +16,8 @@
 #include "sim/study/floquet.h"
 #include "tape/derivative.h"
 
-/* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
+/* As fractions: a velocity that changes less over an orbit is 0; an orbit smaller than this against
+ * the first is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
 
 /* A coordinate is constant if its change over an orbit, relative to its size, is below this. */
@@ -343,7 +344,7 @@ orbit_allocate(qdot_orbit_path *x)
     return QDOT_OK;
 }
 
-/* Both flows, and how many segments the first orbit needs. */
+/* Make both flow maps, and find the number of segments that the first orbit needs. */
 static qdot_status
 make_flows(qdot_orbit_path *x)
 {

@@ -32,7 +32,8 @@ typedef struct {
     double *value, *work;
 } qdot_rest_bifurcations;
 
-/* From {0}; ended in any case. Errors: QDOT_EUNSET names a parameter without a value. */
+/* Begin to find bifurcations, in a struct {0}; must be ended in any case. QDOT_EUNSET: a parameter
+ * has no value. */
 QDOT_MUST_CHECK qdot_status qdot_rest_bifurcations_begin(qdot_rest_bifurcations *b, qdot_rest_path *x);
 void qdot_rest_bifurcations_end(qdot_rest_bifurcations *b);
 

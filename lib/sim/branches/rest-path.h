@@ -17,7 +17,8 @@ typedef struct {
     double *work;
 } qdot_rest_path;
 
-/* From {0}; ended in any case. QDOT_EUNSET names a parameter without a value. */
+/* Begin a path of equilibria, in a struct {0}; must be ended in any case. QDOT_EUNSET: a parameter
+ * has no value. */
 QDOT_MUST_CHECK qdot_status qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c,
                                                  double least, double most);
 void qdot_rest_path_end(qdot_rest_path *x);

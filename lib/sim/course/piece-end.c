@@ -325,7 +325,7 @@ qdot_piece_find_delay(qdot_piece *x)
  * the start. */
 static const double counted = 0x1p11;
 
-/* Before anything is changed: the signs of all functions, and their values. */
+/* Record the signs and values of all watched functions before the state is changed. */
 static qdot_status
 look_before(qdot_piece *x, double t, double *g)
 {

@@ -10,7 +10,7 @@
 
 /* A disc starts with the speed that it would have after this fraction of the time t, */
 static const double behind = 64 * DBL_EPSILON;
-/* or of the time of the run. */
+/* As `behind`, as a fraction of the duration of the run; the longer of the two times counts. */
 static const double little = 0x1p-60;
 /* Two directions count as equal if the cosine of the angle between them exceeds this. */
 static const double straight = 0.999;

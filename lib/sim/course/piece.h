@@ -112,7 +112,7 @@ typedef struct {
     size_t resting; /* the event of a persistent contact; SIZE_MAX: none was found in this piece */
     int resting_way; /* the sign to which the motion would leave it */
 
-    /* Sets of sides tried from one point: [tries x surfaces]; the surfaces with alternatives. */
+    /* the sets of sides tried from one point, [tries x surfaces]; the surfaces with other possible sides */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
     qdot_tape_two **thens; /* [events] `then` in two doubles; NULL until it is needed */

@@ -36,7 +36,7 @@ typedef struct {
 
 /* --- along given courses -------------------------------------------------------------- */
 
-/* The value at a point by itself, or where the range has no length. */
+/* Include the value at a single time t, as at an end of the range or if the range has no length. */
 static qdot_status
 meet_point(scan *s, double t)
 {

@@ -279,7 +279,7 @@ find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qd
     return status;
 }
 
-/* In the times of the run. */
+/* Find the crossings, in the times of the run. */
 static qdot_status
 find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
 {
