@@ -60,7 +60,7 @@ box_add_text(reader *r, const char *text, qdot_box_role role)
     return finish_text(r, from, role);
 }
 
-/* Whether a term begins here: a sign here is no sign of two. */
+/* Whether a term begins here, so that a + or - here is the sign of one operand, not of two. */
 static bool
 term_begins(const reader *r)
 {

@@ -157,7 +157,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
         below %= GMP_NUMB_BITS;
         if (skipped > limbs)
             continue;
-        /* the product matters to `kept` limbs after the point: multiply only that many limbs */
+        /* the product matters to `kept` limbs after the point: multiply only these */
         kept = limbs + 1 - skipped;
         used = kept < limbs ? kept : limbs;
         x = (const mp_limb_t *)mpfr_custom_get_significand(a[j]) + limbs - used;

@@ -31,7 +31,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits);
 void qdot_reals_clear(qdot_reals *v);
 
-/* The memory of n such numbers in bytes. */
+/* The memory in bytes of n numbers with `bits` bits. */
 double qdot_reals_size(size_t n, mpfr_prec_t bits);
 
 /* log2 |x|; -INFINITY for 0, NaN if x is not finite. */

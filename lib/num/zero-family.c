@@ -34,7 +34,8 @@ typedef struct {
     double *f;          /* [2m] F at the place tried, and the errors of F */
 } family;
 
-/* Start h units beside the zero along `way`, and make that many corrections. J at the zero is overwritten. */
+/* Start h units beside the zero along `way`, and make `corrections` corrections. J at the zero is
+ * overwritten. */
 static qdot_status
 look_beside(const family *x, double h, int corrections, beside_answer *answer)
 {

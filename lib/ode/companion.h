@@ -213,7 +213,7 @@ void qdot_companion_limit(qdot_companion *c, uint64_t steps);
  * alike whatever the tolerance, and err alike. */
 double qdot_companion_first_share(size_t number);
 
-/* The smallest error stated for a run of that many steps; `leading`: for a run in two doubles. */
+/* The smallest error stated for a run of `steps` steps; `leading`: for a run in two doubles. */
 double qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_t steps);
 
 /* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1, until they

@@ -28,7 +28,7 @@ qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k)
     return tr->method;
 }
 
-/* Append the points of a piece to `to`, with each step divided into that many parts. */
+/* Append the points of a piece to `to`, with each step divided into `parts` parts. */
 static qdot_status
 refine_piece(const qdot_trajectory *tr, qdot_trajectory_cursor *c, size_t piece,
              size_t parts, qdot_trajectory *to)

@@ -116,7 +116,7 @@ cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
     return open_stepper(c);
 }
 
-/* Open a cursor for each decoupled part; such runs have a single piece. */
+/* Open a cursor for each decoupled part; runs in decoupled parts have a single piece. */
 static qdot_status
 open_tracks(qdot_trajectory_cursor *c)
 {

@@ -317,7 +317,7 @@ qdot_code_forget(qdot_generator *g)
         g->held[i] = QDOT_CODE_NONE;
 }
 
-/* Shift the times at which coefficients are known by that many orders. */
+/* Shift the times at which coefficients are known by `orders` orders. */
 static void
 look_back(qdot_generator *g, int orders)
 {

@@ -5,7 +5,7 @@ static const char system_text[] = {
 #include "show/export-julia.inc"
 };
 
-/* Definitions that precede a function with such operations. */
+/* Julia functions that are nan where they have no real value; they precede the exported function. */
 #define REAL_FUNCTIONS \
     "?g \n" \
     "?g # nan where there is no real value, as in a branch that is not taken.\n" \

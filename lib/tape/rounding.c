@@ -384,7 +384,7 @@ factors_make_room(qdot_tape *t, size_t more)
     return constant && side && low && exact ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The slot after that many constants have been inserted before it. */
+/* The number of slot `place` after `more` constants have been inserted before it. */
 static uint32_t
 moved_on(const qdot_tape *t, uint32_t place, size_t more)
 {

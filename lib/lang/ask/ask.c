@@ -154,7 +154,7 @@ is_mixed(qdot_session *session, qdot_expr value)
     return mixed;
 }
 
-/* Answer each member of such a list separately: a number with its error, or an expression. */
+/* Answer each member of a list with results of runs separately: a number with its error, or an expression. */
 static qdot_status
 answer_mixed(qdot_session *session, const char *name, qdot_expr list)
 {

@@ -269,7 +269,7 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
     return status == QDOT_OK ? qdot_text_status(out) : status;
 }
 
-/* Refuse to overwrite a regular file that does not begin with the header of such files. */
+/* Refuse to overwrite a regular file that does not begin with the header of a scene or session file. */
 static qdot_status
 may_overwrite(const char *path, const char *header)
 {

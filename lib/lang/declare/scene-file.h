@@ -28,7 +28,7 @@ typedef enum {
     QDOT_FILE_HISTORY  /* the statements that were typed and succeeded */
 } qdot_scene_file;
 
-/* Append the contents of such a file. */
+/* Append the contents of a scene or session file. */
 QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, qdot_scene_file what,
                                                  qdot_text *out);
 /* To the file that the token names. Errors, placed at it: QDOT_EIO; QDOT_EINVAL for a file that does

@@ -19,7 +19,7 @@ extern const char qdot_session_file_header[];
 /* Whether the value is a number with more than twelve digits, which nobody types. */
 bool qdot_session_file_is_long(const qdot_session *s, qdot_expr value);
 
-/* If the text begins with the header of such files, remember its comment lines. */
+/* If the text begins with the header of a scene or session file, remember its comment lines. */
 QDOT_MUST_CHECK qdot_status qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length);
 
 /* End the line that begins at `from` of the text: with a comment that has the error of `value`, where that is a number that

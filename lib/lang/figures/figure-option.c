@@ -166,7 +166,7 @@ qdot_figure_option_read(qdot_cursor *c, qdot_figure_choice *figure, qdot_panel_c
     return QDOT_OK;
 }
 
-/* --- of a record ---------------------------------------------------------------------- */
+/* --- options of a record -------------------------------------------------------------- */
 
 static qdot_status
 range_find(qdot_record *r, const qdot_filled *place, double least, double most, qdot_figure_range *range)

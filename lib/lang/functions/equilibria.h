@@ -17,7 +17,7 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
 qdot_expr qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e);
 /* When equilibrium k is used as a value: notice of its conditions, unless the session's values satisfy them. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e);
-/* The stability of one equilibrium, given as such a LIST: a word, or if(CONDITION, word, undecided). */
+/* The stability of one equilibrium, given as a LIST of equations: a word, or if(CONDITION, word, undecided). */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,
                                                       qdot_expr equations,
                                                       qdot_expr *value);

@@ -12,11 +12,11 @@
 
 /* e along a run as a symbol "a.x"; for a vector or list, one symbol for each member. */
 qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
-/* The run and expression for which such a symbol stands; NULL if it is an ordinary symbol. */
+/* The run and expression for which a symbol of `a.(expr)` stands; NULL if it is an ordinary symbol. */
 const qdot_member *qdot_member_find(const qdot_session *session, qdot_expr symbol);
-/* Whether e contains such symbols. */
+/* Whether e contains symbols for values along runs. */
 bool qdot_member_any(const qdot_session *session, qdot_expr e);
-/* Fail with QDOT_EINVAL if e contains such symbols, where values along runs are not allowed. */
+/* Fail with QDOT_EINVAL if e contains symbols for values along runs, where these are not allowed. */
 QDOT_MUST_CHECK qdot_status qdot_member_refuse(const qdot_session *session, qdot_expr e);
 /* Where all such symbols of *e are along one run: *run is that run, *e has what they stand for in
  * their place. Else *mixed. */

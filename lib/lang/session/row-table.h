@@ -39,7 +39,7 @@ qdot_row_table *qdot_row_table_new(const char *name, size_t n_swept, size_t n,
                                    const char *const *labels);
 /* Append one row of NaN. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add(qdot_row_table *table);
-/* Append that many rows, with no spare capacity. QDOT_ENOMEM. */
+/* Append `rows` rows, with no spare capacity. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_row_table_add_all(qdot_row_table *table, size_t rows);
 /* The memory of one row in bytes. */
 size_t qdot_row_table_row_bytes(const qdot_row_table *table);

@@ -417,7 +417,7 @@ members_init(members *o, const qdot_sweep_lanes *x, size_t most)
     return o->row && o->y && o->parameters && o->results ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* Run members with that many companions; `again` collects those that need more companions. */
+/* Run the members with `companions` companions each; `again` collects those that need more. */
 static qdot_status
 run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
 {

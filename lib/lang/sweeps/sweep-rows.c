@@ -183,7 +183,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
 
 /* --- the sweep -------------------------------------------------------------------------- */
 
-/* The number of rows for the next group, if as many as `before` took that many seconds. */
+/* The number of rows for the next group, if `before` rows took this number of seconds. */
 static size_t
 next_together(size_t before, double seconds)
 {

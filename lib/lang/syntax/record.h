@@ -89,7 +89,7 @@ QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_fill
                                                  qdot_expr *left, qdot_expr *right);
 /* A name with its indices evaluated, stored in the arena of the source. */
 QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
-/* Bound k of a name with bounds, in the order typed; *is: there are that many. */
+/* Bound k of a name with bounds, in the order typed; *is: the name has a bound k. */
 QDOT_MUST_CHECK qdot_status qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k,
                                               qdot_bound *bound, bool *is);
 /* The arguments of NAME(u, v); an expression in which they hide other names. Leave f in any case. */

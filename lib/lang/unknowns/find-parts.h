@@ -59,7 +59,7 @@ typedef struct {
 
 /* QDOT_EFAILED if a further run of that length would exceed the budget. */
 QDOT_MUST_CHECK qdot_status qdot_find_spend(qdot_find_budget *b, double length);
-/* Record the cost of that many runs like this one. */
+/* Record the cost of `runs` runs like this one. */
 void qdot_find_spent(qdot_find_budget *b, qdot_run *run, size_t runs);
 
 #endif

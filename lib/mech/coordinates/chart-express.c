@@ -348,7 +348,7 @@ qdot_chart_put(const qdot_chart *c, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_walk_replace(c->pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
 }
 
-/* The angle of m minus that many quarter turns. */
+/* The angle of m minus `quarters` quarter turns. */
 static qdot_expr
 angle_beyond(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
 {

@@ -62,7 +62,7 @@ text_distance(mpfr_srcptr x, const char *text)
     return error;
 }
 
-/* Round x to that many digits: *value is the exact decimal, *error its distance from x. */
+/* Round x to `digits` digits: *value is the exact decimal, *error its distance from x. */
 static qdot_status
 round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *error)
 {

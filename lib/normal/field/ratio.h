@@ -112,7 +112,7 @@ void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);
  * below; r becomes r'. */
 void qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r);
 
-/* The polynomial p as an expanded expression; a quotient likewise. */
+/* The polynomial p, or the quotient r, as an expanded expression. */
 qdot_expr qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p);
 qdot_expr qdot_field_ratio_expr(qdot_field *f, const qdot_ratio *r);
 

@@ -283,7 +283,7 @@ push_zero(fine *d, arf_t lo, arf_t hi, int below)
     return qdot_vec_push(&d->s->found, place);
 }
 
-/* Find zeros in lo .. hi; intervals that cannot be decided are recorded as such. */
+/* Find zeros in lo .. hi; record the intervals that cannot be decided as undecided. */
 static qdot_status
 refine(fine *d, const arf_t lo, const arf_t hi, int depth)
 {

@@ -45,7 +45,8 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_solve(qdot_constrained *constrained
                                                    double t, const double *y, double *a,
                                                    double *lambda);
 
-/* a [n + plan->m]: q'' and the multipliers of the scene's constraints. Errors likewise. */
+/* Compute a [n + plan->m]: q'' and the multipliers of the scene's constraints. Errors: as
+ * qdot_constrained_solve. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_accelerate(qdot_constrained *constrained, double t,
                                                         const double *y, double *a);
 

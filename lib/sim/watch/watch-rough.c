@@ -152,7 +152,7 @@ seek_least(walk *x, double *t, double g)
                                              .blur = DBL_EPSILON * fabs(t[1])});
 }
 
-/* The change of g_i if the state in w->z changes by that many rounding errors in either direction. */
+/* The change *by of g_i if the state in w->z changes by `roundings` rounding errors in either direction. */
 static qdot_status
 change(qdot_watch *w, double t, size_t i, double roundings, double *by)
 {
