@@ -77,9 +77,9 @@ single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
     if (one == QDOT_NIL || qdot_conditions_at(pool, one, 0, NULL, NULL, &generic) != QDOT_NIL)
         return QDOT_NIL;
     left = qdot_conditions_at(pool, one, 0, NULL, NULL, &exact);
-    if (left == QDOT_NIL || left == QDOT_FALSE || qdot_expr_count(pool, left) != 1)
+    if (left == QDOT_NIL || left == QDOT_FALSE)
         return QDOT_NIL;
-    u = qdot_conditions_nonzero(pool, qdot_expr_arg(pool, left, 0));
+    u = qdot_conditions_nonzero(pool, qdot_expr_count(pool, left) == 1 ? qdot_expr_arg(pool, left, 0) : condition);
     return u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
 }
 

@@ -288,8 +288,8 @@ add_walls_of_undefined(qdot_equilibrium_set *set, const qdot_rest *rest)
         const size_t walls = set->wall.n;
 
         QDOT_TRY(add_walls(set, one));
-        if (set->wall.n > walls)
-            set->undefined = qdot_list_appended(pool, set->undefined, 1, &one);
+        for (size_t k = walls; k < set->wall.n; k++)
+            QDOT_TRY(qdot_vec_push(&set->gap, ((qdot_equilibrium_gap){one, set->wall.at[k]})));
     }
     return qdot_pool_check(pool);
 }
@@ -345,6 +345,7 @@ qdot_equilibrium_set_end(qdot_equilibrium_set *set)
 {
     qdot_free(set->member.at);
     qdot_free(set->wall.at);
+    qdot_free(set->gap.at);
     *set = (qdot_equilibrium_set){0};
 }
 

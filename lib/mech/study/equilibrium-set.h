@@ -23,6 +23,12 @@ typedef struct {
     qdot_expr when;  /* a LIST */
 } qdot_equilibrium_member;
 
+/* A single value of p at which the energy or a force has no value: there `what` is 0. */
+typedef struct {
+    qdot_expr what;
+    double at;
+} qdot_equilibrium_gap;
+
 typedef struct {
     const qdot_equilibrium_curve *c; /* borrowed */
     double least, most;              /* of p */
@@ -30,7 +36,7 @@ typedef struct {
     qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
     /* proved: except for single values of p, all equilibria are members of the set, and all walls are known */
     bool complete;
-    qdot_expr undefined;   /* a LIST of what is 0 where the energy or a force has no value, at single values in the range; or nil */
+    qdot_vec(qdot_equilibrium_gap) gap;
     bool families;         /* some equilibria belong to infinite families, of which one is a member of the set */
 } qdot_equilibrium_set;
 

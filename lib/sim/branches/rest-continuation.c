@@ -5,8 +5,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/walk.h"
 #include "mech/study/equilibrium-set.h"
 #include "sim/branches/branch-points.h"
 #include "sim/branches/rest-bifurcation.h"
@@ -390,6 +392,41 @@ ends_are_walls(const qdot_branch_search *s, const qdot_equilibrium_set *set)
     return true;
 }
 
+/* Whether a branch leads over the value `at` of p. */
+static bool
+is_passed(const qdot_branch_search *s, double at)
+{
+    const size_t m = s->x->n + 1;
+
+    for (size_t i = 0; i < s->all->branches.n; i++)
+        for (size_t k = 1; k < s->all->branches.at[i].n; k++) {
+            const double *y = s->all->branches.at[i].y + k * m;
+            const bool on = y[m - 1] == at && k + 1 < s->all->branches.at[i].n;
+
+            if ((y[-1] - at) * (y[on ? 2 * m - 1 : m - 1] - at) < 0)
+                return true;
+        }
+    return false;
+}
+
+/* What is 0 at single values of p without an energy or a force that branches lead over. */
+static qdot_status
+tell_gaps(qdot_branch_search *s, const qdot_equilibrium_set *set)
+{
+    qdot_pool *pool = set->c->pool;
+
+    for (size_t i = 0; i < set->gap.n; i++) {
+        const qdot_equilibrium_gap *one = &set->gap.at[i];
+        const qdot_expr told = s->all->undefined;
+        const uint32_t n = told == QDOT_NIL ? 0 : qdot_expr_count(pool, told);
+
+        if (is_passed(s, one->at) &&
+            (n == 0 || qdot_expr_place(n, qdot_expr_args(pool, told), one->what) == n))
+            s->all->undefined = qdot_list_appended(pool, told, 1, &one->what);
+    }
+    return qdot_pool_check(pool);
+}
+
 /* Draw the exact curves that are not followed: at corners, and of several equilibria that are one.
  * y: room for [2 (n + 1)]. */
 static qdot_status
@@ -402,8 +439,7 @@ draw_exact(qdot_branch_search *s, qdot_equilibrium_set *set, double *y)
     s->all->complete = whole && !s->all->interrupted && s->all->left.n == 0;
     s->all->corners = !set->complete;
     s->all->families = set->families;
-    s->all->undefined = set->undefined;
-    return QDOT_OK;
+    return tell_gaps(s, set);
 }
 
 /* --- all --------------------------------------------------------------------------------------- */
