@@ -171,7 +171,7 @@ without_root(qdot_pool *pool, qdot_expr e, struct roots *r)
 }
 
 static qdot_expr
-without_roots(qdot_pool *pool, qdot_expr e, struct roots *r)
+factors_without_roots(qdot_pool *pool, qdot_expr e, struct roots *r)
 {
     qdot_expr last = QDOT_NIL;
 
@@ -202,7 +202,7 @@ list_factors(void *user)
 {
     struct factoring *x = user;
     struct roots roots = {0};
-    qdot_expr product = QDOT_NIL, *list = NULL, e = without_roots(x->pool, x->e, &roots);
+    qdot_expr product = QDOT_NIL, *list = NULL, e = factors_without_roots(x->pool, x->e, &roots);
     size_t n = 0;
     qdot_status status = qdot_pool_check(x->pool);
 
