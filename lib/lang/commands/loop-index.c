@@ -281,13 +281,15 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
 }
 
 qdot_status
-qdot_loop_index_check(qdot_cursor *c, const qdot_token *from, const qdot_token *to, bool block)
+qdot_loop_index_check(qdot_cursor *c, const qdot_token *from, const qdot_token *to, const qdot_token *end,
+                      bool block)
 {
-    const qdot_token *clause = c->at, *end = clause;
+    const qdot_token *clause = c->at;
     long depth = 0;
 
-    while (end->kind != QDOT_TOKEN_END)
-        end++;
+    if (end == NULL)
+        for (end = clause; end->kind != QDOT_TOKEN_END;)
+            end++;
     for (const qdot_token *k = clause; k < end; k++) {
         depth += qdot_token_bracket(k);
         if (depth != 0 || k->kind != QDOT_TOKEN_NAME || !qdot_token_is(k + 1, "=") ||

@@ -4,12 +4,13 @@
 
 #include "lang/language/cursor.h"
 
-/* Each index of the clause at the cursor, behind `for`, must occur in the tokens [from, to), or in the
+/* Each index of the clause at the cursor, behind `for`, up to `end` (NULL: that of the statement), must occur in the tokens [from, to), or in the
  * range of a later index; a declared parameter or coordinate may occur in what a name, the scene or a
  * run there stands for. A block may count its passes only, by a name that means nothing else. QDOT_EINVAL
  * where an index occurs nowhere. */
 QDOT_MUST_CHECK qdot_status qdot_loop_index_check(qdot_cursor *c, const qdot_token *from,
-                                                  const qdot_token *to, bool block);
+                                                  const qdot_token *to, const qdot_token *end,
+                                                  bool block);
 
 /* Whether a run may depend on the declared parameter or coordinate: what is declared, a value, the start, a definition or
  * the end of a domain holds it. */

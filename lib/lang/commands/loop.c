@@ -145,7 +145,7 @@ descend(qdot_loop *loop, qdot_cursor *c, bool *more)
         if (status == QDOT_OK && loop->indices.n > 0) {
             c->at = loop->indices.at[loop->indices.n - 1].behind;
             if (!qdot_cursor_accept_op(c, ","))
-                return qdot_cursor_expect_end(c);
+                return c->at == loop->end ? QDOT_OK : qdot_cursor_expect_end(c);
         }
         if (status == QDOT_OK)
             status = read_index(loop, c, &index, &empty);
@@ -176,14 +176,14 @@ pass(qdot_loop *loop, qdot_status status, qdot_cursor *c)
 }
 
 qdot_status
-qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c, bool *more)
+qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c, const qdot_token *end, bool *more)
 {
     qdot_cursor own = *c;
 
     if (c->session->loops++ == 0)
         c->session->partial_sums.n = 0;
     *loop = (qdot_loop){
-        .session = c->session, .source = c->source, .clause = c->at, .open = true};
+        .session = c->session, .source = c->source, .clause = c->at, .end = end, .open = true};
     own.error_at = c->at->start;
     return pass(loop, descend(loop, &own, more), &own);
 }

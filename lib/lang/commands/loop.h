@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     qdot_session *session;
     const qdot_source *source;
-    const qdot_token *clause; /* the first token behind `for` */
+    const qdot_token *clause, *end; /* the first token behind `for`; that behind the clause */
     qdot_vec(
         qdot_loop_index) indices; /* outermost first; each is bound in session->names */
     size_t error_at;
@@ -28,9 +28,9 @@ enum { QDOT_LOOP_PASSES = 10000000 }; /* the most passes of one index */
 
 /* Bind the indices to the first pass, then to the next; *more: there is such a pass. A
  * range may depend on the indices before it. After an error or the last pass nothing
- * is bound. */
+ * is bound. The clause at the cursor goes to `end`; NULL: to the end of the statement. */
 QDOT_MUST_CHECK qdot_status qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c,
-                                            bool *more);
+                                            const qdot_token *end, bool *more);
 QDOT_MUST_CHECK qdot_status qdot_loop_next(qdot_loop *loop, bool *more);
 /* Unbind all loop indices and free the loop. */
 void qdot_loop_end(qdot_loop *loop);

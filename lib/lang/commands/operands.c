@@ -3,7 +3,6 @@
 
 #include "expr/node.h"
 #include "expr/walk.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/member.h"
 
@@ -36,17 +35,18 @@ resolve_members(qdot_operand *o, const char **run, qdot_expr *e)
 }
 
 qdot_status
-qdot_operand_read(qdot_cursor *c, qdot_operand *o)
+qdot_operand_find(qdot_record *r, const qdot_filled *part, size_t k, qdot_operand *o)
 {
-    const qdot_token *start = c->at;
+    const qdot_compiled *program = &r->compiled.at[part->first + k];
+    qdot_cursor *c = &r->cursor;
     qdot_named_run *named = NULL;
     qdot_text label = {0};
     qdot_status status;
     const char *run;
     qdot_expr e;
 
-    QDOT_TRY(qdot_read_member(c, &e, &run));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_compiled_member(c, program, &e, &run));
+    c->error_at = program->from->start;
     o->session = c->session;
     QDOT_TRY(resolve_members(o, &run, &e));
     if (run != NULL)
@@ -54,7 +54,7 @@ qdot_operand_read(qdot_cursor *c, qdot_operand *o)
     o->run = named != NULL ? named->run : NULL;
     o->vector = qdot_expr_kind(c->session->pool, e) == QDOT_VEC;
     QDOT_TRY(qdot_runs_flatten(c->session, e, &o->columns));
-    qdot_token_text(c->session, start, c->at, &label);
+    qdot_token_text(c->session, program->from, program->to, &label);
     status = qdot_text_status(&label);
     if (status == QDOT_OK)
         o->label = label.at;
@@ -64,11 +64,11 @@ qdot_operand_read(qdot_cursor *c, qdot_operand *o)
 }
 
 qdot_status
-qdot_operands_read(qdot_cursor *c, qdot_operands *list)
+qdot_operands_find(qdot_record *r, const qdot_filled *first, qdot_operands *list)
 {
-    do {
+    for (const qdot_filled *part = first; part != NULL; part = qdot_record_next(r, part, first->node->text)) {
         qdot_operand o = {0};
-        qdot_status status = qdot_operand_read(c, &o);
+        qdot_status status = qdot_operand_find(r, part, 0, &o);
 
         if (status == QDOT_OK)
             status = qdot_vec_push(list, o);
@@ -76,7 +76,7 @@ qdot_operands_read(qdot_cursor *c, qdot_operands *list)
             qdot_operand_clear(&o);
             return status;
         }
-    } while (qdot_cursor_accept_op(c, ","));
+    }
     return QDOT_OK;
 }
 

@@ -2,8 +2,8 @@
 #ifndef QDOT_LANG_OPERANDS_H
 #define QDOT_LANG_OPERANDS_H
 
-#include "lang/language/cursor.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/record.h"
 
 typedef struct {
     char *label;               /* the source text; owned */
@@ -18,10 +18,12 @@ typedef qdot_vec(qdot_operand) qdot_operands;
 
 void qdot_operand_clear(qdot_operand *o);
 void qdot_operands_free(qdot_operands *list);
-/* [RUN .] EXPR; after an error the operand is still to be cleared. */
-QDOT_MUST_CHECK qdot_status qdot_operand_read(qdot_cursor *c, qdot_operand *o);
-/* Read a list of operands `E1, a.E2, ...`. */
-QDOT_MUST_CHECK qdot_status qdot_operands_read(qdot_cursor *c, qdot_operands *list);
+/* Expression k of the part, [RUN .] EXPR; after an error the operand is still to be cleared. */
+QDOT_MUST_CHECK qdot_status qdot_operand_find(qdot_record *r, const qdot_filled *part, size_t k,
+                                              qdot_operand *o);
+/* `E1, a.E2, ...`: the part and those behind it of its name. */
+QDOT_MUST_CHECK qdot_status qdot_operands_find(qdot_record *r, const qdot_filled *first,
+                                               qdot_operands *list);
 /* Use the latest run for operands that name none; QDOT_EINVAL if there is no run. */
 QDOT_MUST_CHECK qdot_status qdot_operands_find_runs(qdot_session *session,
                                                     qdot_operands *list);

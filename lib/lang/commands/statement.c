@@ -3,26 +3,20 @@
 
 #include <string.h>
 
-#include "lang/commands/handlers.h"
-
 #define DECLARE QDOT_DECLARING
 #define ASK QDOT_ASKING
 #define NUMBERS QDOT_NUMBERS
 #define WORKBENCH QDOT_WORKBENCH
 
-#define ROW(word, group, usage, summary, example, handler, alone)
 #define UNBUILT(word, group, usage, summary, example)
 #define STATEMENT(word) extern const qdot_statement qdot_statement_row_##word;
 #include "lang/commands/statement.def"
-#undef ROW
 #undef UNBUILT
 #undef STATEMENT
 
 static const qdot_statement *const table[] = {
-#define ROW(word, group, usage, summary, example, handler, alone)                        \
-    &(const qdot_statement){word, group, usage, summary, example, NULL, alone, NULL, handler},
 #define UNBUILT(word, group, usage, summary, example)                                    \
-    &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL, NULL},
+    &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL},
 #define STATEMENT(word) &qdot_statement_row_##word,
 #include "lang/commands/statement.def"
 };

@@ -1,9 +1,6 @@
 /* statement.h -- the table of statements of the language, for parsing, completion and help.
  *
- * A statement has its row at the begin of its file (lang/syntax/row.h), and statement.def names it.
- * Those that are not moved yet have their row there and their handler in handlers.h: it gets a cursor after the
- * statement's word, reads its operands, checks that nothing is left (qdot_cursor_expect_end) and
- * only then acts. script.c handles a trailing `for` and blocks: a handler sees each pass as a
+ * A statement has its row at the begin of its file (lang/syntax/row.h), and statement.def names it. script.c handles a trailing `for` and blocks: a handler sees each pass as a
  * separate statement that ends before `for`.
  *
  * Tests  tests/script/, tests/bad/, tests/lang/session/test_session.c

@@ -127,22 +127,3 @@ qdot_figure_file_show(qdot_session *session, const qdot_figure *figure, const ch
     qdot_text_clear(&own);
     return status;
 }
-
-qdot_status
-qdot_figure_file_read(qdot_cursor *c, const char **path)
-{
-    if (*path != NULL)
-        return qdot_cursor_once(c, "to", true);
-    if (c->at->kind != QDOT_TOKEN_STRING)
-        return qdot_cursor_expected(c, "the name of a file in quotes");
-    return qdot_read_string(c, path);
-}
-
-qdot_status
-qdot_figure_title_read(qdot_cursor *c, const char **title)
-{
-    if (c->at->kind == QDOT_TOKEN_STRING)
-        return qdot_read_string(c, title);
-    c->error_at = c->at->start;
-    return qdot_fail(QDOT_ESYNTAX, "`title` needs a text in quotes");
-}

@@ -11,9 +11,5 @@
 QDOT_MUST_CHECK qdot_status qdot_figure_file_show(qdot_session *session,
                                                   const qdot_figure *figure,
                                                   const char *path);
-/* Read the quoted file name after `to`. */
-QDOT_MUST_CHECK qdot_status qdot_figure_file_read(qdot_cursor *c, const char **path);
-/* Read the quoted text after `title`. */
-QDOT_MUST_CHECK qdot_status qdot_figure_title_read(qdot_cursor *c, const char **title);
 
 #endif

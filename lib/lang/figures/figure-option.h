@@ -24,20 +24,11 @@ typedef struct {
 #define QDOT_FIGURE_USAGE                                                                 \
     "[from A to B] [range A..B] [log x|y|xy] [title \"TEXT\"] [labels \"X\", ...] [size W, H] " \
     "[keep] [to \"FILE\"]"
-/* Take the options among the parts [from, to) of a statement. Errors: QDOT_EINVAL. */
+/* Those among the parts [from, to) of a statement; of the figure each once, whichever panel says it. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,
                                                     const qdot_filled *to, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
-/* Whether an option begins at the token. */
-bool qdot_figure_option_is(const qdot_token *token);
-/* Read all options at the cursor. Errors: QDOT_ESYNTAX, QDOT_EINVAL. */
-QDOT_MUST_CHECK qdot_status qdot_figure_option_read(qdot_cursor *c, qdot_figure_choice *figure,
-                                                    qdot_panel_choice *panel);
-/* The list of options in messages `expected ...`. */
-#define QDOT_FIGURE_OPTIONS                                                              \
-    "`from`, `range`, `log`, `title`, `labels`, `size`, `keep`, `to` or the end of the " \
-    "statement"
-/* Apply the options of a panel to it. */
+/* Put what was said of a panel into it. */
 void qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel);
 
 #endif

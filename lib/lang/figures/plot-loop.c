@@ -2,21 +2,14 @@
 #include "lang/figures/plot-loop.h"
 
 #include "lang/commands/loop-index.h"
-#include "lang/figures/figure-option.h"
 
-const qdot_token *
-qdot_plot_clause_end(const qdot_cursor *c)
+const qdot_filled *
+qdot_plot_find_word(const qdot_plot_said *said, const char *word)
 {
-    const qdot_token *end = qdot_cursor_find_word(c, NULL);
-    int depth = 0;
-
-    for (const qdot_token *t = c->at; t < end; t++) {
-        depth += qdot_token_bracket(t);
-        if (t > c->at && depth == 0 && qdot_figure_option_is(t) &&
-            (t[-1].kind != QDOT_TOKEN_OPERATOR || qdot_token_bracket(t - 1) < 0))
-            return t;
-    }
-    return end;
+    for (const qdot_filled *part = said->from; part < said->to; part++)
+        if (part->node->kind == QDOT_USAGE_WORD && qdot_filled_is(part, word))
+            return part;
+    return NULL;
 }
 
 qdot_status
@@ -32,38 +25,44 @@ qdot_plot_indices(qdot_session *session, const qdot_loop *loop, qdot_text *label
     return QDOT_OK;
 }
 
-qdot_status
-qdot_plot_loop_carry_out(qdot_cursor *c, const qdot_plot_loop *l)
+/* The token behind the clause that begins with the word `first`. */
+static const qdot_token *
+clause_end(const qdot_plot_said *said, const qdot_filled *first)
 {
-    qdot_token *behind = (qdot_token *)l->behind; /* an end to the clause for the while */
-    uint8_t kind = behind->kind;
-    qdot_cursor clause = *c;
+    const qdot_filled *last = first;
+
+    while (last + 1 < said->to && last[1].node->kind != QDOT_USAGE_WORD)
+        last++;
+    return last->to;
+}
+
+qdot_status
+qdot_plot_loop_carry_out(const qdot_plot_said *said, qdot_plot_pass pass, void *user)
+{
+    const qdot_filled *word = qdot_plot_find_word(said, "for");
+    const qdot_token *end = clause_end(said, word);
+    qdot_cursor *c = &said->record->cursor, clause = *c;
     qdot_status status;
     qdot_loop loop;
     bool more;
 
-    clause.at = l->clause;
-    behind->kind = QDOT_TOKEN_END;
-    status = qdot_loop_index_check(&clause, l->from, l->to, false);
+    clause.at = word->to;
+    status = qdot_loop_index_check(&clause, said->from->from - 1, word->from, end, false);
     if (status != QDOT_OK) {
-        behind->kind = kind;
         c->error_at = clause.error_at;
         return status;
     }
-    status = qdot_loop_begin(&loop, &clause, &more);
+    status = qdot_loop_begin(&loop, &clause, end, &more);
     if (status != QDOT_OK)
         c->error_at = loop.error_at;
     while (status == QDOT_OK && more) {
-        behind->kind = kind;
-        status = l->pass(c, &loop, l->user);
-        behind->kind = QDOT_TOKEN_END;
+        status = pass(said, &loop, user);
         if (status == QDOT_OK) {
             status = qdot_loop_next(&loop, &more);
             if (status != QDOT_OK)
                 c->error_at = loop.error_at;
         }
     }
-    behind->kind = kind;
     qdot_loop_end(&loop);
     return status;
 }

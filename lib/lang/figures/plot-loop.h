@@ -6,23 +6,24 @@
 #define QDOT_LANG_PLOT_LOOP_H
 
 #include "lang/commands/loop.h"
+#include "lang/syntax/record.h"
 
-/* The end of the clause at the cursor: the first option after something complete, or the end of the
- * statement. */
-const qdot_token *qdot_plot_clause_end(const qdot_cursor *c);
+/* What was said of one panel: the parts [from, to) of the statement, behind its word `plot`. */
+typedef struct {
+    qdot_record *record;
+    const qdot_filled *from, *to;
+} qdot_plot_said;
+
+/* That word among them; NULL: it is not there. */
+const qdot_filled *qdot_plot_find_word(const qdot_plot_said *said, const char *word);
 
 /* The present values of the loop indices as text: ", l = 1". */
 QDOT_MUST_CHECK qdot_status qdot_plot_indices(qdot_session *session, const qdot_loop *loop,
                                               qdot_text *label);
 
-/* What is repeated: the tokens [from, to) are looked through for the indices; `clause`, behind `for`,
- * ends at `behind`. */
-typedef struct {
-    const qdot_token *from, *to, *clause, *behind;
-    qdot_status (*pass)(qdot_cursor *c, const qdot_loop *loop, void *user);
-    void *user;
-} qdot_plot_loop;
-/* Repeat the body with each set of index values. The position of an error is in c->error_at. */
-QDOT_MUST_CHECK qdot_status qdot_plot_loop_carry_out(qdot_cursor *c, const qdot_plot_loop *l);
+/* Carry out each pass of the clause `for` with the indices bound. Each of these must occur in what stands before the
+ * clause. The place of an error is in the record's cursor. */
+typedef qdot_status (*qdot_plot_pass)(const qdot_plot_said *said, const qdot_loop *loop, void *user);
+QDOT_MUST_CHECK qdot_status qdot_plot_loop_carry_out(const qdot_plot_said *said, qdot_plot_pass pass, void *user);
 
 #endif

@@ -3,9 +3,7 @@
 
 #include "expr/calculus.h"
 #include "expr/node.h"
-#include "lang/figures/plot-loop.h"
 #include "lang/figures/plot-parts.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -17,20 +15,7 @@ typedef struct {
     const char *name;
     qdot_expr symbol; /* what the name means, or a symbol of its own */
     double from, to;
-    const qdot_token *clause; /* behind `for`; NULL: none */
-    const qdot_token *operands, *behind;
 } variable;
-
-const qdot_token *
-qdot_plot_over_find(const qdot_cursor *c)
-{
-    const qdot_token *vs = qdot_cursor_find_word(c, "vs");
-
-    return vs->kind == QDOT_TOKEN_NAME && vs[1].kind == QDOT_TOKEN_NAME &&
-                   vs[2].kind == QDOT_TOKEN_OPERATOR && strcmp(vs[2].text, "=") == 0
-               ? vs
-               : NULL;
-}
 
 static qdot_status
 over_values(void *user, size_t n, const double *s, double *values)
@@ -68,20 +53,20 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     return qdot_trace_begin(&one->source, FIRST_POINTS, s, &one->points);
 }
 
-/* Read one expression and make it a curve; the cursor ends after it. */
+/* One expression as a curve. */
 static qdot_status
-curve_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
+curve_over(qdot_record *r, const qdot_filled *part, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
 {
-    qdot_session *session = c->session;
-    const qdot_token *start = c->at;
+    const qdot_compiled *program = &r->compiled.at[part->first];
+    qdot_session *session = r->cursor.session;
     qdot_text axis = {0}, label = {0};
     qdot_plot_curve *curve;
     qdot_status status;
     qdot_expr e;
 
-    QDOT_TRY(qdot_read_scalar(c, &e));
-    c->error_at = start->start;
-    qdot_token_text_written(session, start, c->at, &axis);
+    QDOT_TRY(qdot_record_scalar(r, part, &e));
+    r->cursor.error_at = program->from->start;
+    qdot_token_text_written(session, program->from, program->to, &axis);
     qdot_text_add(&label, qdot_text_str(&axis));
     status = qdot_plot_indices(session, loop, &label);
     if (status == QDOT_OK)
@@ -97,100 +82,73 @@ curve_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_p
     return status;
 }
 
-/* The expressions, read anew for each pass of the loop; a curve each. */
-static qdot_status
-curves_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
-{
-    c->at = v->operands;
-    do
-        QDOT_TRY(curve_over(c, v, loop, p));
-    while (qdot_cursor_accept_op(c, ","));
-    return qdot_cursor_is_word(c, "vs") ? QDOT_OK : qdot_cursor_expected(c, "`vs`");
-}
-
-/* Read `NAME = A..B [for ...]` with options, after `vs`. */
-static qdot_status
-read_variable(qdot_cursor *c, variable *v, qdot_plot_panel *p, qdot_figure_choice *figure)
-{
-    const qdot_token *start = c->at;
-    const qdot_name *known;
-    qdot_expr from, to;
-
-    v->name = c->at->text;
-    known = qdot_names_find(c->session->names, v->name);
-    v->symbol =
-        known != NULL && qdot_expr_kind(c->session->pool, known->value) == QDOT_SYM
-            ? known->value
-            : qdot_symbol_get(c->session->pool, QDOT_FORMAL, v->name);
-    c->at += 2;
-    QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(qdot_session_number(c->session, from, &v->from, NULL));
-    QDOT_TRY(qdot_session_number(c->session, to, &v->to, NULL));
-    if (qdot_cursor_accept_word(c, "for")) {
-        v->clause = c->at;
-        c->at = qdot_plot_clause_end(c);
-    }
-    v->behind = c->at;
-    QDOT_TRY(qdot_figure_option_read(c, figure, &p->choice));
-    if (!qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, v->clause != NULL ? QDOT_FIGURE_OPTIONS
-                                                         : "`for`, " QDOT_FIGURE_OPTIONS);
-    if (p->choice.n_labels == 3) {
-        c->error_at = start->start;
-        return qdot_fail(QDOT_EINVAL, "axes in the plane have two labels");
-    }
-    return QDOT_OK;
-}
-
 typedef struct {
     const variable *v;
     qdot_plot_panel *panel;
 } repeated;
 
+/* The expressions, evaluated anew for each pass of the loop; a curve each. */
 static qdot_status
-pass(qdot_cursor *c, const qdot_loop *loop, void *user)
+curves_over(const qdot_plot_said *said, const qdot_loop *loop, void *user)
 {
-    const repeated *r = user;
+    const repeated *x = user;
 
-    return curves_over(c, r->v, loop, r->panel);
+    for (const qdot_filled *part = said->from; !qdot_filled_is(part, "vs"); part++)
+        if (part->node->kind == QDOT_USAGE_HOLE)
+            QDOT_TRY(curve_over(said->record, part, x->v, loop, x->panel));
+    return QDOT_OK;
 }
 
+/* `NAME = A..B` behind `vs`. */
 static qdot_status
-loop_over(qdot_cursor *c, const variable *v, qdot_plot_panel *p)
+find_variable(qdot_record *r, const qdot_filled *name, variable *v)
 {
-    repeated r = {v, p};
+    qdot_session *session = r->cursor.session;
+    const qdot_name *known;
+    qdot_expr from, to;
 
-    return qdot_plot_loop_carry_out(
-        c, &(qdot_plot_loop){v->operands, v->clause - 1, v->clause, v->behind, pass, &r});
+    QDOT_TRY(qdot_record_name(r, name, &v->name));
+    known = qdot_names_find(session->names, v->name);
+    v->symbol = known != NULL && qdot_expr_kind(session->pool, known->value) == QDOT_SYM
+                    ? known->value
+                    : qdot_symbol_get(session->pool, QDOT_FORMAL, v->name);
+    QDOT_TRY(qdot_record_range(r, qdot_record_next(r, name, "A..B"), &from, &to));
+    QDOT_TRY(qdot_session_number(session, from, &v->from, NULL));
+    return qdot_session_number(session, to, &v->to, NULL);
+}
+
+/* The options, of axes in the plane. */
+static qdot_status
+find_options(const qdot_plot_said *said, const qdot_filled *name, qdot_plot_panel *p, qdot_figure_choice *figure)
+{
+    QDOT_TRY(qdot_figure_option_find(said->record, said->from, said->to, figure, &p->choice));
+    if (p->choice.n_labels < 3)
+        return QDOT_OK;
+    qdot_record_blame(said->record, name);
+    return qdot_fail(QDOT_EINVAL, "axes in the plane have two labels");
 }
 
 qdot_status
-qdot_plot_over(qdot_cursor *c, const qdot_token *vs, qdot_plot_panel *p,
-               qdot_figure_choice *figure)
+qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *p, qdot_figure_choice *figure)
 {
-    variable v = {.operands = c->at};
-    qdot_cursor own = *c;
-    const qdot_token *end;
-    bool bound;
+    const qdot_filled *name = qdot_plot_find_word(said, "vs") + 1;
+    qdot_names *names = said->record->cursor.session->names;
+    variable v;
+    repeated x = {&v, p};
     qdot_status status;
+    bool bound;
 
-    own.at = vs + 1;
-    status = read_variable(&own, &v, p, figure);
-    end = own.at;
-    if (status == QDOT_OK) {
-        p->variable = qdot_strdup(v.name);
-        status = p->variable == NULL ? QDOT_ENOMEM : QDOT_OK;
-    }
-    bound = status == QDOT_OK && qdot_names_find(c->session->names, v.name) == NULL;
+    QDOT_TRY(find_variable(said->record, name, &v));
+    QDOT_TRY(find_options(said, name, p, figure));
+    p->variable = qdot_strdup(v.name);
+    if (p->variable == NULL)
+        return QDOT_ENOMEM;
+    bound = qdot_names_find(names, v.name) == NULL;
     if (bound)
-        status = qdot_names_push(c->session->names, v.name, v.symbol);
-    if (status == QDOT_OK)
-        status = v.clause != NULL ? loop_over(&own, &v, p) : curves_over(&own, &v, NULL, p);
+        QDOT_TRY(qdot_names_push(names, v.name, v.symbol));
+    status = qdot_plot_find_word(said, "for") != NULL ? qdot_plot_loop_carry_out(said, curves_over, &x)
+                                                      : curves_over(said, NULL, &x);
     if (bound)
-        qdot_names_pop(c->session->names);
-    c->error_at = own.error_at;
-    c->at = end;
-    if (status == QDOT_OK && p->curves.n == 0)
-        status = qdot_fail(QDOT_EINVAL, "there is no curve to plot");
-    return status;
+        qdot_names_pop(names);
+    return status == QDOT_OK && p->curves.n == 0 ? qdot_fail(QDOT_EINVAL, "there is no curve to plot") : status;
 }

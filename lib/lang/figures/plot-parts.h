@@ -4,6 +4,7 @@
 
 #include "lang/figures/figure-option.h"
 #include "lang/commands/operands.h"
+#include "lang/figures/plot-loop.h"
 #include "lang/figures/plot-runs.h"
 #include "show/trace.h"
 #include "tape/tape.h"
@@ -45,15 +46,11 @@ void qdot_plot_panel_clear(qdot_plot_panel *panel);
 QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
                                                 const char *axis, qdot_plot_curve **added);
 
-/* Read `E, ... [vs E], ... [for ...]` with options, and compute the first points of each curve
- * along its run. */
-QDOT_MUST_CHECK qdot_status qdot_plot_run(qdot_cursor *c, const qdot_plot_runs *runs,
+/* `E, ... [vs E], ... [for ...]` with options, and the first points of each curve along its run. */
+QDOT_MUST_CHECK qdot_status qdot_plot_run(const qdot_plot_said *said, const qdot_plot_runs *runs,
                                           qdot_plot_panel *panel, qdot_figure_choice *figure);
-/* The token `vs` of `vs NAME = A..B` outside brackets; NULL if there is none. */
-const qdot_token *qdot_plot_over_find(const qdot_cursor *c);
 /* `E, ... vs NAME = A..B [for ...]` with options, and the first points of each curve. */
-QDOT_MUST_CHECK qdot_status qdot_plot_over(qdot_cursor *c, const qdot_token *vs,
-                                           qdot_plot_panel *panel,
+QDOT_MUST_CHECK qdot_status qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *panel,
                                            qdot_figure_choice *figure);
 
 #endif

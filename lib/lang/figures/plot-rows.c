@@ -11,23 +11,19 @@
 /* FINE: points along an axis with uneven steps; MOST_PANELS: panels of a figure. */
 enum { FINE = 400, MOST_PANELS = 12 };
 
-/* The branches that `plot` without operands shows: those of the latest `continue` without a name. */
-static qdot_row_table *
-branches_alone(const qdot_cursor *c)
+/* The table that is named; of `plot` alone the branches of the latest `continue` without a name. NULL: there is none. */
+static const qdot_row_table *
+rows_find(const qdot_record *r)
 {
-    return qdot_row_tables_find(c->session, "branches");
+    const qdot_filled *name = qdot_record_hole(r, NULL, "ROWS");
+
+    return qdot_row_tables_find(r->cursor.session, name != NULL ? name->from->text : "branches");
 }
 
 bool
-qdot_plot_rows_is(const qdot_cursor *c)
+qdot_plot_rows_is(const qdot_record *r)
 {
-    const qdot_token *behind = c->at + 1;
-
-    if (qdot_cursor_is_end(c) || qdot_figure_option_is(c->at))
-        return branches_alone(c) != NULL;
-    return c->at->kind == QDOT_TOKEN_NAME
-           && (behind->kind == QDOT_TOKEN_END || qdot_figure_option_is(behind))
-           && qdot_row_tables_find(c->session, c->at->text) != NULL;
+    return qdot_record_hole(r, NULL, "ROWS") != NULL || qdot_record_hole(r, "plot", "EXPR") == NULL;
 }
 
 /* The column that is the abscissa: what was swept; of points with several numbers the first of these,
@@ -287,21 +283,35 @@ drawing_clear(drawing *d)
     qdot_free(d->numbers);
 }
 
-qdot_status
-qdot_plot_rows(qdot_cursor *c)
+/* What a table has none of: a loop, panels. */
+static qdot_status
+check_alone(qdot_record *r)
 {
-    const bool alone = qdot_cursor_is_end(c) || qdot_figure_option_is(c->at);
-    const qdot_row_table *t =
-        alone ? branches_alone(c) : qdot_row_tables_find(c->session, c->at->text);
+    for (const qdot_filled *part = r->parts.at; part < r->parts.at + r->parts.n; part++)
+        if (qdot_filled_is(part, "for") || qdot_filled_is(part, "|")) {
+            qdot_record_blame(r, part);
+            return qdot_fail(QDOT_EINVAL, "the figure of a table stands alone, without `%s`", part->node->text);
+        }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_plot_rows(qdot_record *r)
+{
+    const qdot_row_table *t = rows_find(r);
     qdot_figure_choice choice = {0};
     qdot_panel_choice of_panel = {0};
     drawing d = {0};
     qdot_status status;
 
-    c->at += !alone;
-    QDOT_TRY(qdot_figure_option_read(c, &choice, &of_panel));
-    if (!qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
+    if (t == NULL && r->start->kind == QDOT_TOKEN_END)
+        return qdot_record_expected(r, r->start, "an expression");
+    if (t == NULL) {
+        r->cursor.error_at = r->start->start;
+        return qdot_fail(QDOT_ESYNTAX, "expected an expression before `%s`", r->start->text);
+    }
+    QDOT_TRY(check_alone(r));
+    QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, &choice, &of_panel));
     status = rows_draw(t, &d);
     if (status == QDOT_OK) {
         qdot_panel *const panels = t->marks != NULL ? d.branches.panels : d.panels;
@@ -313,7 +323,7 @@ qdot_plot_rows(qdot_cursor *c)
 
         for (size_t i = 0; i < figure.n; i++)
             qdot_figure_option_apply(&of_panel, &panels[i]);
-        status = qdot_figure_file_show(c->session, &figure, choice.path);
+        status = qdot_figure_file_show(r->cursor.session, &figure, choice.path);
     }
     drawing_clear(&d);
     return status;

@@ -5,13 +5,13 @@
 #ifndef QDOT_LANG_PLOT_ROWS_H
 #define QDOT_LANG_PLOT_ROWS_H
 
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 
-/* Whether the cursor stands before the name of a table of rows, with options of a figure or nothing
- * behind it; or before these alone, where there are branches of equilibria. */
-bool qdot_plot_rows_is(const qdot_cursor *c);
-/* `NAME` with options: a curve for each number, over the one thing swept; over two, a map for each; of
- * random draws and of sections, points: the other numbers over the first. */
-QDOT_MUST_CHECK qdot_status qdot_plot_rows(qdot_cursor *c);
+/* Whether the statement `plot` names a table of rows, or nothing. */
+bool qdot_plot_rows_is(const qdot_record *r);
+/* `[NAME]` with options: a curve for each number, over the one thing swept; over two, a map for each; of
+ * random draws and of sections, points: the other numbers over the first. Without a name: the branches of equilibria or
+ * orbits. */
+QDOT_MUST_CHECK qdot_status qdot_plot_rows(qdot_record *r);
 
 #endif

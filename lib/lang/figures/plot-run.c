@@ -2,9 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lang/figures/plot-loop.h"
 #include "lang/figures/plot-parts.h"
-#include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/member.h"
 
@@ -24,108 +22,74 @@ push_item(qdot_plot_panel *p, bool drift)
     return QDOT_OK;
 }
 
-/* Whether the whole operand is `drift(...)`. */
-static bool
-is_drift(const qdot_cursor *c)
-{
-    qdot_cursor inside = *c;
-    const qdot_token *end;
-
-    if (!qdot_cursor_is_word(c, "drift") || !qdot_token_is(c->at + 1, "("))
-        return false;
-    inside.at += 2;
-    end = qdot_cursor_find_word(&inside, NULL);
-    return qdot_token_is(end, ")") &&
-           (end[1].kind == QDOT_TOKEN_END || end[1].kind == QDOT_TOKEN_NAME ||
-            qdot_token_is(end + 1, ","));
-}
-
-/* In a loop an operand's label is its text as typed; the values of the indices are added to all labels. */
+/* Expression k of the part as an operand; in a loop it is called as it was written: the indices stand behind all labels. */
 static qdot_status
-rename_written(qdot_cursor *c, const qdot_token *start, qdot_operand *o)
+operand_add(qdot_record *r, const qdot_filled *part, size_t k, qdot_plot_panel *p, qdot_operands *list)
 {
-    qdot_text label = {0};
+    const qdot_compiled *program = &r->compiled.at[part->first + k];
+    qdot_text written = {0};
+    qdot_operand o = {0};
+    qdot_status status = qdot_operand_find(r, part, k, &o);
 
-    qdot_token_text_written(c->session, start, c->at, &label);
-    if (qdot_text_status(&label) != QDOT_OK) {
-        qdot_text_clear(&label);
-        return QDOT_ENOMEM;
+    if (status == QDOT_OK && list == &p->versus && o.columns.n != 1) {
+        r->cursor.error_at = program->from->start;
+        status = qdot_fail(QDOT_ETYPE, "`vs` takes one number");
     }
-    qdot_free(o->label);
-    o->label = label.at;
-    return QDOT_OK;
+    if (status == QDOT_OK && p->passes.n > 0) {
+        qdot_token_text_written(r->cursor.session, program->from, program->to, &written);
+        status = qdot_text_status(&written);
+        if (status == QDOT_OK) {
+            qdot_free(o.label);
+            o.label = written.at;
+        } else {
+            qdot_text_clear(&written);
+        }
+    }
+    if (status == QDOT_OK)
+        status = qdot_vec_push(list, o);
+    if (status != QDOT_OK)
+        qdot_operand_clear(&o);
+    return status;
 }
 
 /* Read one item: E, or drift(E, ...). */
 static qdot_status
-read_item(qdot_cursor *c, qdot_plot_panel *p)
+read_item(qdot_record *r, const qdot_filled *part, qdot_plot_panel *p)
 {
-    const bool drift = is_drift(c);
+    const bool drift = part->n > 1;
 
-    if (drift)
-        c->at += 2;
-    do {
-        const qdot_token *start = c->at;
-        qdot_operand o = {0};
-        qdot_status status = qdot_operand_read(c, &o);
-
-        if (status == QDOT_OK && p->passes.n > 0)
-            status = rename_written(c, start, &o);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&p->operands, o);
-        if (status != QDOT_OK) {
-            qdot_operand_clear(&o);
-            return status;
-        }
+    for (size_t k = drift; k < part->n; k++) {
+        QDOT_TRY(operand_add(r, part, k, p, &p->operands));
         QDOT_TRY(push_item(p, drift));
-    } while (drift && qdot_cursor_accept_op(c, ","));
-    return drift ? qdot_cursor_expect_op(c, ")") : QDOT_OK;
-}
-
-/* E, the abscissa of the items from `first` on */
-static qdot_status
-read_versus(qdot_cursor *c, qdot_plot_panel *p, size_t first)
-{
-    const qdot_token *start = c->at;
-    qdot_operand o = {0};
-    qdot_status status = qdot_operand_read(c, &o);
-
-    if (status == QDOT_OK && o.columns.n != 1) {
-        c->error_at = start->start;
-        status = qdot_fail(QDOT_ETYPE, "`vs` takes one number");
     }
-    if (status == QDOT_OK && p->passes.n > 0)
-        status = rename_written(c, start, &o);
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&p->versus, o);
-    if (status != QDOT_OK) {
-        qdot_operand_clear(&o);
-        return status;
-    }
-    for (size_t i = first; i < p->items.n; i++)
-        p->items.at[i].versus = p->versus.n;
     return QDOT_OK;
 }
 
+/* E, ... [vs E], ...: an abscissa is that of the items since the one before. */
 static qdot_status
-read_items(qdot_cursor *c, qdot_plot_panel *p)
+read_items(const qdot_plot_said *said, qdot_plot_panel *p)
 {
     size_t first = p->items.n;
 
-    do {
-        QDOT_TRY(read_item(c, p));
-        if (qdot_cursor_accept_word(c, "vs")) {
-            QDOT_TRY(read_versus(c, p, first));
-            first = p->items.n;
+    for (const qdot_filled *part = said->from; part < said->to; part++) {
+        if (part->node->kind == QDOT_USAGE_WORD && !qdot_filled_is(part, "vs"))
+            return QDOT_OK;
+        if (part->node->kind != QDOT_USAGE_HOLE)
+            continue;
+        if (!qdot_filled_is(part - 1, "vs")) {
+            QDOT_TRY(read_item(said->record, part, p));
+            continue;
         }
-    } while (qdot_cursor_accept_op(c, ","));
+        QDOT_TRY(operand_add(said->record, part, 0, p, &p->versus));
+        while (first < p->items.n)
+            p->items.at[first++].versus = p->versus.n;
+    }
     return QDOT_OK;
 }
 
 /* --- a loop: the run once more for each pass ----------------------------------------------- */
 
 typedef struct {
-    const qdot_token *operands;
     const qdot_plot_runs *runs;
     qdot_plot_panel *panel;
 } repeated;
@@ -154,8 +118,9 @@ keep_run(qdot_session *session, qdot_plot_panel *p, qdot_operands *list, size_t 
 }
 
 static qdot_status
-read_pass(qdot_cursor *c, const qdot_loop *loop, void *user)
+read_pass(const qdot_plot_said *said, const qdot_loop *loop, void *user)
 {
+    qdot_cursor *c = &said->record->cursor;
     const repeated *r = user;
     qdot_plot_panel *p = r->panel;
     const size_t first = p->operands.n, first_versus = p->versus.n;
@@ -170,8 +135,7 @@ read_pass(qdot_cursor *c, const qdot_loop *loop, void *user)
         qdot_text_clear(&indices);
         return status;
     }
-    c->at = r->operands;
-    c->error_at = c->at->start;
+    c->error_at = said->from->from->start;
     status = r->runs->make(r->runs->user);
     if (status == QDOT_EFAILED) {
         const qdot_error error = *qdot_last_error();
@@ -180,9 +144,7 @@ read_pass(qdot_cursor *c, const qdot_loop *loop, void *user)
                         error.message);
     }
     if (status == QDOT_OK)
-        status = read_items(c, p);
-    if (status == QDOT_OK && !qdot_cursor_is_word(c, "for"))
-        status = qdot_cursor_expected(c, "`for`");
+        status = read_items(said, p);
     if (status == QDOT_OK)
         status = keep_run(c->session, p, &p->operands, first);
     if (status == QDOT_OK)
@@ -192,35 +154,14 @@ read_pass(qdot_cursor *c, const qdot_loop *loop, void *user)
 }
 
 static qdot_status
-read_loop(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p)
+read_loop(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_plot_panel *p)
 {
-    repeated r = {c->at, runs, p};
-    qdot_plot_loop l = {.from = c->at - 1, .pass = read_pass, .user = &r};
-    qdot_status status;
+    repeated r = {runs, p};
 
+    said->record->cursor.error_at = said->from[-1].from->start; /* `plot` */
     QDOT_TRY(runs->begin(runs->user));
-    l.to = qdot_cursor_find_word(c, "for");
-    l.clause = c->at = l.to + 1;
-    l.behind = qdot_plot_clause_end(c);
-    status = qdot_plot_loop_carry_out(c, &l);
-    if (status == QDOT_OK)
-        c->at = l.behind;
-    if (status == QDOT_OK && p->operands.n == 0)
-        status = qdot_fail(QDOT_EINVAL, "there is no curve to plot");
-    return status;
-}
-
-static qdot_status
-read_all(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p, qdot_figure_choice *figure)
-{
-    const bool repeats = qdot_token_is_word(qdot_cursor_find_word(c, "for"), "for");
-
-    QDOT_TRY(repeats ? read_loop(c, runs, p) : read_items(c, p));
-    QDOT_TRY(qdot_figure_option_read(c, figure, &p->choice));
-    if (qdot_cursor_is_end(c))
-        return QDOT_OK;
-    return qdot_cursor_expected(c, p->versus.n > 0 || repeats ? QDOT_FIGURE_OPTIONS
-                                                              : "`vs`, " QDOT_FIGURE_OPTIONS);
+    QDOT_TRY(qdot_plot_loop_carry_out(said, read_pass, &r));
+    return p->operands.n > 0 ? QDOT_OK : qdot_fail(QDOT_EINVAL, "there is no curve to plot");
 }
 
 /* Refuse curves that cannot share axes. */
@@ -445,15 +386,16 @@ curves_of(qdot_plot_panel *p, size_t i)
 }
 
 qdot_status
-qdot_plot_run(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p,
+qdot_plot_run(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_plot_panel *p,
               qdot_figure_choice *figure)
 {
-    const qdot_token *start = c->at;
+    qdot_record *r = said->record;
 
-    QDOT_TRY(read_all(c, runs, p, figure));
-    c->error_at = start->start;
+    QDOT_TRY(qdot_plot_find_word(said, "for") != NULL ? read_loop(said, runs, p) : read_items(said, p));
+    QDOT_TRY(qdot_figure_option_find(r, said->from, said->to, figure, &p->choice));
+    r->cursor.error_at = said->from->from->start;
     QDOT_TRY(check_kinds(p));
-    QDOT_TRY(qdot_operands_find_runs(c->session, &p->operands));
+    QDOT_TRY(qdot_operands_find_runs(r->cursor.session, &p->operands));
     for (size_t i = 0; i < p->operands.n; i++)
         QDOT_TRY(curves_of(p, i));
     return QDOT_OK;

@@ -219,62 +219,47 @@ tell_left_out(qdot_session *session, const qdot_figure *figure)
 
 /* --- the statement ------------------------------------------------------------------ */
 
-/* The next `|` outside brackets, or the end of the statement. */
-static qdot_token *
-find_bar(const qdot_cursor *c)
-{
-    const qdot_token *t = c->at;
-    int depth = 0;
-
-    for (; t->kind != QDOT_TOKEN_END && (depth > 0 || !qdot_token_is(t, "|")); t++)
-        depth += qdot_token_bracket(t);
-    return (qdot_token *)t;
-}
-
+/* A panel's parts, up to the next `|`. */
 static qdot_status
-read_panel(qdot_cursor *c, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
+read_panel(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {
+    const qdot_filled *vs = qdot_plot_find_word(said, "vs");
     qdot_plot_panel empty = {0}, *p;
-    const qdot_token *vs = qdot_plot_over_find(c);
 
     QDOT_TRY(qdot_vec_push(all, empty));
     p = &all->at[all->n - 1];
-    return vs != NULL ? qdot_plot_over(c, vs, p, figure) : qdot_plot_run(c, runs, p, figure);
+    if (said->from == said->to || !qdot_filled_is(said->from, "EXPR"))
+        return qdot_record_expected(said->record, said->from[-1].to, "an expression");
+    return vs != NULL && qdot_filled_is(vs + 1, "NAME") ? qdot_plot_over(said, p, figure)
+                                                        : qdot_plot_run(said, runs, p, figure);
 }
 
-/* Read the panels; while one is read the `|` after it acts as the end of the statement. */
 static qdot_status
-read_panels(qdot_cursor *c, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
+read_panels(qdot_record *r, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {
-    for (;;) {
-        qdot_token *bar = find_bar(c);
-        const uint8_t kind = bar->kind;
-        qdot_status status;
+    const qdot_filled *end = r->parts.at + r->parts.n;
+    qdot_plot_said said = {.record = r};
 
-        bar->kind = QDOT_TOKEN_END;
-        status = read_panel(c, runs, figure, all);
-        bar->kind = kind;
-        QDOT_TRY(status);
-        if (!qdot_cursor_accept_op(c, "|"))
-            return QDOT_OK;
-        if (!qdot_cursor_accept_word(c, "plot")) {
-            (void)qdot_cursor_expected(c, "`plot` and what the next panel shows");
-            return qdot_hint("plot A, B | plot C");
-        }
+    for (said.to = r->parts.at; said.to < end; ) {
+        said.from = said.to + (said.to == r->parts.at ? 1 : 2); /* behind `plot`, `| plot` */
+        for (said.to = said.from; said.to < end && !qdot_filled_is(said.to, "|");)
+            said.to++;
+        QDOT_TRY(read_panel(&said, runs, figure, all));
     }
+    return QDOT_OK;
 }
 
 qdot_status
-qdot_plot_figure(qdot_cursor *c, const qdot_plot_runs *runs)
+qdot_plot_figure(qdot_record *r, const qdot_plot_runs *runs)
 {
     qdot_figure_choice choice = {0};
     panels all = {0};
     frame f = {0};
     qdot_status status;
 
-    if (qdot_plot_rows_is(c))
-        return qdot_plot_rows(c);
-    status = read_panels(c, runs, &choice, &all);
+    if (qdot_plot_rows_is(r))
+        return qdot_plot_rows(r);
+    status = read_panels(r, runs, &choice, &all);
 
     if (status == QDOT_OK)
         status = build(&all, &f);
@@ -287,9 +272,9 @@ qdot_plot_figure(qdot_cursor *c, const qdot_plot_runs *runs)
 
         status = panels_refine(&all, &figure, &f);
         if (status == QDOT_OK)
-            status = tell_left_out(c->session, &figure);
+            status = tell_left_out(r->cursor.session, &figure);
         if (status == QDOT_OK)
-            status = qdot_figure_file_show(c->session, &figure, choice.path);
+            status = qdot_figure_file_show(r->cursor.session, &figure, choice.path);
     }
     free_frame(&f);
     for (size_t i = 0; i < all.n; i++)

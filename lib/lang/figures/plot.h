@@ -3,9 +3,9 @@
 #define QDOT_LANG_PLOT_H
 
 #include "lang/figures/plot-runs.h"
-#include "lang/language/cursor.h"
+#include "lang/syntax/record.h"
 
-/* Read the panels at the cursor, and draw and show them. */
-QDOT_MUST_CHECK qdot_status qdot_plot_figure(qdot_cursor *c, const qdot_plot_runs *runs);
+/* Draw and show the panels of the statement `plot`. */
+QDOT_MUST_CHECK qdot_status qdot_plot_figure(qdot_record *r, const qdot_plot_runs *runs);
 
 #endif

@@ -2,21 +2,8 @@
 #include "lang/files/row-file.h"
 
 #include "lang/answer/row-answer.h"
-#include "lang/figures/figure-file.h"
 #include "lang/runs/data-file.h"
 #include "lang/session/row-columns.h"
-
-qdot_row_table *
-qdot_row_file_named(const qdot_cursor *c)
-{
-    const qdot_token *behind = c->at + 1;
-
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return NULL;
-    if (behind->kind != QDOT_TOKEN_END && !qdot_token_is_word(behind, "to"))
-        return NULL;
-    return qdot_row_tables_find(c->session, c->at->text);
-}
 
 static qdot_status
 write_file(qdot_session *session, const qdot_row_table *t, const char *path)
@@ -31,18 +18,13 @@ write_file(qdot_session *session, const qdot_row_table *t, const char *path)
 }
 
 qdot_status
-qdot_row_file_statement(qdot_cursor *c, const qdot_row_table *table)
+qdot_row_file_answer(qdot_record *r, const qdot_row_table *table)
 {
-    const qdot_token *file;
-    const char *path = NULL;
+    const qdot_filled *file = qdot_record_hole(r, "to", NULL);
 
-    c->at++;
-    if (!qdot_cursor_accept_word(c, "to"))
-        return qdot_row_answer(c->session, table);
-    file = c->at;
-    QDOT_TRY(qdot_figure_file_read(c, &path));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = file->start;
-    QDOT_TRY(qdot_data_file_check(path));
-    return write_file(c->session, table, path);
+    if (file == NULL)
+        return qdot_row_answer(r->cursor.session, table);
+    qdot_record_blame(r, file);
+    QDOT_TRY(qdot_data_file_check(qdot_record_text(file)));
+    return write_file(r->cursor.session, table, qdot_record_text(file));
 }

@@ -8,12 +8,10 @@
 #ifndef QDOT_LANG_ROW_FILE_H
 #define QDOT_LANG_ROW_FILE_H
 
-#include "lang/language/cursor.h"
 #include "lang/session/row-tables.h"
+#include "lang/syntax/record.h"
 
-/* The table of rows that the token names, if `to` or the end of the statement follows; else NULL. */
-qdot_row_table *qdot_row_file_named(const qdot_cursor *c);
-/* The statement `NAME [to "FILE"]` at the cursor, NAME a table of rows: print it or write it. */
-QDOT_MUST_CHECK qdot_status qdot_row_file_statement(qdot_cursor *c, const qdot_row_table *table);
+/* Print the table, or write it to the file behind `to`. */
+QDOT_MUST_CHECK qdot_status qdot_row_file_answer(qdot_record *r, const qdot_row_table *table);
 
 #endif

@@ -1,99 +1,28 @@
-/* table.c -- the statements `table` and `save`. */
+/* table.c -- the statement `table`: numbers along runs, and the rows of many runs. */
 #include <math.h>
-#include <string.h>
 
 #include "base/number-text.h"
 #include "expr/build.h"
 #include "expr/exact.h"
-#include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/answer/table-answer.h"
-#include "lang/commands/handlers.h"
-#include "lang/declare/scene-file.h"
-#include "lang/figures/figure-file.h"
 #include "lang/runs/data-file.h"
 #include "lang/files/digits-table.h"
+#include "lang/files/grid.h"
 #include "lang/files/row-file.h"
-#include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 
-/* The number of significant digits in answers. */
-enum { DIGITS = 10 };
+static qdot_status table_answer(qdot_record *r);
 
-/* --- columns of numbers ------------------------------------------------------------- */
-
-typedef struct {
-    qdot_table table;
-    double *values; /* column by column */
-    char **labels;
-} grid;
-
-static void
-free_grid(grid *g)
-{
-    for (size_t i = 0; g->labels != NULL && i < g->table.n; i++)
-        qdot_free(g->labels[i]);
-    qdot_free(g->labels);
-    qdot_free(g->values);
-    qdot_free(g->table.columns);
-}
-
-static qdot_status
-new_grid(grid *g, size_t n, size_t rows)
-{
-    g->table.n = n;
-    g->table.rows = rows;
-    g->values = qdot_calloc(n * rows, sizeof *g->values);
-    g->labels = qdot_calloc(n, sizeof *g->labels);
-    g->table.columns = qdot_calloc(n, sizeof *g->table.columns);
-    if (g->values == NULL || g->labels == NULL || g->table.columns == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        g->table.columns[i] = (qdot_table_column){.digits = DIGITS, .gap = 2, .values = g->values + i * rows};
-    return QDOT_OK;
-}
-
-/* The heading of column i: its label, "R", or "R[2]" for one component of several. */
-static qdot_status
-label_column(grid *g, size_t i, const char *label, size_t component, size_t components)
-{
-    qdot_text text = {0};
-
-    qdot_text_add(&text, label);
-    if (components > 1)
-        qdot_text_format(&text, "[%zu]", component + 1);
-    if (qdot_text_status(&text) != QDOT_OK) {
-        qdot_text_clear(&text);
-        return QDOT_ENOMEM;
-    }
-    g->labels[i] = text.at;
-    g->table.columns[i].name = text.at;
-    return QDOT_OK;
-}
-
-/* Fill t and every column of the operands at these times. */
-static qdot_status
-fill_grid(grid *g, const qdot_operands *list, size_t rows, const double *times)
-{
-    size_t n = 1, next = 1;
-
-    for (size_t i = 0; i < list->n; i++)
-        n += list->at[i].columns.n;
-    QDOT_TRY(new_grid(g, n, rows));
-    memcpy(g->values, times, rows * sizeof *times);
-    QDOT_TRY(label_column(g, 0, "t", 0, 1));
-    for (size_t i = 0; i < list->n; i++) {
-        const qdot_operand *o = &list->at[i];
-
-        QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows, NULL));
-        for (size_t k = 0; k < o->columns.n; k++)
-            QDOT_TRY(label_column(g, next + k, o->label, k, o->columns.n));
-        next += o->columns.n;
-    }
-    return QDOT_OK;
-}
+QDOT_STATEMENT(table) = {
+    .word = "table",
+    .group = QDOT_NUMBERS,
+    .usage = "table EXPR, ... every DT [to \"FILE.csv|.json|.txt|.html|.h5\"] | table ROWS [to \"FILE.csv\"]",
+    .summary = "a table along the latest run, or of the rows of a sweep, a section, branches",
+    .example = "table theta, theta', energy every 0.1",
+    .handler = table_answer,
+};
 
 /* Numbers of operand o, whose columns [m x rows] these are, that have no digit because they are beyond
  * the horizon of its run become NaN. *some: whether there are any. */
@@ -130,7 +59,7 @@ blank_unknown(const qdot_operand *o, size_t rows, const double *times, double *c
 
 /* Blank the unknown values of all operands, with a notice. */
 static qdot_status
-blank_all_unknown(qdot_session *session, grid *g, const qdot_operands *list, const double *times)
+blank_all_unknown(qdot_session *session, qdot_grid *g, const qdot_operands *list, const double *times)
 {
     size_t next = 1;
     bool some = false;
@@ -154,17 +83,7 @@ only_run(const qdot_operands *list)
     return list->at[0].run;
 }
 
-/* Write to a file by its ending, or (path NULL) as an answer. run: that of all columns, or NULL. */
-static qdot_status
-write_grid(qdot_session *session, grid *g, qdot_run *run, const char *path)
-{
-    return path != NULL ? qdot_data_file_write(session, run, &g->table, path)
-                        : qdot_answer_table(session, "table", &g->table);
-}
-
-/* --- table -------------------------------------------------------------------------- */
-
-/* The time span that all the runs cover, in the direction of the first run. */
+/* What all the runs cover, in the direction of the first. */
 static qdot_status
 common_span(const qdot_operands *list, double *from, double *to)
 {
@@ -212,28 +131,18 @@ ladder(const qdot_operands *list, double step, double **times, size_t *n)
     return QDOT_OK;
 }
 
+/* The step behind `every`, and the file, NULL: none. */
 static qdot_status
-read_table(qdot_cursor *c, qdot_operands *list, qdot_expr *step, const char **path)
+table_find_options(qdot_record *r, qdot_expr *step, const char **path)
 {
-    bool every = false;
+    const qdot_filled *file = qdot_record_hole(r, "to", NULL);
 
-    QDOT_TRY(qdot_operands_read(c, list));
-    while (!qdot_cursor_is_end(c)) {
-        if (qdot_cursor_accept_word(c, "every")) {
-            QDOT_TRY(qdot_cursor_once(c, "every", every));
-            every = true;
-            QDOT_TRY(qdot_read_scalar(c, step));
-        } else if (qdot_cursor_accept_word(c, "to")) {
-            const qdot_token *at = c->at;
-
-            QDOT_TRY(qdot_figure_file_read(c, path));
-            c->error_at = at->start;
-            QDOT_TRY(qdot_data_file_check(*path));
-        } else {
-            return qdot_cursor_expected(c, "`every` or `to`");
-        }
-    }
-    return every ? QDOT_OK : qdot_cursor_expected(c, "`every` and a step");
+    QDOT_TRY(qdot_record_scalar(r, qdot_record_hole(r, "every", NULL), step));
+    if (file == NULL)
+        return QDOT_OK;
+    *path = qdot_record_text(file);
+    qdot_record_blame(r, file);
+    return qdot_data_file_check(*path);
 }
 
 /* A table of runs with `digits`: its times are exact, counted from the first one. */
@@ -259,175 +168,52 @@ exact_table(qdot_session *session, const qdot_operands *list, const double *time
     return status;
 }
 
-qdot_status
-qdot_table_statement(qdot_cursor *c)
+/* A table along runs. */
+static qdot_status
+table_along(qdot_record *r)
 {
-    const qdot_token *start = c->at;
+    qdot_session *session = r->cursor.session;
     qdot_operands list = {0};
     const char *path = NULL;
     double step = 0, *times = NULL;
     qdot_expr exact_step = QDOT_NIL;
     size_t rows = 0;
-    grid g = {0};
-    const qdot_row_table *table = qdot_row_file_named(c);
-    qdot_status status;
+    qdot_grid g = {0};
+    qdot_status status = qdot_operands_find(r, qdot_record_hole(r, "table", "EXPR"), &list);
 
-    if (table != NULL)
-        return qdot_row_file_statement(c, table);
-    status = read_table(c, &list, &exact_step, &path);
     if (status == QDOT_OK)
-        status = qdot_session_number(c->session, exact_step, &step, NULL);
+        status = table_find_options(r, &exact_step, &path);
+    if (status == QDOT_OK)
+        status = qdot_session_number(session, exact_step, &step, NULL);
     if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = qdot_operands_find_runs(c->session, &list);
+        r->cursor.error_at = r->start->start;
+        status = qdot_operands_find_runs(session, &list);
     }
     if (status == QDOT_OK)
         status = ladder(&list, step, &times, &rows);
     if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
-        status = exact_table(c->session, &list, times, exact_step, rows, path);
+        status = exact_table(session, &list, times, exact_step, rows, path);
         qdot_free(times);
         qdot_operands_free(&list);
         return status;
     }
     if (status == QDOT_OK)
-        status = fill_grid(&g, &list, rows, times);
-    if (status == QDOT_OK && path == NULL && !c->session->json)
-        status = blank_all_unknown(c->session, &g, &list, times);
+        status = qdot_grid_fill(&g, &list, rows, times);
+    if (status == QDOT_OK && path == NULL && !session->json)
+        status = blank_all_unknown(session, &g, &list, times);
     if (status == QDOT_OK)
-        status = write_grid(c->session, &g, only_run(&list), path);
-    free_grid(&g);
+        status = qdot_grid_write(session, &g, only_run(&list), path);
+    qdot_grid_free(&g);
     qdot_free(times);
     qdot_operands_free(&list);
     return status;
 }
 
-/* --- save --------------------------------------------------------------------------- */
-
 static qdot_status
-push_symbol(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operands *list)
+table_answer(qdot_record *r)
 {
-    qdot_operand o = {.run = run};
-    qdot_status status = qdot_pool_check(session->pool);
+    const qdot_filled *rows = qdot_record_hole(r, "table", "ROWS");
 
-    if (status == QDOT_OK)
-        status = qdot_vec_push(&o.columns, symbol);
-    if (status == QDOT_OK) {
-        o.label = qdot_strdup(qdot_expr_symbol(session->pool, symbol)->name);
-        status = o.label == NULL ? QDOT_ENOMEM : qdot_vec_push(list, o);
-    }
-    if (status != QDOT_OK)
-        qdot_operand_clear(&o);
-    return status;
-}
-
-/* Every coordinate, velocity and multiplier of the run as operands. */
-static qdot_status
-whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
-{
-    const qdot_run_report *report = qdot_run_get_report(run);
-
-    for (unsigned order = 0; order < 2; order++)
-        for (size_t i = 0; i < report->n - (order > 0 ? report->n_states : 0); i++) {
-            qdot_expr jet = qdot_symbol_jet(session->pool, report->coordinates[i], order);
-
-            QDOT_TRY(push_symbol(session, run, jet, list));
-        }
-    for (size_t k = 0; k < report->m; k++)
-        QDOT_TRY(push_symbol(session, run, report->multipliers[k], list));
-    return QDOT_OK;
-}
-
-/* Save a run with `digits` at its steps; the last is the exact end of the run. */
-static qdot_status
-exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
-           const double *times, const char *path)
-{
-    qdot_expr *at = qdot_calloc(rows + 1, sizeof *at);
-    bool *beside = qdot_calloc(rows + 1, sizeof *beside); /* an event, on either side */
-    qdot_status status = at != NULL && beside != NULL ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
-        if (k + 1 < rows)
-            at[k] = qdot_measured_rational(session->pool, times[k]);
-        beside[k] = qdot_run_is_before_event(run, k) || (k > 0 && qdot_run_is_before_event(run, k - 1));
-        status = qdot_pool_check(session->pool);
-    }
-    if (status == QDOT_OK)
-        status = qdot_digits_table(session, list, run, rows, at, beside, path);
-    qdot_free(at);
-    qdot_free(beside);
-    return status;
-}
-
-/* At events, fill the earlier of two rows of the same time with the state before the event. */
-static qdot_status
-fill_before_events(qdot_run *run, const qdot_operands *list, grid *g)
-{
-    for (size_t k = 0; k < g->table.rows; k++) {
-        if (!qdot_run_is_before_event(run, k))
-            continue;
-        for (size_t i = 0; i < list->n; i++) /* one column each */
-            QDOT_TRY(qdot_run_point_values(run, 1, list->at[i].columns.at, k,
-                                           g->values + (i + 1) * g->table.rows + k));
-    }
-    return QDOT_OK;
-}
-
-/* `save session to "FILE.lag"`, `save history ...`, at the name of the file. */
-static qdot_status
-save_statements(qdot_cursor *c, qdot_scene_file what)
-{
-    const qdot_token *name = c->at;
-
-    if (!qdot_scene_file_is(name))
-        return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
-    c->at++;
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    return qdot_scene_file_write(c, name, what);
-}
-
-qdot_status
-qdot_table_save(qdot_cursor *c)
-{
-    const qdot_token *start = c->at, *file;
-    const char *name = NULL, *path = NULL;
-    qdot_operands list = {0};
-    qdot_named_run *named;
-    const double *times;
-    qdot_status status;
-    grid g = {0};
-    size_t rows;
-
-    if (qdot_row_file_named(c) != NULL)
-        return qdot_row_file_statement(c, qdot_row_file_named(c));
-    if (!qdot_cursor_is_word(c, "to"))
-        QDOT_TRY(qdot_read_name(c, &name));
-    if (!qdot_cursor_accept_word(c, "to"))
-        return qdot_cursor_expected(c, "`to` and the name of a file");
-    if (name != NULL && (strcmp(name, "session") == 0 || strcmp(name, "history") == 0) &&
-        (qdot_scene_file_is(c->at) || qdot_runs_find(c->session, name, &named) != QDOT_OK))
-        return save_statements(c, name[0] == 's' ? QDOT_FILE_SESSION : QDOT_FILE_HISTORY);
-    file = c->at;
-    QDOT_TRY(qdot_figure_file_read(c, &path));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    c->error_at = file->start;
-    QDOT_TRY(qdot_data_file_check(path));
-    c->error_at = start->start;
-    QDOT_TRY(qdot_runs_find(c->session, name, &named));
-    times = qdot_run_times(named->run, &rows);
-    status = whole_state(c->session, named->run, &list);
-    if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
-        status = exact_save(c->session, &list, named->run, rows, times, path);
-        qdot_operands_free(&list);
-        return status;
-    }
-    if (status == QDOT_OK)
-        status = fill_grid(&g, &list, rows, times);
-    if (status == QDOT_OK)
-        status = fill_before_events(named->run, &list, &g);
-    if (status == QDOT_OK)
-        status = write_grid(c->session, &g, named->run, path);
-    free_grid(&g);
-    qdot_operands_free(&list);
-    return status;
+    return rows == NULL ? table_along(r)
+                        : qdot_row_file_answer(r, qdot_row_tables_find(r->cursor.session, rows->from->text));
 }

@@ -1,13 +1,26 @@
 /* plot-again.c -- the statement `plot`: `for l = [1, 2]` makes the latest run once more for each value. */
 #include <string.h>
 
-#include "lang/commands/handlers.h"
 #include "lang/commands/statement.h"
+#include "lang/figures/figure-option.h"
 #include "lang/figures/plot.h"
 #include "lang/runs/own-run.h"
 #include "lang/session/runs.h"
 #include "lang/source/source.h"
 #include "lang/syntax/match.h"
+
+static qdot_status plot_draw(qdot_record *r);
+
+QDOT_STATEMENT(plot) = {
+    .word = "plot",
+    .group = QDOT_NUMBERS,
+    .usage = "plot [EXPR [vs EXPR], ... | EXPR, ... vs NAME = A..B | ROWS] [for NAME = A..B, ...] " QDOT_FIGURE_USAGE
+             " [| plot ...]",
+    .summary = "a figure along the latest run, of an expression over a variable, or of a table of rows; panels one below "
+               "the other",
+    .example = "plot theta' vs theta range -3..3 to \"fig.svg\"",
+    .handler = plot_draw,
+};
 
 typedef struct {
     qdot_session *session;
@@ -100,12 +113,12 @@ again_drop(void *user)
     qdot_own_run_drop(((again *)user)->session);
 }
 
-qdot_status
-qdot_plot_statement(qdot_cursor *c)
+static qdot_status
+plot_draw(qdot_record *r)
 {
-    again a = {.session = c->session};
+    again a = {.session = r->cursor.session};
     const qdot_plot_runs runs = {again_begin, again_make, again_drop, &a};
-    const qdot_status status = qdot_plot_figure(c, &runs);
+    const qdot_status status = qdot_plot_figure(r, &runs);
 
     qdot_run_options_free(&a.run);
     qdot_record_free(&a.record);

@@ -50,16 +50,19 @@ is_of(const char *statement, const qdot_expected *list)
     return statement == NULL || strcmp(statement, list->usage->word) == 0;
 }
 
-/* Whether the words or signs of which `first` is the first come behind `before`; sign: a sign among them, or
+/* Whether the words or signs of which `first` is the first come behind `before`, or behind the first word of it where
+ * `next` (the first that is no option taken before) or `sign`, which is among them, is its second. next, sign may be
  * NULL. */
 static bool
-row_is_behind(const char *before, const qdot_usage_node *first, const qdot_usage_node *sign)
+row_is_behind(const char *before, const qdot_usage_node *first, const qdot_usage_node *next,
+              const qdot_usage_node *sign)
 {
     const size_t n = strlen(first->before);
 
     return strncmp(before, first->before, n) == 0 &&
            (before[n] == '\0' ||
-            (before[n] == ' ' && sign != NULL && strcmp(before + n + 1, sign->text) == 0));
+            (before[n] == ' ' && ((next != NULL && strcmp(before + n + 1, next->text) == 0) ||
+                                  (sign != NULL && strcmp(before + n + 1, sign->text) == 0))));
 }
 
 /* Add all nodes that may come next at `node`. */
@@ -81,8 +84,10 @@ expected_collect(qdot_expected *list, int node, bool taken)
     for (int i = 0; i < list->n; i++)
         if (list->node[i] == node)
             return;
-    if (list->n < QDOT_EXPECTED_NODES)
+    if (list->n < QDOT_EXPECTED_NODES) {
+        list->taken[list->n] = taken;
         list->node[list->n++] = node;
+    }
 }
 
 void
@@ -96,14 +101,14 @@ qdot_expected_add(qdot_expected *list, int node, uint64_t taken)
         expected_collect(list, at->next, true);
 }
 
-/* The first node of that kind in the order of the usage; NULL if none. */
+/* The first node of that kind, by the order of the usage; open: of no option that is taken. NULL: none. */
 static const qdot_usage_node *
-expected_first(const qdot_expected *list, int kind)
+expected_first(const qdot_expected *list, int kind, bool open)
 {
     int first = -1;
 
     for (int i = 0; i < list->n; i++)
-        if ((int)list->usage->node[list->node[i]].kind == kind &&
+        if ((int)list->usage->node[list->node[i]].kind == kind && !(open && list->taken[i]) &&
             (first < 0 || list->node[i] < first))
             first = list->node[i];
     return first >= 0 ? &list->usage->node[first] : NULL;
@@ -143,8 +148,10 @@ list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 static const expected_row *
 expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const qdot_usage_node *sign)
 {
+    const qdot_usage_node *next = expected_first(list, QDOT_USAGE_WORD, true);
+
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (is_of(rows[i].statement, list) && row_is_behind(rows[i].before, first, sign) &&
+        if (is_of(rows[i].statement, list) && row_is_behind(rows[i].before, first, next, sign) &&
             (!rows[i].name || list->token->kind == QDOT_TOKEN_NAME))
             return &rows[i];
     return NULL;
@@ -153,10 +160,10 @@ expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const
 const char *
 qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 {
-    const qdot_usage_node *word = expected_first(list, QDOT_USAGE_WORD),
-                          *sign = expected_first(list, QDOT_USAGE_SIGN),
-                          *hole = expected_first(list, QDOT_USAGE_HOLE),
-                          *end = expected_first(list, QDOT_USAGE_END),
+    const qdot_usage_node *word = expected_first(list, QDOT_USAGE_WORD, false),
+                          *sign = expected_first(list, QDOT_USAGE_SIGN, false),
+                          *hole = expected_first(list, QDOT_USAGE_HOLE, false),
+                          *end = expected_first(list, QDOT_USAGE_END, false),
                           *first = word != NULL ? word : sign;
     const expected_row *row = first != NULL ? expected_find_row(list, first, sign) : NULL;
 

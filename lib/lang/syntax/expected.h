@@ -18,6 +18,7 @@ typedef struct {
     const qdot_usage *usage;
     const qdot_token *token; /* the one that does not fit */
     int node[QDOT_EXPECTED_NODES]; /* what may come, options that are taken too */
+    bool taken[QDOT_EXPECTED_NODES];
     int n;
     bool given; /* the token is the word of an option that is taken */
     bool hole;  /* a hole may stand there, or is that of an option that is taken */

@@ -16,7 +16,9 @@ typedef enum {
     QDOT_HOLE_RANGE,      /* SIDE..SIDE */
     QDOT_HOLE_VALUES,     /* SIDE..SIDE, or SIDE */
     QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), as many as the hole names */
+    QDOT_HOLE_CURVE,      /* SIDE, and if that is drift(SIDE, ...) these as well */
     QDOT_HOLE_NAME,       /* name or name[SIDE, ...] */
+    QDOT_HOLE_ROWS,       /* the name of a table of rows that there is */
     QDOT_HOLE_DOMAIN,     /* the same of a new name, with its bounds: SIDE < name < SIDE */
     QDOT_HOLE_COORDINATE, /* the same with primes */
     QDOT_HOLE_CALL,       /* name(name, ...) */

@@ -21,8 +21,7 @@ typedef struct {
     const char *usage, *summary, *example;
     const char *form; /* in place of the usage in the hint that a clause is missing; NULL */
     bool alone; /* a value of the language that prints more if it is the whole statement */
-    qdot_status (*handler)(struct qdot_record *r);
-    qdot_status (*run)(qdot_cursor *c); /* of a statement that reads its tokens itself */
+    qdot_status (*handler)(struct qdot_record *r); /* NULL: it is not built yet */
 } qdot_statement;
 
 /* Define the row of a statement, at the beginning of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */
@@ -34,7 +33,7 @@ typedef struct {
 static inline bool
 qdot_statement_is_built(const qdot_statement *row)
 {
-    return row->handler != NULL || row->run != NULL;
+    return row->handler != NULL;
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* usage.c -- compiles the usage text of a statement to an automaton that tells what may come next. */
+/* usage.c -- the usage text of a row, compiled to an automaton. */
 #include "lang/syntax/usage.h"
 
 #include <ctype.h>
@@ -25,6 +25,8 @@ typedef struct {
     unsigned options;
     int depth;          /* of brackets around what is compiled */
     int tail, tail_end; /* the alternatives that end what is compiled; equal: none */
+    int alternative;
+    int again;          /* node behind the statement's word, where `[| plot ...]` goes on */
     bool failed;
 } compiler;
 
@@ -104,7 +106,7 @@ emit(compiler *c, int kind, const char *text)
         c->failed = true;
         return 0;
     }
-    *node = (qdot_usage_node){.next = u->n + 1, .other = -1};
+    *node = (qdot_usage_node){.next = u->n + 1, .other = -1, .alternative = c->alternative};
     node->kind = kind;
     strcpy(node->text, text);
     strcpy(node->before, c->before);
@@ -212,10 +214,12 @@ is_clause(const compiler *c, int i, int to)
            strcmp(c->piece[i].text, c->word) != 0;
 }
 
-/* Collect the clauses from i on, with the options among them; returns i if there are less than two. */
+/* Clauses from i on, with the options among them; i: there are less than two, or no one between an operand and options
+ * that end the usage: `EXPR, ... every DT [to "FILE"]`. */
 static int
 gather_clauses(compiler *c, int i, int to, members *m)
 {
+    const bool behind = i > 0 && (c->piece[i - 1].kind == HOLE || c->piece[i - 1].kind == MORE);
     const int start = i;
     int clauses = 0, k;
 
@@ -233,7 +237,7 @@ gather_clauses(compiler *c, int i, int to, members *m)
         clauses++;
         i = k;
     }
-    return clauses < 2 ? start : i;
+    return clauses + (behind && i == to && m->n > 1) < 2 ? start : i;
 }
 
 /* Whether one of the options has the form `word HOLE`, like a clause. */
@@ -344,6 +348,8 @@ compile_words(compiler *c, int i, int to)
         (void)emit(c, word ? QDOT_USAGE_WORD : QDOT_USAGE_HOLE, c->piece[i].text);
         if (word)
             strcpy(c->before, c->piece[i].text);
+        if (word && strcmp(c->piece[i].text, c->word) == 0)
+            c->again = c->u->n;
     }
     return end;
 }
@@ -417,7 +423,7 @@ compile_sequence(compiler *c, int i, int to)
                    strcmp(p->text, c->word) == 0) { /* the statement begins again */
             (void)emit(c, QDOT_USAGE_WORD, p->text);
             fork = emit(c, QDOT_USAGE_FORK, "");
-            c->u->node[fork].next = 1;
+            c->u->node[fork].next = c->again;
             c->u->node[fork].forgets = UINT64_MAX;
             i += 2;
         } else if (p->kind == WORD ||
@@ -498,6 +504,7 @@ compile(compiler *c, int from, int to)
         c->u->node[last].next = TO_END;
         c->u->node[fork].other = c->u->n;
         from = end + 1;
+        c->alternative++;
     }
     compile_tail(c, from, to);
     lead_to_end(c, start, last);
@@ -513,183 +520,25 @@ cut_into_pieces(compiler *c, const char *text)
     }
 }
 
-/* --- going on by tokens -------------------------------------------------------------- */
-
 static void
-add_state(qdot_usage *u, int node, bool inside, uint64_t taken)
+compile_text(compiler *c, const char *text)
 {
-    const qdot_usage_node *at = &u->node[node];
-
-    for (int i = 0; i < u->states; i++)
-        if (u->state[i].node == node && u->state[i].inside == inside &&
-            u->state[i].taken == taken)
-            return;
-    if (u->states >= QDOT_USAGE_STATES)
-        return; /* offers less */
-    u->state[u->states++] = (qdot_usage_state){node, inside, taken};
-    if (inside) {
-        if (u->operand)
-            add_state(u, at->next, false, taken);
-    } else if (at->kind == QDOT_USAGE_FORK) {
-        const bool missing = at->needs != 0 && (taken & at->needs) == 0;
-
-        taken &= ~at->forgets;
-        if ((taken & (at->enters | at->needs | at->later)) == 0)
-            add_state(u, at->next, false, taken | at->enters);
-        if (at->other >= 0 && !(missing && u->node[at->other].needs != at->needs))
-            add_state(u, at->other, false, taken);
-    }
-}
-
-static void
-compile_usage(compiler *c, const char *usage)
-{
-    c->u->n = c->u->states = 0;
-    c->u->word = c->word;
-    c->u->operand = false;
-    cut_into_pieces(c, usage);
+    cut_into_pieces(c, text);
     if (!c->failed)
         compile(c, 0, c->n);
 }
 
 bool
-qdot_usage_compile(qdot_usage *u, const char *word, const char *usage)
+qdot_usage_compile(qdot_usage *u, const char *word, const char *usage, const char *more)
 {
     compiler c = {.u = u, .word = word};
 
-    compile_usage(&c, usage);
+    u->n = u->states = 0;
+    u->word = word;
+    u->operand = false;
+    compile_text(&c, usage);
+    if (more != NULL)
+        compile_text(&c, more);
     (void)emit(&c, QDOT_USAGE_END, "");
     return !c.failed;
-}
-
-bool
-qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers)
-{
-    compiler c = {.u = u, .word = word};
-
-    compile_usage(&c, usage);
-    cut_into_pieces(&c, answers ? "[to \"FILE\"] [for NAME = A..B, NAME = A..B, ...]"
-                                : "[for NAME = A..B, NAME = A..B, ...]");
-    if (!c.failed)
-        compile(&c, 0, c.n);
-    (void)emit(&c, QDOT_USAGE_END, "");
-    if (c.failed)
-        return false;
-    add_state(u, 0, false, 0);
-    return true;
-}
-
-static bool
-is_connective(const qdot_token *token)
-{
-    return qdot_token_is_word(token, "and") || qdot_token_is_word(token, "or") ||
-           qdot_token_is_word(token, "not");
-}
-
-/* Whether the token continues the hole's expression: an operand that continues it, or one after an operator. */
-static bool
-continues(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
-{
-    if (token->kind == QDOT_TOKEN_END || qdot_token_is(token, ",") ||
-        qdot_token_is(token, ":") || qdot_token_is(token, "|"))
-        return false;
-    if (qdot_token_is(token, "=") && u->node[hole->next].kind == QDOT_USAGE_SIGN)
-        return false; /* NAME = VALUE */
-    if (!u->operand || is_connective(token))
-        return true;
-    if (token->kind == QDOT_TOKEN_OPERATOR && strchr("([", token->text[0]) != NULL)
-        return token->glued;
-    return token->kind == QDOT_TOKEN_OPERATOR ||
-           (token->kind == QDOT_TOKEN_NUMBER && token->glued &&
-            qdot_token_is(token - 1, "%"));
-}
-
-static bool
-begins(const qdot_token *token)
-{
-    return token->kind != QDOT_TOKEN_END && !qdot_token_is(token, ",") &&
-           !qdot_token_is(token, ":") && !qdot_token_is(token, "=");
-}
-
-/* Whether an operand ends with the token, or with the bracket that it opens. */
-static bool
-operand_ends_with(const qdot_token *token)
-{
-    if (token->kind != QDOT_TOKEN_OPERATOR)
-        return token->kind != QDOT_TOKEN_END && !is_connective(token);
-    return strchr("([{)]}'%", token->text[0]) != NULL;
-}
-
-/* Whether the next node of this state is a word or sign equal to the token. */
-static bool
-is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *token)
-{
-    const qdot_usage_node *at = &u->node[state->node];
-    const bool same = (at->kind == QDOT_USAGE_WORD && token->kind == QDOT_TOKEN_NAME) ||
-                      (at->kind == QDOT_USAGE_SIGN && token->kind == QDOT_TOKEN_OPERATOR);
-
-    return same && !state->inside && strcmp(at->text, token->text) == 0;
-}
-
-static void
-usage_take(qdot_usage *u, const qdot_token *token)
-{
-    qdot_usage_state old[QDOT_USAGE_STATES];
-    const int n = u->states;
-    const bool operand = u->operand, after = operand_ends_with(token);
-    bool word = false; /* a word of the usage is that, and begins no operand */
-
-    memcpy(old, u->state, sizeof *old * (size_t)n);
-    u->states = 0;
-    for (int i = 0; i < n; i++)
-        word = word || (u->node[old[i].node].kind == QDOT_USAGE_WORD &&
-                        is_next(u, &old[i], token));
-    for (int i = 0; i < n; i++) {
-        const qdot_usage_node *at = &u->node[old[i].node];
-
-        u->operand = operand;
-        if (at->kind == QDOT_USAGE_HOLE &&
-            (old[i].inside ? continues(u, at, token) : begins(token) && !word)) {
-            u->operand = after;
-            add_state(u, old[i].node, true, old[i].taken);
-        } else if (is_next(u, &old[i], token)) {
-            u->operand = after;
-            add_state(u, at->next, false, old[i].taken);
-        }
-    }
-    u->operand = after;
-}
-
-void
-qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to)
-{
-    while (from < to) {
-        int depth = 0;
-
-        usage_take(u, from);
-        do {
-            depth += qdot_token_bracket(from);
-            from++;
-        } while (depth > 0 && from < to);
-    }
-}
-
-bool
-qdot_usage_takes(const qdot_usage *u, const char *word)
-{
-    const qdot_token token = {.kind = QDOT_TOKEN_NAME, .text = word};
-
-    for (int i = 0; i < u->states; i++)
-        if (u->node[u->state[i].node].kind == QDOT_USAGE_WORD && is_next(u, &u->state[i], &token))
-            return true;
-    return false;
-}
-
-bool
-qdot_usage_is_whole(const qdot_usage *u)
-{
-    for (int i = 0; i < u->states; i++)
-        if (u->node[u->state[i].node].kind == QDOT_USAGE_END)
-            return true;
-    return false;
 }

@@ -16,7 +16,8 @@
  *                   name with its bounds as one: NAME [> 0], LO < NAME < HI
  *
  * Two or more clauses `word HOLE` outside of brackets may come in any order too, with the options
- * among them: `particle NAME mass M at R`; one behind options, `[title TEXT] to "FILE"`, too. Each must be there; of alternatives that end them,
+ * among them: `particle NAME mass M at R`;
+ * one behind options, `[title TEXT] to "FILE"`, or between an operand and options, `EXPR every DT [to "FILE"]`, too. Each must be there; of alternatives that end them,
  * `angle A | rotation MATRIX`, one. TAB offers them as they are written.
  *
  * Every statement may go on with `for NAME = A..B`, and one that answers with `to "FILE"`.
@@ -46,6 +47,7 @@ typedef struct {
     char text[QDOT_USAGE_TEXT], before[QDOT_USAGE_TEXT];
     int next, other;  /* nodes; other < 0 but for a FORK: none */
     int hole;         /* HOLE: its row of holes.def */
+    int alternative;  /* of those of the whole that begin with the statement's word */
     uint64_t enters;  /* FORK: the option that `next` begins; it may be taken once */
     uint64_t needs;   /* FORK of a clause: the clauses of which one must be there */
     uint64_t later;   /* FORK of an option among clauses: the clauses written behind it */
@@ -68,11 +70,12 @@ typedef struct {
     bool operand; /* the last token ends an operand */
 } qdot_usage;
 
-/* Compile; `word` is the statement's, "" where the usage has none. answers: `to "FILE"` may follow.
- * false: too large, or no usage text; nothing may be asked then. */
+/* Compile; `word` is the statement's, "" where the usage has none; more: a usage of what may follow, NULL: nothing. false:
+ * too large, or no usage text; nothing may be asked then. */
+bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage, const char *more);
+
+/* Compile, with what may follow any statement, for reading from its first token on. answers: `to "FILE"` may follow. */
 bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers);
-/* Compile a usage without `to`, `for` and the end, which may follow any statement. */
-bool qdot_usage_compile(qdot_usage *u, const char *word, const char *usage);
 
 /* Advance over the tokens [from, to) of the statement, the first of which is its word. Tokens
  * inside closed brackets are skipped with the opening one. */

@@ -45,6 +45,7 @@ enum {
     METHODS = 1 << 14,
     STATEMENTS = 1 << 15,
     KINDS = 1 << 16, /* what `remove` takes by its kind */
+    TABLES = 1 << 17, /* of rows */
     NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
     LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
     EXPRESSION =
@@ -172,6 +173,8 @@ offer_kinds(completion *c, unsigned kinds)
     offer_labels(c, kinds);
     for (size_t i = 0; (kinds & RUNS) != 0 && i < c->session->runs.n; i++)
         offer(c, c->session->runs.at[i].name);
+    for (size_t i = 0; (kinds & TABLES) != 0 && i < c->session->tables.n; i++)
+        offer(c, c->session->tables.at[i]->name);
 }
 
 /* --- within brackets ------------------------------------------------------------------- */

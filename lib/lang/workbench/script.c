@@ -102,7 +102,7 @@ find_usage(engine *x, const qdot_statement *row)
         if (strcmp(x->usages.at[i]->word, row->word) == 0)
             return x->usages.at[i];
     usage = qdot_malloc(sizeof *usage);
-    if (usage == NULL || !qdot_usage_compile(usage, row->word, row->usage) ||
+    if (usage == NULL || !qdot_usage_compile(usage, row->word, row->usage, NULL) ||
         qdot_vec_push(&x->usages, usage) != QDOT_OK) {
         qdot_free(usage);
         return NULL;
@@ -136,12 +136,7 @@ carry_out_row(engine *x, qdot_cursor *c, const qdot_statement *row)
 
     c->session->declares = qdot_statement_declares(row);
     qdot_short_names_forget(c->session);
-    if (row->handler != NULL) {
-        status = carry_out_record(x, c, row);
-    } else {
-        c->at++;
-        status = row->run(c);
-    }
+    status = carry_out_record(x, c, row);
     if (c->session->declares)
         status = qdot_short_names_tell(c->session, status);
     c->session->declares = false;
@@ -368,12 +363,12 @@ repeat(engine *x, size_t i, size_t word)
     qdot_status status;
     bool more;
 
-    status = qdot_loop_index_check(&c, &x->tokens[i], &x->tokens[word], false);
+    status = qdot_loop_index_check(&c, &x->tokens[i], &x->tokens[word], NULL, false);
     if (status != QDOT_OK) {
         x->error_at = c.error_at;
         return status;
     }
-    status = qdot_loop_begin(&loop, &c, &more);
+    status = qdot_loop_begin(&loop, &c, NULL, &more);
     while (status == QDOT_OK && more) {
         x->tokens[word].kind = QDOT_TOKEN_END;
         status = statement(x, i);
@@ -544,12 +539,12 @@ enter(engine *x, size_t i, size_t *next)
         return QDOT_ESYNTAX;
     }
     f.resume = find_end(x, f.close + 1);
-    status = qdot_loop_index_check(&c, &x->tokens[f.body], &x->tokens[f.close], true);
+    status = qdot_loop_index_check(&c, &x->tokens[f.body], &x->tokens[f.close], NULL, true);
     if (status != QDOT_OK) {
         x->error_at = c.error_at;
         return status;
     }
-    status = qdot_loop_begin(&f.loop, &c, &more);
+    status = qdot_loop_begin(&f.loop, &c, NULL, &more);
     if (status != QDOT_OK) {
         x->error_at = f.loop.error_at;
         return status;

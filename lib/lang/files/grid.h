@@ -1,0 +1,22 @@
+/* grid.h -- numbers along runs as columns, of `table` and `save`. */
+#ifndef QDOT_LANG_GRID_H
+#define QDOT_LANG_GRID_H
+
+#include "lang/commands/operands.h"
+#include "table/table.h"
+
+typedef struct {
+    qdot_table table;
+    double *values; /* column by column */
+    char **labels;
+} qdot_grid;
+
+/* t and every column of the operands at these times [rows]; free it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_grid_fill(qdot_grid *g, const qdot_operands *list, size_t rows,
+                                           const double *times);
+void qdot_grid_free(qdot_grid *g);
+/* To a file by its ending; path NULL: as an answer. run: that of all columns, or NULL. */
+QDOT_MUST_CHECK qdot_status qdot_grid_write(qdot_session *session, qdot_grid *g, qdot_run *run,
+                                            const char *path);
+
+#endif
