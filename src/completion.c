@@ -7,6 +7,8 @@
 
 #include <readline/readline.h>
 
+#include "base/memory.h"
+#include "base/text.h"
 #include "lang/workbench/complete.h"
 
 static qdot_session *session; /* readline's callbacks have no argument of ours */

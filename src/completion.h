@@ -5,7 +5,7 @@
 #ifndef QDOT_COMPLETION_H
 #define QDOT_COMPLETION_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* Install it in readline for this session. Within quotes file names are completed, with one closing
  * quote; behind a backslash Greek letters; elsewhere what may stand there

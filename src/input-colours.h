@@ -5,7 +5,7 @@
 #ifndef QDOT_SRC_INPUT_COLOURS_H
 #define QDOT_SRC_INPUT_COLOURS_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* From now on, if rl_outstream shows colours. */
 void qdot_input_colours_install(const qdot_session *session);

@@ -13,6 +13,10 @@
 
 #include "base/memory.h"
 #include "base/terminal.h"
+#include "expr/print-name.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
+#include "lang/session/session.h"
 #include "lang/workbench/script.h"
 #include "num/kinds.h"
 #include "parallel/ranks.h"
@@ -148,7 +152,7 @@ tasks_carry_out(qdot_session *session, const options *o)
 {
     int status = DONE;
 
-    for (size_t i = 0; i < o->tasks.n && !session->failed && !session->quit; i++) {
+    for (size_t i = 0; i < o->tasks.n && !session->outcome->failed && !session->outcome->quit; i++) {
         const task *t = &o->tasks.at[i];
 
         qdot_signals_computing();
@@ -156,7 +160,7 @@ tasks_carry_out(qdot_session *session, const options *o)
                      ? qdot_script_run_text(session, "-e", t->text, strlen(t->text))
                      : qdot_script_run_file(session, t->text);
     }
-    if ((o->tasks.n > 0 && !o->interactive) || session->quit)
+    if ((o->tasks.n > 0 && !o->interactive) || session->outcome->quit)
         return status;
     if (qdot_terminal_is(stdin)) {
         qdot_prompt_run(session, !o->quiet, !o->no_init);
@@ -268,12 +272,12 @@ main(int argc, char **argv)
         qdot_free(o.tasks.at);
         return qdot_ranks_end(FAILED);
     }
-    session->json = o.json;
+    session->output->json = o.json;
     if (!o.json && qdot_terminal_has_colours(stdout))
-        session->colours |= QDOT_COLOURS_ANSWERS;
+        session->output->colours |= QDOT_COLOURS_ANSWERS;
     if (qdot_terminal_has_colours(stderr))
-        session->colours |= QDOT_COLOURS_ERRORS;
-    session->style = o.json ? QDOT_PLAIN : style_here();
+        session->output->colours |= QDOT_COLOURS_ERRORS;
+    session->output->style = o.json ? QDOT_PLAIN : style_here();
     if (qdot_terminal_is(stderr) && !o.json)
         qdot_progress_line_install();
     qdot_signals_install();

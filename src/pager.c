@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "base/terminal.h"
 #include "base/utf8.h"
+#include "lang/session/output.h"
 
 static FILE *collected, *out, *err; /* the session's files meanwhile */
 static char *text;
@@ -33,18 +34,18 @@ qdot_pager_begin(qdot_session *session)
 {
     size_t columns, rows;
 
-    if (session->json || command() == NULL ||
-        !qdot_terminal_size(session->out, &columns, &rows))
+    if (session->output->json || command() == NULL ||
+        !qdot_terminal_size(session->output->out, &columns, &rows))
         return false;
     collected = open_memstream(&text, &length);
     if (collected == NULL)
         return false;
-    out = session->out;
-    err = session->err;
-    session->pages = session->out = collected;
-    session->screen = out;
+    out = session->output->out;
+    err = session->output->err;
+    session->output->pages = session->output->out = collected;
+    session->output->screen = out;
     if (isatty(fileno(err)))
-        session->err = collected; /* an error stays behind the answers before it */
+        session->output->err = collected; /* an error stays behind the answers before it */
     return true;
 }
 
@@ -105,9 +106,9 @@ void
 qdot_pager_end(qdot_session *session)
 {
     fclose(collected);
-    session->out = out;
-    session->err = err;
-    session->pages = session->screen = NULL;
+    session->output->out = out;
+    session->output->err = err;
+    session->output->pages = session->output->screen = NULL;
     if (length > 0 && !(is_longer_than_the_screen() && show_pages()))
         (void)fwrite(text, 1, length, out);
     fflush(out);

@@ -5,7 +5,7 @@
 #ifndef QDOT_PAGER_H
 #define QDOT_PAGER_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* Collect the answers and errors of a session that writes to a terminal, from here to
  * qdot_pager_end; false: they go where they always go, and nothing is to end. */

@@ -20,6 +20,9 @@
 #include "completion.h"
 #include "history.h"
 #include "input-colours.h"
+#include "lang/session/history.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
 #include "pager.h"
 #include "signals.h"
 #include "startup.h"
@@ -110,7 +113,7 @@ prepare(qdot_session *session)
     qdot_completion_install(session);
     rl_readline_name = "qdot";
     /* standard output may be a file, or hold only JSON */
-    rl_outstream = session->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
+    rl_outstream = session->output->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
     rl_persistent_signal_handlers = 1;
     rl_variable_bind("enable-bracketed-paste", "off");
     /* where the locale knows ASCII only, the bytes of θ are still no keys with Meta */
@@ -129,7 +132,7 @@ write_prompt(const qdot_session *session, bool first, qdot_text *prompt)
     int width;
 
     qdot_text_truncate(prompt, 0);
-    qdot_text_format(&plain, "qdot %zu> ", session->history.n + 1);
+    qdot_text_format(&plain, "qdot %zu> ", session->history->values.n + 1);
     width = (int)plain.n;
     if (!first) {
         qdot_text_truncate(&plain, 0);
@@ -203,8 +206,8 @@ input_carry_out(qdot_session *session, qdot_text *text)
         fprintf(stderr, "qdot: out of memory\n");
     else
         (void)qdot_script_run_text(session, "prompt", text->at, text->n);
-    fflush(session->out);
-    fflush(session->err);
+    fflush(session->output->out);
+    fflush(session->output->err);
     if (pages)
         qdot_pager_end(session);
     if (text->failed)
@@ -235,11 +238,11 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
     qdot_history_begin();
     if (banner)
         greet();
-    session->interactive = true;
+    session->output->interactive = true;
     qdot_signals_patient(true);
     if (startup)
         qdot_startup_read(session);
-    while (kind != ENDED && !session->quit) {
+    while (kind != ENDED && !session->outcome->quit) {
         kind = read_statement(session, &text);
         if (kind == LINE)
             input_carry_out(session, &text);
@@ -248,7 +251,7 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
         fputc('\n', rl_outstream);
     fflush(rl_outstream);
     qdot_signals_patient(false);
-    session->interactive = false;
+    session->output->interactive = false;
     qdot_text_clear(&text);
     qdot_history_end();
 }

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 
 #include "base/text.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
+#include "lang/session/typed.h"
 
 /* Lines are read until they are a statement or several: brackets closed, no line continued. Appended to `text`; *lines
  * grows by their number. false: there are no more. */
@@ -34,8 +37,8 @@ qdot_stream_run(qdot_session *session)
     qdot_text text = {0};
     size_t lines = 0; /* read so far */
 
-    session->typed.told = true;
-    while (!session->quit) {
+    session->typed->told = true;
+    while (!session->outcome->quit) {
         qdot_text_truncate(&text, 0);
         for (size_t k = 0; k < lines; k++)
             qdot_text_char(&text, '\n'); /* so that lines have their numbers in all of the input */
@@ -46,9 +49,9 @@ qdot_stream_run(qdot_session *session)
             break;
         }
         (void)qdot_script_run_text(session, "standard input", text.at, text.n);
-        fflush(session->out);
-        fflush(session->err);
+        fflush(session->output->out);
+        fflush(session->output->err);
     }
-    session->typed.told = false;
+    session->typed->told = false;
     qdot_text_clear(&text);
 }

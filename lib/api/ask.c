@@ -11,6 +11,8 @@
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
 #include "lang/workbench/script.h"
 #include "normal/prove/decide.h"
 
@@ -66,14 +68,14 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
     if ((unsigned)notation > QDOT_NOTATION_JSON)
         return qdot_api_refuse(system, "ask: there is no notation %d", (int)notation);
     session = system->session;
-    before = session->style;
+    before = session->output->style;
     status = qdot_api_begin(system);
-    session->json = notation == QDOT_NOTATION_JSON;
-    session->style = session->json ? QDOT_PLAIN : (qdot_style)notation;
+    session->output->json = notation == QDOT_NOTATION_JSON;
+    session->output->style = session->output->json ? QDOT_PLAIN : (qdot_style)notation;
     if (status == QDOT_OK)
         status = qdot_script_carry_out(session, "ask", text, strlen(text));
-    session->json = false;
-    session->style = before;
+    session->output->json = false;
+    session->output->style = before;
     result = qdot_api_end(system, status);
     *answers = take_answers(system);
     return result;
@@ -149,7 +151,7 @@ static qdot_status
 read_claim(qdot_cursor *c, void *data)
 {
     qdot_truth *truth = data;
-    const size_t *verdicts = c->session->verdicts;
+    const size_t *verdicts = c->session->outcome->verdicts;
 
     QDOT_TRY(qdot_check(c));
     *truth = verdicts[QDOT_REFUTED] > 0     ? QDOT_TRUTH_REFUTED

@@ -16,7 +16,7 @@ qdot_api_place(const qdot_motion *motion)
     const qdot_session *session = motion->system->session;
     size_t i = 0;
 
-    while (i < session->runs.n && session->runs.at[i].run != motion->run.run)
+    while (i < session->runs->n && session->runs->at[i].run != motion->run.run)
         i++;
     return i;
 }
@@ -24,11 +24,11 @@ qdot_api_place(const qdot_motion *motion)
 static void
 forget_run(qdot_session *session, size_t i)
 {
-    qdot_named_run gone = session->runs.at[i];
+    qdot_named_run gone = session->runs->at[i];
 
-    memmove(&session->runs.at[i], &session->runs.at[i + 1],
-            (session->runs.n - i - 1) * sizeof gone);
-    session->runs.n--;
+    memmove(&session->runs->at[i], &session->runs->at[i + 1],
+            (session->runs->n - i - 1) * sizeof gone);
+    session->runs->n--;
     qdot_named_run_release(&gone);
 }
 
@@ -40,7 +40,7 @@ qdot_motion_free(qdot_motion *motion)
     if (!motion->named) {
         const size_t i = qdot_api_place(motion);
 
-        if (i < motion->system->session->runs.n)
+        if (i < motion->system->session->runs->n)
             forget_run(motion->system->session, i);
     }
     qdot_named_run_release(&motion->run);
@@ -94,7 +94,7 @@ static const qdot_named_run *
 added_run(const qdot_session *session, const qdot_named_run *last)
 {
     const qdot_named_run *now =
-        session->runs.n > 0 ? &session->runs.at[session->runs.n - 1] : NULL;
+        session->runs->n > 0 ? &session->runs->at[session->runs->n - 1] : NULL;
 
     return now != NULL && now->run != last->run ? now : NULL;
 }
@@ -120,8 +120,8 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
     m = status == QDOT_OK ? qdot_calloc(1, sizeof *m) : NULL;
     if (m == NULL)
         return qdot_api_end(system, QDOT_ENOMEM);
-    if (session->runs.n > 0) {
-        last = session->runs.at[session->runs.n - 1];
+    if (session->runs->n > 0) {
+        last = session->runs->at[session->runs->n - 1];
         ++*last.uses;
     }
     qdot_runs_next_name(session, name, sizeof name);

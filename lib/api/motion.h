@@ -4,6 +4,7 @@
 
 #include "api/system.h"
 #include "base/memory.h"
+#include "lang/session/runs.h"
 
 struct qdot_motion {
     qdot_system *system; /* a use of it */

@@ -8,6 +8,9 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "lang/answer/answer.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
+#include "lang/session/session.h"
 #include "lang/source/source.h"
 
 /* --- results -------------------------------------------------------------------------- */
@@ -144,10 +147,10 @@ qdot_api_begin(qdot_system *system)
         if (system->stream[i].file == NULL)
             return qdot_fail(QDOT_ENOMEM, "no memory for answers");
     }
-    session->out = system->stream[QDOT_API_ANSWERS].file;
-    session->err = system->stream[QDOT_API_ERRORS].file;
-    session->console = system->stream[QDOT_API_NOTICES].file;
-    memset(session->verdicts, 0, sizeof session->verdicts);
+    session->output->out = system->stream[QDOT_API_ANSWERS].file;
+    session->output->err = system->stream[QDOT_API_ERRORS].file;
+    session->output->console = system->stream[QDOT_API_NOTICES].file;
+    memset(session->outcome->verdicts, 0, sizeof session->outcome->verdicts);
     return QDOT_OK;
 }
 
@@ -158,8 +161,8 @@ forget_call(qdot_session *session)
     if (session->undo != NULL)
         session->undo_free(session->undo);
     session->undo = NULL;
-    session->out = session->err = session->console = NULL;
-    session->quit = session->refuted = session->failed = false;
+    session->output->out = session->output->err = session->output->console = NULL;
+    session->outcome->quit = session->outcome->refuted = session->outcome->failed = false;
 }
 
 qdot_result

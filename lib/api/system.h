@@ -9,6 +9,8 @@
 #ifndef QDOT_API_SYSTEM_H
 #define QDOT_API_SYSTEM_H
 
+#include <stdio.h>
+
 #include "lang/language/cursor.h"
 #include "qdot.h"
 

@@ -13,7 +13,7 @@ _Static_assert((int)QDOT_OVER_DRIFT == (int)QDOT_RANGE_DRIFT, "range");
 static qdot_status
 motion_check_place(const qdot_motion *motion)
 {
-    if (qdot_api_place(motion) < motion->system->session->runs.n)
+    if (qdot_api_place(motion) < motion->system->session->runs->n)
         return QDOT_OK;
     return qdot_fail(QDOT_ENAME, "the run `%s` is no longer in the system", motion->run.name);
 }

@@ -5,6 +5,8 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "fuzz.h"
+#include "lang/session/history.h"
+#include "lang/session/session.h"
 
 #include "expr/walk.h"
 #include "lang/session/measured.h"
@@ -34,12 +36,12 @@ interrupted(void)
 static qdot_expr
 value_of(qdot_session *session, const char *text, size_t length)
 {
-    size_t before = session->history.n;
+    size_t before = session->history->values.n;
 
     if (qdot_script_run_text(session, "fuzz", text, length) != 0 ||
-        session->history.n != before + 1)
+        session->history->values.n != before + 1)
         return QDOT_NIL;
-    return session->history.at[before];
+    return session->history->values.at[before];
 }
 
 static void

@@ -17,8 +17,11 @@
 #include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/language/read.h"
+#include "lang/session/names.h"
+#include "lang/session/session.h"
 #include "lang/source/source.h"
 #include "lang/workbench/script.h"
+#include "mech/scene/scene.h"
 
 typedef struct {
     qdot_session *session;

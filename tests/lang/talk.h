@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lang/session/session.h"
 #include "lang/workbench/script.h"
 
 typedef struct {

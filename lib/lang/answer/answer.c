@@ -16,7 +16,12 @@
 #include "lang/answer/expression.h"
 #include "lang/answer/sheet.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/measured.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
+#include "lang/session/text-list.h"
+#include "lang/session/typed.h"
 #include "lang/source/source.h"
 
 /* A code for a colour of answers, "" where none is shown. */
@@ -31,7 +36,7 @@ static qdot_status
 end_object(qdot_session *session, qdot_status status, qdot_text *line)
 {
     if (status == QDOT_OK)
-        status = qdot_write_object(session, session->out, line);
+        status = qdot_write_object(session, session->output->out, line);
     qdot_text_clear(line);
     return status;
 }
@@ -131,14 +136,14 @@ qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
         const char *words = qdot_expr_symbol(session->pool, value)->name;
         qdot_sheet s;
 
-        if (session->page == NULL || session->style != QDOT_LATEX)
+        if (session->output->page == NULL || session->output->style != QDOT_LATEX)
             return qdot_answer_text(session, name, words);
         s = qdot_sheet_begin(session);
         qdot_sheet_open(&s); /* of latex(...) */
         qdot_formula_add_latex(&s.formula, s.at, words, strlen(words));
         return qdot_sheet_end(&s, name, QDOT_OK);
     }
-    return session->json ? expr_json(session, name, value)
+    return session->output->json ? expr_json(session, name, value)
                          : expr_text(session, name, value);
 }
 
@@ -150,7 +155,7 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
     qdot_status status;
     qdot_sheet s;
 
-    if (session->json)
+    if (session->output->json)
         return expr_json(session, name, value);
     s = qdot_sheet_begin(session);
     qdot_sheet_open(&s);
@@ -233,7 +238,7 @@ numbers_json(qdot_session *session, const char *name, bool several,
     qdot_text_add(&line, qdot_text_str(errors));
     qdot_text_add(&line, several ? "]}\n" : "}\n");
     line.failed = line.failed || values->failed || errors->failed;
-    return qdot_write_object(session, session->out, &line);
+    return qdot_write_object(session, session->output->out, &line);
 }
 
 static qdot_status
@@ -243,7 +248,7 @@ numbers(qdot_session *session, const char *name, bool several, size_t n,
     qdot_text list[2] = {{0}};
     qdot_status status;
 
-    if (!session->json)
+    if (!session->output->json)
         return numbers_text(session, name, n, values, errors);
     for (size_t i = 0; i < 2 * n; i++) {
         qdot_text_add(&list[i % 2], i > 1 ? "," : "");
@@ -275,7 +280,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     qdot_status status;
     qdot_sheet s;
 
-    if (session->json)
+    if (session->output->json)
         return numbers_json(session, name, several, values, errors);
     s = qdot_sheet_begin(session);
     status = open_named(&s, name);
@@ -390,8 +395,8 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_status status;
 
     qdot_text_format(&line, "{\"kind\":\"check\",\"verdict\":\"%s\"", verdicts[decision->verdict]);
-    if (session->claim != NULL)
-        qdot_write_field(&line, ",\"claim\":", session->claim);
+    if (session->evaluation->claim != NULL)
+        qdot_write_field(&line, ",\"claim\":", session->evaluation->claim);
     qdot_text_add(&line, ",\"left\":");
     status = print_side(session, left, &part);
     qdot_text_json(&line, qdot_text_str(&part));
@@ -421,8 +426,8 @@ qdot_status
 qdot_answer_check(qdot_session *session, qdot_expr left, qdot_expr right,
                   const qdot_decision *decision)
 {
-    session->verdicts[decision->verdict]++;
-    return session->json ? check_json(session, left, right, decision)
+    session->outcome->verdicts[decision->verdict]++;
+    return session->output->json ? check_json(session, left, right, decision)
                          : check_text(session, decision);
 }
 
@@ -433,16 +438,16 @@ qdot_answer_file(qdot_session *session, const char *path)
 {
     qdot_text line = {0};
 
-    if (session->json) {
+    if (session->output->json) {
         qdot_write_field(&line, "{\"kind\":\"file\",\"path\":", path);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_add(&line, "wrote ");
         qdot_text_add(&line, path);
         qdot_text_char(&line, '\n');
-        return qdot_write(session, session->out, &line);
+        return qdot_write(session, session->output->out, &line);
     }
-    return qdot_write_object(session, session->out, &line);
+    return qdot_write_object(session, session->output->out, &line);
 }
 
 qdot_status
@@ -458,10 +463,10 @@ enum { NOTICE = 4096 };
 static qdot_status
 put_notice(qdot_session *session, const char *message)
 {
-    FILE *const file = session->console != NULL ? session->console : session->out;
+    FILE *const file = session->output->console != NULL ? session->output->console : session->output->out;
     qdot_text line = {0};
 
-    if (session->console != NULL ? session->console_json : session->json) {
+    if (session->output->console != NULL ? session->output->console_json : session->output->json) {
         qdot_write_field(&line, "{\"kind\":\"notice\",\"message\":", message);
         qdot_text_add(&line, "}\n");
     } else {
@@ -516,13 +521,13 @@ qdot_answer_notice_once(qdot_session *session, const char *format, ...)
     va_start(ap, format);
     vsnprintf(message, sizeof message, format, ap);
     va_end(ap);
-    for (size_t i = 0; i < session->told.n; i++)
-        if (strcmp(session->told.at[i], message) == 0)
+    for (size_t i = 0; i < session->told->n; i++)
+        if (strcmp(session->told->at[i], message) == 0)
             return QDOT_OK;
     copy = qdot_strdup(message);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    if (qdot_vec_push(&session->told, copy) != QDOT_OK) {
+    if (qdot_vec_push(session->told, copy) != QDOT_OK) {
         qdot_free(copy);
         return QDOT_ENOMEM;
     }
@@ -550,21 +555,21 @@ error_json(qdot_session *session, const qdot_source *source, size_t at,
         qdot_text_json(&line, error->hint);
     else
         qdot_text_add(&line, "null");
-    if (session->typed.under_way)
-        qdot_text_format(&line, ",\"statement\":%zu", session->typed.number);
+    if (session->typed->under_way)
+        qdot_text_format(&line, ",\"statement\":%zu", session->typed->number);
     qdot_text_add(&line, "}\n");
-    (void)!qdot_write(session, session->out, &line);
+    (void)!qdot_write(session, session->output->out, &line);
 }
 
 void
 qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
 {
     qdot_error error = *qdot_last_error(); /* what follows may fail in its turn */
-    const bool colours = (session->colours & QDOT_COLOURS_ERRORS) != 0;
+    const bool colours = (session->output->colours & QDOT_COLOURS_ERRORS) != 0;
     qdot_text text = {0};
 
     if (source != NULL) {
-        qdot_source_report(source, at, &error, colours, qdot_write_width(session, session->err),
+        qdot_source_report(source, at, &error, colours, qdot_write_width(session, session->output->err),
                            &text);
     } else {
         qdot_text_format(&text, "%serror:%s %s\n", colours ? QDOT_RED : "",
@@ -573,10 +578,10 @@ qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
             qdot_text_format(&text, "%shint:%s %s\n", colours ? QDOT_CYAN : "",
                              colours ? QDOT_COLOUR_END : "", error.hint);
     }
-    fflush(session->out);
-    if (qdot_write(session, session->err, &text) != QDOT_OK)
-        fprintf(session->err, "error: %s\n", error.message); /* no memory for more */
-    if (session->json)
+    fflush(session->output->out);
+    if (qdot_write(session, session->output->err, &text) != QDOT_OK)
+        fprintf(session->output->err, "error: %s\n", error.message); /* no memory for more */
+    if (session->output->json)
         error_json(session, source, at, &error);
     (void)qdot_fail_again(&error);
 }

@@ -1,7 +1,7 @@
 /* answer.h -- prints the answers of a session: one function for each kind of answer, as text or
  * as JSON.
  *
- * Text goes to session->out in the session's style; with --json one object a line (kinds
+ * Text goes to session->output->out in the session's style; with --json one object a line (kinds
  * and fields as the language reference has them). Doubles are written with 17 digits in
  * JSON, null where they are not finite; in text with the digits that their error leaves
  * meaningful.
@@ -11,7 +11,9 @@
 #ifndef QDOT_LANG_ANSWER_H
 #define QDOT_LANG_ANSWER_H
 
+#include "base/text.h"
 #include "lang/answer/write.h"
+#include "lang/source/token.h"
 #include "normal/prove/decide.h"
 
 /* {"kind":"expr"}: `name = value`, `name: left = right` for an equation; just the
@@ -63,8 +65,8 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
                                                     const char *format, ...)
     QDOT_PRINTF(2, 3);
 
-/* The last failure: reported with line, caret and hint on session->err and, with
- * --json, as {"kind":"error"} on session->out. `at`: the byte of the source. source
+/* The last failure: reported with line, caret and hint on session->output->err and, with
+ * --json, as {"kind":"error"} on session->output->out. `at`: the byte of the source. source
  * NULL: no place. */
 void qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at);
 

@@ -13,6 +13,7 @@
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/output.h"
 
 int
 qdot_digits_of(qdot_session *session, qdot_expr e)
@@ -21,8 +22,8 @@ qdot_digits_of(qdot_session *session, qdot_expr e)
 
     if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
         return 0;
-    for (size_t i = 0; i < session->measured.n; i++) {
-        const qdot_measured *m = &session->measured.at[i];
+    for (size_t i = 0; i < session->measured->n; i++) {
+        const qdot_measured *m = &session->measured->at[i];
 
         if (!qdot_expr_contains(session->pool, e, m->symbol))
             continue;
@@ -120,8 +121,8 @@ is_plain(qdot_session *session, qdot_expr e)
 {
     bool any = false;
 
-    for (size_t i = 0; i < session->measured.n; i++) {
-        const qdot_measured *m = &session->measured.at[i];
+    for (size_t i = 0; i < session->measured->n; i++) {
+        const qdot_measured *m = &session->measured->at[i];
 
         if (!qdot_expr_contains(session->pool, e, m->symbol))
             continue;
@@ -199,7 +200,7 @@ add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
     const char *quote;
 
     QDOT_TRY(qdot_session_number(session, e, &x, &error));
-    if (session->json) {
+    if (session->output->json) {
         quote = is_plain(session, e) ? "" : "\"";
         qdot_text_add(values, values->n > 0 ? "," : "");
         qdot_text_add(values, quote);

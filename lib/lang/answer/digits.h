@@ -5,7 +5,8 @@
 #ifndef QDOT_LANG_DIGITS_H
 #define QDOT_LANG_DIGITS_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
 
 /* The fewest digits among the runs whose numbers stand in e, where all of them have
  * `digits`; else 0. */

@@ -5,13 +5,15 @@
 
 #include "expr/node.h"
 #include "expr/print-formula.h"
+#include "expr/print.h"
 #include "expr/walk.h"
+#include "lang/session/history.h"
 
 /* Whether e is the latest series, or one member of a list of series. */
 static bool
 is_series(const qdot_session *session, qdot_expr e)
 {
-    qdot_expr all = session->series;
+    qdot_expr all = session->history->series;
 
     if (all == QDOT_NIL || e == all)
         return e == all && all != QDOT_NIL;
@@ -41,7 +43,7 @@ qdot_expression_add(qdot_session *session, qdot_expr e, qdot_notation_kind notat
                     qdot_formula_id parent)
 {
     QDOT_TRY(check_size(session, e));
-    return qdot_print_formula(session->pool, e, is_series(session, e) ? session->series_in : QDOT_NIL, notation, f,
+    return qdot_print_formula(session->pool, e, is_series(session, e) ? session->history->series_in : QDOT_NIL, notation, f,
                               parent);
 }
 
@@ -49,6 +51,6 @@ qdot_status
 qdot_expression_print(qdot_session *session, qdot_expr e, qdot_style style, qdot_text *out)
 {
     QDOT_TRY(check_size(session, e));
-    return is_series(session, e) ? qdot_print_series(session->pool, e, session->series_in, style, out)
+    return is_series(session, e) ? qdot_print_series(session->pool, e, session->history->series_in, style, out)
                                  : qdot_print(session->pool, e, style, out);
 }

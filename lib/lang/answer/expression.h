@@ -3,8 +3,9 @@
 #ifndef QDOT_LANG_EXPRESSION_H
 #define QDOT_LANG_EXPRESSION_H
 
+#include "expr/print-name.h"
 #include "formula/formula.h"
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 #define QDOT_EXPRESSION_OPERATIONS 10000000u /* the largest expression that is printed */
 

@@ -8,6 +8,7 @@
 #include "expr/symbol.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/write.h"
+#include "lang/session/output.h"
 #include "ode/scale.h"
 
 static const char *
@@ -27,9 +28,9 @@ exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double e
 {
     qdot_status status;
 
-    qdot_text_add(number, session->json ? "\"" : "");
+    qdot_text_add(number, session->output->json ? "\"" : "");
     status = qdot_digits_text(session, r->exact[i], r->digits, error, number);
-    qdot_text_add(number, session->json ? "\"" : "");
+    qdot_text_add(number, session->output->json ? "\"" : "");
     return status;
 }
 
@@ -37,7 +38,7 @@ static void
 double_number(qdot_session *session, double value, double error, double size,
               qdot_text *number)
 {
-    if (session->json)
+    if (session->output->json)
         qdot_number_text_json(number, value);
     else if (!isfinite(value))
         qdot_text_add(number, "unknown"); /* a multiplier where a constraint has no direction */
@@ -304,7 +305,7 @@ beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
         if (strcmp(d->name, "energy") == 0)
             qdot_text_add(line, d->name);
         else
-            qdot_print_name(session->pool, d->name, session->style, line);
+            qdot_print_name(session->pool, d->name, session->output->style, line);
         some = true;
     }
     qdot_text_add(line, some ? "); " : "");
@@ -325,7 +326,7 @@ end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
     if (isnan(r->horizon)) {
         qdot_text_add(line, "\n  end state:");
-        QDOT_TRY(each_state(session, r, session->style, state_text, line));
+        QDOT_TRY(each_state(session, r, session->output->style, state_text, line));
     } else {
         qdot_text_add(line, "\n  horizon: t = ");
         qdot_number_text(line, r->horizon, 0.005 * fabs(r->horizon));
@@ -384,7 +385,7 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
         if (strcmp(d->name, "energy") == 0)
             qdot_text_add(line, d->name);
         else
-            qdot_print_name(session->pool, d->name, session->style, line);
+            qdot_print_name(session->pool, d->name, session->output->style, line);
         qdot_text_char(line, ' ');
         if (d->kept)
             qdot_text_add(line, "kept");
@@ -413,12 +414,12 @@ qdot_status
 qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *report)
 {
     qdot_text line = {0};
-    qdot_status status = session->json ? run_json(session, name, report, &line)
+    qdot_status status = session->output->json ? run_json(session, name, report, &line)
                                        : run_text(session, name, report, &line);
 
     if (status == QDOT_OK)
-        return session->json ? qdot_write_object(session, session->out, &line)
-                             : qdot_write(session, session->out, &line);
+        return session->output->json ? qdot_write_object(session, session->output->out, &line)
+                             : qdot_write(session, session->output->out, &line);
     qdot_text_clear(&line);
     return status;
 }

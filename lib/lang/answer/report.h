@@ -2,7 +2,8 @@
 #ifndef QDOT_LANG_REPORT_H
 #define QDOT_LANG_REPORT_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+#include "sim/course/report.h"
 
 /* {"kind":"run"} */
 QDOT_MUST_CHECK qdot_status qdot_report_run(qdot_session *session, const char *name,

@@ -6,6 +6,7 @@
 #include "base/number-text.h"
 #include "lang/answer/table-answer.h"
 #include "lang/answer/write.h"
+#include "lang/session/output.h"
 #include "lang/session/row-columns.h"
 
 /* The most failed rows that are listed individually. */
@@ -61,7 +62,7 @@ qdot_row_answer(qdot_session *session, const qdot_row_table *table)
     qdot_text text = {0};
     qdot_status status = qdot_row_columns_of(table, NULL, &x);
 
-    if (status == QDOT_OK && session->json) {
+    if (status == QDOT_OK && session->output->json) {
         status = qdot_answer_rows(session, table->name, &x.table);
     } else if (status == QDOT_OK) {
         status = qdot_answer_add_table(&x.table, &text);

@@ -15,6 +15,7 @@
 #include "lang/answer/expression.h"
 #include "lang/answer/typed-name.h"
 #include "lang/answer/write.h"
+#include "lang/session/output.h"
 #include "show/formula-page.h"
 
 /* --- what it is to be --------------------------------------------------------------------- */
@@ -29,7 +30,7 @@ static qdot_sheet
 sheet_begin(qdot_session *session, qdot_sheet_form form, qdot_style style)
 {
     qdot_sheet s = {
-        .session = session, .form = form, .style = style, .page = session->page};
+        .session = session, .form = form, .style = style, .page = session->output->page};
 
     s.notation =
         form == QDOT_SHEET_DRAWN ? QDOT_NOTATION_DRAWN : qdot_print_notation(style);
@@ -42,18 +43,18 @@ qdot_sheet
 qdot_sheet_begin(qdot_session *session)
 {
     const bool equations =
-        !session->json && !session->flat &&
-        (session->style == QDOT_LATEX || session->style == QDOT_MATHML);
+        !session->output->json && !session->output->flat &&
+        (session->output->style == QDOT_LATEX || session->output->style == QDOT_MATHML);
     qdot_sheet_form form =
-        session->page != NULL || equations ? QDOT_SHEET_PAGE : QDOT_SHEET_LINES;
+        session->output->page != NULL || equations ? QDOT_SHEET_PAGE : QDOT_SHEET_LINES;
     size_t columns = 0, rows = 0;
     qdot_sheet s;
 
-    if (session->style == QDOT_UNICODE && !session->flat && !session->json &&
+    if (session->output->style == QDOT_UNICODE && !session->output->flat && !session->output->json &&
         qdot_terminal_size(qdot_write_stream(session), &columns, &rows))
         form = QDOT_SHEET_DRAWN;
-    s = sheet_begin(session, form, session->style);
-    s.broken = !session->flat;
+    s = sheet_begin(session, form, session->output->style);
+    s.broken = !session->output->flat;
     s.columns = columns;
     s.rows = rows;
     return s;
@@ -63,8 +64,8 @@ qdot_sheet
 qdot_sheet_begin_words(qdot_session *session)
 {
     qdot_sheet s =
-        sheet_begin(session, session->page != NULL ? QDOT_SHEET_PAGE : QDOT_SHEET_LINES,
-                    session->style);
+        sheet_begin(session, session->output->page != NULL ? QDOT_SHEET_PAGE : QDOT_SHEET_LINES,
+                    session->output->style);
 
     s.broken = true;
     return s;
@@ -378,16 +379,16 @@ sheet_draw(const qdot_sheet *s, const char *name)
 static qdot_formula_page *
 find_block(qdot_session *session)
 {
-    if (session->block == NULL) {
-        session->block = qdot_calloc(1, sizeof *session->block);
-        if (session->block == NULL)
+    if (session->output->block == NULL) {
+        session->output->block = qdot_calloc(1, sizeof *session->output->block);
+        if (session->output->block == NULL)
             return NULL;
-        session->block->kind =
-            session->style == QDOT_LATEX ? QDOT_PAGE_LATEX : QDOT_PAGE_MATHML;
-        session->block->paint = qdot_write_colours(session) ? QDOT_NAME_COLOUR : NULL;
-        session->block->end = QDOT_COLOUR_END;
+        session->output->block->kind =
+            session->output->style == QDOT_LATEX ? QDOT_PAGE_LATEX : QDOT_PAGE_MATHML;
+        session->output->block->paint = qdot_write_colours(session) ? QDOT_NAME_COLOUR : NULL;
+        session->output->block->end = QDOT_COLOUR_END;
     }
-    return session->block;
+    return session->output->block;
 }
 
 static qdot_status
@@ -434,10 +435,10 @@ qdot_sheet_end(qdot_sheet *s, const char *name, qdot_status status)
 void
 qdot_sheet_forget(qdot_session *session)
 {
-    if (session->block != NULL)
-        qdot_formula_page_clear(session->block);
-    qdot_free(session->block);
-    session->block = NULL;
+    if (session->output->block != NULL)
+        qdot_formula_page_clear(session->output->block);
+    qdot_free(session->output->block);
+    session->output->block = NULL;
 }
 
 qdot_status
@@ -446,9 +447,9 @@ qdot_sheet_flush(qdot_session *session)
     qdot_text page = {0};
     qdot_status status;
 
-    if (session->block == NULL)
+    if (session->output->block == NULL)
         return QDOT_OK;
-    status = qdot_formula_page_end(session->block, &page);
+    status = qdot_formula_page_end(session->output->block, &page);
     qdot_sheet_forget(session);
     return qdot_answer_drawn(session, "formulas", status, &page);
 }

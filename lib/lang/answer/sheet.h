@@ -15,8 +15,9 @@
 #ifndef QDOT_LANG_SHEET_H
 #define QDOT_LANG_SHEET_H
 
+#include "expr/print-name.h"
 #include "formula/formula.h"
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 typedef enum {
     QDOT_SHEET_LINES, /* of text */

@@ -3,6 +3,7 @@
 
 #include "base/wrap.h"
 #include "lang/answer/write.h"
+#include "lang/session/output.h"
 #include "table/json.h"
 #include "table/text.h"
 
@@ -12,7 +13,7 @@ qdot_answer_columns(qdot_session *session, const char *name, const qdot_table *t
     qdot_text line = {0};
 
     qdot_table_json_columns(t, name, &line);
-    return qdot_write_object(session, session->out, &line);
+    return qdot_write_object(session, session->output->out, &line);
 }
 
 qdot_status
@@ -21,7 +22,7 @@ qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row)
     qdot_text line = {0};
 
     qdot_table_json_row(t, row, &line);
-    return qdot_write_object(session, session->out, &line);
+    return qdot_write_object(session, session->output->out, &line);
 }
 
 qdot_status
@@ -49,7 +50,7 @@ qdot_answer_table(qdot_session *session, const char *name, const qdot_table *t)
     qdot_text text = {0};
     qdot_status status;
 
-    if (session->json)
+    if (session->output->json)
         return qdot_answer_rows(session, name, t);
     status = qdot_answer_add_table(t, &text);
     return qdot_answer_written(session, name, status, &text);

@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_TABLE_ANSWER_H
 #define QDOT_LANG_TABLE_ANSWER_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "table/table.h"
 
 /* Write what stands before the rows, one row, or both of all rows; name: of rows that have none; JSON only. */

@@ -11,6 +11,7 @@
 #include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "lang/session/names.h"
 
 typedef struct {
     qdot_session *session;

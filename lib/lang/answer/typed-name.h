@@ -5,8 +5,9 @@
 #ifndef QDOT_LANG_TYPED_NAME_H
 #define QDOT_LANG_TYPED_NAME_H
 
+#include "expr/print-name.h"
 #include "formula/formula.h"
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* Append the name as WORDS with these flags: in LaTeX \mathrm{eom}_{\theta}, divided at the signs between its terms.
  * Errors: QDOT_ENOMEM. */

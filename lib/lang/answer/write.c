@@ -6,19 +6,21 @@
 
 #include "base/progress.h"
 #include "base/wrap.h"
+#include "lang/session/output.h"
+#include "lang/session/typed.h"
 #include "show/formula-page.h"
 
 /* Write a finished text to the stream, or add it to the page that collects answers; then clear it. */
 static qdot_status
 write_out(const qdot_session *session, FILE *file, qdot_text *text)
 {
-    const bool paged = session->page != NULL && file == session->out;
+    const bool paged = session->output->page != NULL && file == session->output->out;
     qdot_status status = qdot_text_status(text);
 
     qdot_progress_clear();
     if (status == QDOT_OK && paged) {
-        qdot_formula_page_text(session->page, qdot_text_str(text), text->n);
-        status = session->page->status;
+        qdot_formula_page_text(session->output->page, qdot_text_str(text), text->n);
+        status = session->output->page->status;
         qdot_text_clear(text);
         return status;
     }
@@ -35,10 +37,10 @@ qdot_write_width(const qdot_session *session, const FILE *file)
 {
     size_t columns, rows;
 
-    if (file != session->err && (file == session->console ? session->console_json : session->json))
+    if (file != session->output->err && (file == session->output->console ? session->output->console_json : session->output->json))
         return 0;
-    if (file == session->pages)
-        file = session->screen;
+    if (file == session->output->pages)
+        file = session->output->screen;
     return qdot_terminal_size(file, &columns, &rows) ? columns : 0;
 }
 
@@ -60,12 +62,12 @@ qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
 qdot_status
 qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
 {
-    const bool answer = session->console == NULL || file == session->console; /* no file of `to` */
+    const bool answer = session->output->console == NULL || file == session->output->console; /* no file of `to` */
 
-    if (qdot_text_status(object) == QDOT_OK && answer && session->typed.under_way) {
+    if (qdot_text_status(object) == QDOT_OK && answer && session->typed->under_way) {
         qdot_text_truncate(object, object->n - strlen("}\n"));
-        qdot_text_format(object, ",\"statement\":%zu,\"line\":%" PRIu32 "}\n", session->typed.number,
-                         session->typed.line);
+        qdot_text_format(object, ",\"statement\":%zu,\"line\":%" PRIu32 "}\n", session->typed->number,
+                         session->typed->line);
     }
     return qdot_write(session, file, object);
 }
@@ -73,14 +75,14 @@ qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
 FILE *
 qdot_write_stream(const qdot_session *session)
 {
-    return session->out == session->pages ? session->screen : session->out;
+    return session->output->out == session->output->pages ? session->output->screen : session->output->out;
 }
 
 bool
 qdot_write_colours(const qdot_session *session)
 {
-    return (session->colours & QDOT_COLOURS_ANSWERS) != 0 &&
-           (session->console == NULL || session->out == session->console);
+    return (session->output->colours & QDOT_COLOURS_ANSWERS) != 0 &&
+           (session->output->console == NULL || session->output->out == session->output->console);
 }
 
 void
@@ -96,7 +98,7 @@ write_answer(qdot_session *session, const char *name, const char *text, bool dra
     qdot_text line = {0}, plain = {0};
     size_t n = strlen(text);
 
-    if (session->json) {
+    if (session->output->json) {
         qdot_wrap(text, 0, &plain);
         qdot_write_field(&line, "{\"kind\":\"text\",\"name\":", name);
         qdot_write_field(&line, ",\"text\":", qdot_text_str(&plain));
@@ -108,9 +110,9 @@ write_answer(qdot_session *session, const char *name, const char *text, bool dra
         if (n == 0 || text[n - 1] != '\n')
             qdot_text_char(&line, '\n');
     }
-    if (session->json)
-        return qdot_write_object(session, session->out, &line);
-    return drawn ? write_out(session, session->out, &line) : qdot_write(session, session->out, &line);
+    if (session->output->json)
+        return qdot_write_object(session, session->output->out, &line);
+    return drawn ? write_out(session, session->output->out, &line) : qdot_write(session, session->output->out, &line);
 }
 
 qdot_status

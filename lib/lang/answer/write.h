@@ -6,9 +6,10 @@
 #define QDOT_LANG_WRITE_H
 
 #include "base/terminal.h"
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
 
-/* Write a finished text to session->out, err or console, and clear it: on a terminal as wide as that
+/* Write a finished text to `out`, `err` or `console` of session->output, and clear it: on a terminal as wide as that
  * (base/wrap.h), else as it is. QDOT_EIO. */
 QDOT_MUST_CHECK qdot_status qdot_write(const qdot_session *session, FILE *file, qdot_text *text);
 

@@ -9,6 +9,7 @@
 #include "lang/answer/answer.h"
 #include "lang/ask/ask.h"
 #include "lang/language/token-text.h"
+#include "lang/session/history.h"
 #include "lang/session/measured.h"
 #include "lang/syntax/record.h"
 

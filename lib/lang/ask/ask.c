@@ -21,7 +21,9 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/history.h"
 #include "lang/session/measured.h"
+#include "lang/session/output.h"
 #include "normal/refute/constant.h"
 
 /* --- expressions -------------------------------------------------------------------- */
@@ -75,7 +77,7 @@ coordinate_of(const qdot_session *session, bool quantity, qdot_expr over, uint32
 {
     if (quantity)
         return session->scene->coordinates.at[i];
-    if (over == QDOT_NIL || session->json || qdot_expr_count(session->pool, over) != n)
+    if (over == QDOT_NIL || session->output->json || qdot_expr_count(session->pool, over) != n)
         return QDOT_NIL;
     return qdot_expr_arg(session->pool, over, i);
 }
@@ -110,7 +112,7 @@ qdot_ask_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr
     bool by_coordinate = row != NULL && row->over_coordinates &&
                          qdot_names_find(session->names, name) == NULL;
 
-    if (n == 0 || (session->json && is_one_equilibrium(name)))
+    if (n == 0 || (session->output->json && is_one_equilibrium(name)))
         return qdot_answer_expr(session, name, list);
     if (is_one_equilibrium(name))
         return answer_joined(session, name, list);
@@ -215,12 +217,12 @@ static qdot_status
 answer_point(qdot_session *session, const char *name, qdot_expr equations)
 {
     qdot_sheet sheet =
-        qdot_sheet_begin_text(session, session->style == QDOT_MATHML ? QDOT_UNICODE : session->style);
+        qdot_sheet_begin_text(session, session->output->style == QDOT_MATHML ? QDOT_UNICODE : session->output->style);
     qdot_text text = {0}, errors = {0};
     qdot_status status = qdot_sheet_text(&sheet, qdot_ask_print_point(&sheet, equations), &text);
 
     if (status == QDOT_OK)
-        status = session->json ? qdot_answer_text(session, name, qdot_text_str(&text))
+        status = session->output->json ? qdot_answer_text(session, name, qdot_text_str(&text))
                                : qdot_answer_numerals(session, name, false, &text, &errors);
     qdot_text_clear(&text);
     return status;
@@ -278,7 +280,7 @@ qdot_ask_expression(qdot_cursor *c)
     qdot_token_text(c->session, start, c->at, &name);
     if (name.n > 200) { /* longer than it helps: by its number in the history */
         qdot_text_truncate(&name, 0);
-        qdot_text_format(&name, "%%%zu", session->history.n + 1);
+        qdot_text_format(&name, "%%%zu", session->history->values.n + 1);
     }
     status = qdot_text_status(&name);
     if (status == QDOT_OK)

@@ -18,9 +18,12 @@
 #include "lang/functions/equilibria.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
 #include "lang/syntax/match.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/inequality/contradiction.h"
@@ -93,7 +96,7 @@ decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
     QDOT_TRY(qdot_decide_proportional(pool, a, b, known, decision, &factor, &may_vanish));
     if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
         return QDOT_OK;
-    sheet = qdot_sheet_begin_text(session, session->style);
+    sheet = qdot_sheet_begin_text(session, session->output->style);
     status = qdot_sheet_text(&sheet, qdot_sheet_formula(&sheet, factor), &text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session,
@@ -272,9 +275,9 @@ read_question(qdot_record *r, question *q, qdot_assumed *f)
     if (q->conserved)
         QDOT_TRY(qdot_record_value(r, qdot_record_hole(r, "conserved", NULL), &q->left));
     if (sides != NULL) {
-        session->passed = &q->passed;
+        session->evaluation->passed = &q->passed;
         status = read_comparison(r, sides, q);
-        session->passed = NULL;
+        session->evaluation->passed = NULL;
         QDOT_TRY(status);
     }
     for (size_t i = 1; i < r->parts.n; i++)
@@ -478,7 +481,7 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
         (decision.verdict == QDOT_PROVED || decision.points == 0 || f->from.n > 0))
         QDOT_TRY(look_for_contradiction(session, f, &known));
     if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
-        session->refuted = true;
+        session->outcome->refuted = true;
     return qdot_answer_check(session, q->left, q->right, &decision);
 }
 
@@ -515,7 +518,7 @@ answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
     if (decision.verdict == QDOT_PROVED)
         QDOT_TRY(look_for_contradiction(session, f, &known));
     if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
-        session->refuted = true;
+        session->outcome->refuted = true;
     return qdot_answer_check(session, rate, QDOT_ZERO, &decision);
 }
 
@@ -567,7 +570,7 @@ answer_claim(qdot_record *r)
         c->error_at = r->start->start;
         status = qdot_fail(QDOT_EINVAL, "conservation is a property of the motion, so no coordinate can be held");
     }
-    if (status == QDOT_OK && c->session->held.n > 0)
+    if (status == QDOT_OK && c->session->evaluation->held.n > 0)
         status = qdot_assumed_hold(c->session, &f);
     if (status == QDOT_OK && q.integrable) {
         status = qdot_constraints_check_integrable(r, qdot_record_hole(r, NULL, "LABEL"), q.not);
@@ -590,10 +593,10 @@ check_claim(qdot_record *r)
 
     qdot_token_text(session, r->start, r->cursor.at, &claim);
     status = qdot_text_status(&claim);
-    session->claim = qdot_text_str(&claim);
+    session->evaluation->claim = qdot_text_str(&claim);
     if (status == QDOT_OK)
         status = answer_claim(r);
-    session->claim = NULL;
+    session->evaluation->claim = NULL;
     qdot_text_clear(&claim);
     return status;
 }

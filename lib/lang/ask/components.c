@@ -5,9 +5,11 @@
 
 #include "expr/build.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/answer/sheet.h"
+#include "lang/session/output.h"
 
 enum { MOST_RANK = 4 };
 
@@ -67,7 +69,7 @@ qdot_components_are(const qdot_session *session, const char *name, qdot_expr val
     const uint32_t rank = over == QDOT_NIL ? 0 : rank_of(session->pool, value);
     const letter *l = letter_of(name);
 
-    if (rank > MOST_RANK || session->json)
+    if (rank > MOST_RANK || session->output->json)
         return false;
     return rank > 2 ? qdot_expr_count(session->pool, value) ==
                           qdot_expr_count(session->pool, over)
@@ -250,7 +252,7 @@ static qdot_status
 add_rest(tensor *t, bool none)
 {
     qdot_sheet *s = &t->sheet;
-    const bool comment = t->session->style == QDOT_PLAIN || t->session->flat;
+    const bool comment = t->session->output->style == QDOT_PLAIN || t->session->output->flat;
 
     if (!none && !t->zeros && t->mirror == 0)
         return QDOT_OK;
@@ -296,13 +298,13 @@ qdot_status
 qdot_components_answer(qdot_session *session, const char *name, qdot_expr value,
                        qdot_expr over)
 {
-    const bool typed = session->style == QDOT_PLAIN || session->flat;
+    const bool typed = session->output->style == QDOT_PLAIN || session->output->flat;
     qdot_status status;
     tensor t = {.session = session,
                 .name = name,
                 .letter = typed ? NULL : letter_of(name),
                 .sheet = qdot_sheet_begin(session),
-                .linear = session->style == QDOT_UNICODE,
+                .linear = session->output->style == QDOT_UNICODE,
                 .value = value,
                 .over = over,
                 .rank = rank_of(session->pool, value),

@@ -11,7 +11,7 @@
 #ifndef QDOT_LANG_COMPONENTS_H
 #define QDOT_LANG_COMPONENTS_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* Whether the value is a tensor over these coordinates (a LIST, or nil) that is answered so: a list of
  * matrices, a list of such lists, or ricci(...). */

@@ -3,7 +3,9 @@
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
+#include "mech/dynamics/quantity.h"
 
 static qdot_status cyclic_list(qdot_record *r);
 
@@ -74,7 +76,7 @@ cyclic_list(qdot_record *r)
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_sheet_words(&sheet, i > 0 ? "\n" : "");
         status = print_cyclic(&sheet, &list[i]);
-        if (status == QDOT_OK && session->json)
+        if (status == QDOT_OK && session->output->json)
             status = answer_cyclic(session, &list[i]);
     }
     if (n == 0)

@@ -3,17 +3,20 @@
 
 #include <inttypes.h>
 
+#include "expr/print.h"
 #include "expr/walk.h"
 #include "lang/answer/expression.h"
 #include "lang/language/function.h"
+#include "lang/session/values.h"
+#include "mech/scene/scene.h"
 
 /* The value that `set` or `param` gave a symbol; nil if it has none. */
 static qdot_expr
 set_value(const qdot_session *session, qdot_expr symbol)
 {
-    for (size_t i = 0; i < session->set_symbols.n; i++)
-        if (session->set_symbols.at[i] == symbol)
-            return session->set_values.at[i];
+    for (size_t i = 0; i < session->values->set_symbols.n; i++)
+        if (session->values->set_symbols.at[i] == symbol)
+            return session->values->set_values.at[i];
     return QDOT_NIL;
 }
 

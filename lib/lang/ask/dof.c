@@ -2,6 +2,7 @@
 #include "expr/exact.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/constraints.h"
+#include "lang/session/history.h"
 #include "lang/syntax/record.h"
 
 static qdot_status dof_print(qdot_record *r);
@@ -27,7 +28,7 @@ dof_print(qdot_record *r)
     QDOT_TRY(qdot_mech_dof(session->scene, &dof));
     value = qdot_expr_int(session->pool, (long)dof.freedom);
     QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_vec_push(&session->history, value));
+    QDOT_TRY(qdot_vec_push(&session->history->values, value));
     QDOT_TRY(qdot_answer_expr(session, "dof", value));
     qdot_text_format(&text,
                      "coordinates %zu, constraints %zu, of them independent %zu: "

@@ -8,11 +8,14 @@
 #include "expr/exact.h"
 #include "expr/function.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
+#include "lang/session/history.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
 static qdot_status equilibria_list(qdot_record *r);
@@ -202,20 +205,20 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
     qdot_sheet sheet;
 
     snprintf(name, sizeof name, "equilibria[%zu]", i + 1);
-    if (session->json)
+    if (session->output->json)
         QDOT_TRY(qdot_answer_expr(session, name, qdot_equilibria_value(session->pool, e)));
     sheet = qdot_sheet_begin(session);
-    if (!session->json)
+    if (!session->output->json)
         qdot_sheet_format(&sheet, "%s: ", name);
-    for (uint32_t k = 0; k < n && !session->json && status == QDOT_OK; k++) {
+    for (uint32_t k = 0; k < n && !session->output->json && status == QDOT_OK; k++) {
         status = print_equation(&sheet, e, k);
         qdot_sheet_words(&sheet, ", ");
     }
-    if (e->range != QDOT_NIL && !session->json && status == QDOT_OK) {
+    if (e->range != QDOT_NIL && !session->output->json && status == QDOT_OK) {
         status = print_conditions(&sheet, e->range);
         qdot_sheet_words(&sheet, ", ");
     }
-    if (n == 0 && e->range == QDOT_NIL && !session->json)
+    if (n == 0 && e->range == QDOT_NIL && !session->output->json)
         qdot_sheet_words(&sheet, "everywhere, "); /* or wherever it exists */
     if (status == QDOT_OK)
         status = print_stability(&sheet, e);
@@ -298,7 +301,7 @@ equilibria_list(qdot_record *r)
     QDOT_TRY(qdot_equilibria_find(session, &all));
     status = qdot_equilibria_list(session, &all, &value);
     if (status == QDOT_OK)
-        status = qdot_vec_push(&session->history, value);
+        status = qdot_vec_push(&session->history->values, value);
     for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
         status = answer_one(session, i, &all.at[i]);
     if (status == QDOT_OK)

@@ -2,7 +2,10 @@
 #include "expr/build.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
+#include "lang/session/history.h"
 #include "lang/syntax/record.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/things.h"
 
 static qdot_status forces_print(qdot_record *r);
 

@@ -9,6 +9,8 @@
 #include "lang/answer/answer.h"
 #include "lang/functions/equilibria.h"
 #include "lang/session/bind.h"
+#include "lang/session/history.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
 static qdot_status modes_print(qdot_record *r);
@@ -33,7 +35,7 @@ modes_answer_part(qdot_session *session, bool numeric, const char *name, qdot_ex
     if (!numeric)
         return qdot_answer_expr(session, name, value);
     QDOT_TRY(qdot_session_number(session, value, &x, NULL));
-    if (session->json)
+    if (session->output->json)
         return qdot_answer_number(session, name, x, NAN);
     qdot_text_format(&line, "%s = ", name);
     qdot_number_text(&line, x, 1e-13 * fabs(x));
@@ -98,7 +100,7 @@ modes_print(qdot_record *r)
     value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);
     status = qdot_pool_check(session->pool);
     if (status == QDOT_OK)
-        status = qdot_vec_push(&session->history, value);
+        status = qdot_vec_push(&session->history->values, value);
     if (status == QDOT_OK)
         status = answer_modes(session, &modes);
     qdot_modes_clear(&modes);

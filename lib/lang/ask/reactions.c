@@ -4,6 +4,8 @@
 
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
+#include "lang/session/history.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
 static qdot_status reactions_print(qdot_record *r);
@@ -67,8 +69,8 @@ reactions_print(qdot_record *r)
     }
     value = qdot_mech_reaction_list(session->scene);
     QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_vec_push(&session->history, value));
-    if (session->json)
+    QDOT_TRY(qdot_vec_push(&session->history->values, value));
+    if (session->output->json)
         QDOT_TRY(qdot_answer_expr(session, "reactions", value));
     status = qdot_mech_reactions(session->scene, &list, &n);
     sheet = qdot_sheet_begin(session);

@@ -2,6 +2,7 @@
 #include "lang/answer/answer.h"
 #include "lang/declare/scene-file.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/scene.h"
 
 static qdot_status scene_print(qdot_record *r);
 

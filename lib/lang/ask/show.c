@@ -6,6 +6,7 @@
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
 static qdot_status show_name(qdot_record *r);
@@ -45,9 +46,9 @@ show_label(qdot_session *session, const char *label, qdot_text *out)
 static bool
 show_run(const qdot_session *session, const char *name, qdot_text *out)
 {
-    for (size_t i = 0; i < session->runs.n; i++)
-        if (strcmp(session->runs.at[i].name, name) == 0) {
-            qdot_text_format(out, "run %s as %s", session->runs.at[i].text, name);
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (strcmp(session->runs->at[i].name, name) == 0) {
+            qdot_text_format(out, "run %s as %s", session->runs->at[i].text, name);
             return true;
         }
     return false;

@@ -15,6 +15,8 @@
 #include "lang/functions/short-names.h"
 #include "lang/language/hints.h"
 #include "lang/language/token-text.h"
+#include "lang/session/runs.h"
+#include "mech/scene/things.h"
 
 typedef qdot_assignment assignment;
 
@@ -111,8 +113,8 @@ declared(const qdot_session *s, const qdot_token *name)
 static bool
 is_run(const qdot_session *s, const char *name)
 {
-    for (size_t i = 0; i < s->runs.n; i++)
-        if (strcmp(s->runs.at[i].name, name) == 0)
+    for (size_t i = 0; i < s->runs->n; i++)
+        if (strcmp(s->runs->at[i].name, name) == 0)
             return true;
     return false;
 }

@@ -5,7 +5,10 @@
 #ifndef QDOT_LANG_DEFINITION_PARTS_H
 #define QDOT_LANG_DEFINITION_PARTS_H
 
+#include "base/text.h"
 #include "lang/commands/statement.h"
+#include "lang/session/names.h"
+#include "lang/source/token.h"
 
 /* The statement as it was typed: LEFT = RIGHT [for ...]. */
 typedef struct {

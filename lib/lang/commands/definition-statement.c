@@ -5,6 +5,8 @@
 #include "lang/commands/definition-parts.h"
 #include "lang/commands/statement-form.h"
 #include "lang/language/token-text.h"
+#include "mech/scene/scene.h"
+#include "mech/scene/things.h"
 
 typedef qdot_assignment assignment;
 

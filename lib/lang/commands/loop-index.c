@@ -9,7 +9,11 @@
 #include "lang/commands/statement-form.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/token-text.h"
+#include "lang/session/names.h"
+#include "lang/session/runs.h"
+#include "lang/session/values.h"
 #include "lang/source/source.h"
+#include "mech/scene/things.h"
 
 /* --- where a declared symbol occurs ------------------------------------------------------- */
 
@@ -35,8 +39,8 @@ is_in_scene(const qdot_session *s, qdot_expr symbol)
             qdot_expr_contains(s->pool, event->right, symbol))
             return true;
     }
-    return is_in_any(s, s->set_values.n, s->set_values.at, symbol) ||
-           is_in_any(s, s->start_values.n, s->start_values.at, symbol) ||
+    return is_in_any(s, s->values->set_values.n, s->values->set_values.at, symbol) ||
+           is_in_any(s, s->values->start_values.n, s->values->start_values.at, symbol) ||
            qdot_scene_contains(s->scene, symbol);
 }
 
@@ -244,7 +248,7 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
 {
     qdot_session *s = c->session;
     const qdot_name *known = declared(s, k->text);
-    const qdot_named_run *latest = s->runs.n > 0 ? &s->runs.at[s->runs.n - 1] : NULL;
+    const qdot_named_run *latest = s->runs->n > 0 ? &s->runs->at[s->runs->n - 1] : NULL;
     qdot_source *run = NULL;
     qdot_text text = {0};
     qdot_status status;

@@ -7,7 +7,9 @@
 #include "expr/symbol.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/held.h"
+#include "lang/session/names.h"
 
 /* What a loop value must not contain to be assigned to a parameter or coordinate. */
 static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
@@ -180,8 +182,8 @@ qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c, const qdot_token *end, bo
 {
     qdot_cursor own = *c;
 
-    if (c->session->loops++ == 0)
-        c->session->partial_sums.n = 0;
+    if (c->session->evaluation->loops++ == 0)
+        c->session->evaluation->partial_sums.n = 0;
     *loop = (qdot_loop){
         .session = c->session, .source = c->source, .clause = c->at, .end = end, .open = true};
     own.error_at = c->at->start;
@@ -215,6 +217,6 @@ qdot_loop_end(qdot_loop *loop)
     loop->indices.at = NULL;
     loop->indices.capacity = 0;
     if (loop->open)
-        loop->session->loops--;
+        loop->session->evaluation->loops--;
     loop->open = false;
 }

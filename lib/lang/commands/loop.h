@@ -3,6 +3,7 @@
 #define QDOT_LANG_LOOP_H
 
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 
 typedef struct {
     char *name;

@@ -28,9 +28,9 @@ resolve_members(qdot_operand *o, const char **run, qdot_expr *e)
     if (!qdot_expr_is_scalar(o->session->pool, *e))
         return QDOT_OK;
     QDOT_TRY(qdot_member_resolve(o->session, run, e, &o->mixed));
-    for (size_t i = 0; o->mixed && *run == NULL && i < o->session->members.n; i++)
-        if (qdot_expr_contains(o->session->pool, *e, o->session->members.at[i].symbol))
-            *run = o->session->members.at[i].run;
+    for (size_t i = 0; o->mixed && *run == NULL && i < o->session->members->n; i++)
+        if (qdot_expr_contains(o->session->pool, *e, o->session->members->at[i].symbol))
+            *run = o->session->members->at[i].run;
     return QDOT_OK;
 }
 

@@ -12,6 +12,7 @@
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/values.h"
 
 static qdot_status set_values(qdot_record *r);
 

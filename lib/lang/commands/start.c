@@ -9,6 +9,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/values.h"
 
 static qdot_status start_set(qdot_record *r);
 
@@ -55,7 +56,7 @@ keep_errors(qdot_session *session, const qdot_named_run *named)
     bool known;
     qdot_status status = apart != NULL ? qdot_run_end_apart(named->run, apart, &known) : QDOT_ENOMEM;
 
-    session->start_errors.n = 0;
+    session->values->start_errors.n = 0;
     if (status == QDOT_OK && !known)
         status = qdot_answer_notice(session, "the start is taken as exact: errors of runs from it do not hold "
                                     "that of %.100s",
@@ -63,11 +64,11 @@ keep_errors(qdot_session *session, const qdot_named_run *named)
     for (size_t i = 0; status == QDOT_OK && known && i < 2 * report->n; i++) {
         const bool velocity = i >= report->n;
         const qdot_expr z = qdot_symbol_jet(session->pool, report->coordinates[i % report->n], velocity);
-        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, z);
+        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, z);
 
-        if (at < session->start_symbols.n)
-            status = qdot_vec_push(&session->start_errors,
-                                   ((qdot_start_error){z, session->start_values.at[at],
+        if (at < session->values->start_symbols.n)
+            status = qdot_vec_push(&session->values->start_errors,
+                                   ((qdot_start_error){z, session->values->start_values.at[at],
                                                        {apart[i], apart[2 * report->n + i]}}));
     }
     qdot_free(apart);
@@ -99,7 +100,7 @@ start_from_run(qdot_record *r, const char *name)
         QDOT_TRY(qdot_session_start(session, q, q0));
         QDOT_TRY(qdot_session_start(session, v, v0));
     }
-    session->start_exactly = qdot_record_word(r, "exactly") != NULL;
+    session->values->start_exactly = qdot_record_word(r, "exactly") != NULL;
     QDOT_TRY(keep_errors(session, run));
     return tell_parameters(session, run->name, report);
 }
@@ -153,7 +154,7 @@ start_set(qdot_record *r)
     for (size_t i = 0; i < list.symbols.n && status == QDOT_OK; i++)
         status = qdot_session_start(session, list.symbols.at[i], list.values.at[i]);
     if (status == QDOT_OK)
-        session->start_exactly = qdot_record_word(r, "exactly") != NULL;
+        session->values->start_exactly = qdot_record_word(r, "exactly") != NULL;
     qdot_pairs_free(&list);
     return status;
 }

@@ -7,6 +7,8 @@
 #include "expr/symbol.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/session/names.h"
+#include "mech/scene/scene.h"
 
 const qdot_token *
 qdot_statement_behind_bracket(const qdot_token *open)

@@ -11,6 +11,7 @@
 #define QDOT_LANG_STATEMENT_FORM_H
 
 #include "lang/commands/statement.h"
+#include "lang/source/token.h"
 
 typedef enum {
     QDOT_FORM_DEFINITION,

@@ -3,11 +3,15 @@
 
 #include <string.h>
 
+#include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/node.h"
+#include "expr/print-name.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
+#include "lang/session/values.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 

@@ -5,6 +5,7 @@
 
 #include "lang/commands/pairs.h"
 #include "lang/language/cursor.h"
+#include "mech/scene/things.h"
 
 /* QDOT_EINVAL where a rest length, with the values of `set` put in, is a negative number; names the
  * spring (NULL: one without a name). Tests: tests/bad/rests/rest-negative*.lag. */

@@ -12,6 +12,8 @@
 #include "lang/language/function.h"
 #include "lang/language/hints.h"
 #include "lang/language/token-text.h"
+#include "lang/session/values.h"
+#include "mech/scene/scene.h"
 
 static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 
@@ -288,7 +290,7 @@ qdot_warnings_place(qdot_cursor *c, qdot_expr place, const char *body,
 qdot_status
 qdot_warnings_start(qdot_session *session)
 {
-    if (session->start_symbols.n > 0)
+    if (session->values->start_symbols.n > 0)
         return QDOT_OK;
     return qdot_answer_notice_once(
         session, session->scene->constraints.n > 0

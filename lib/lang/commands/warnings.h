@@ -3,6 +3,9 @@
 #define QDOT_LANG_WARNINGS_H
 
 #include "lang/language/cursor.h"
+#include "lang/session/names.h"
+#include "lang/source/token.h"
+#include "mech/scene/things.h"
 
 /* NAME = EXPR where the language has a meaning for NAME: which statement would enter the
  * equations of motion, and how the language's value is reached now. start: the token of the

@@ -7,6 +7,7 @@
 #include "expr/node.h"
 #include "lang/commands/value-check.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/scene.h"
 #include "normal/inequality/contradiction.h"
 
 static qdot_status assume_relations(qdot_record *r);

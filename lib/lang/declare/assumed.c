@@ -10,6 +10,7 @@
 #include "expr/walk.h"
 #include "lang/session/held.h"
 #include "lang/session/momenta.h"
+#include "mech/dynamics/quantity.h"
 
 void
 qdot_assumed_free(qdot_assumed *f)

@@ -1,6 +1,7 @@
 /* body.c -- `body`: a rigid body, in the plane or in space. */
 #include "lang/commands/warnings.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/scene.h"
 
 static qdot_status body_declare(qdot_record *r);
 

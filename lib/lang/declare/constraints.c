@@ -12,6 +12,8 @@
 #include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
 #include "lang/language/hints.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
 #include "mech/dynamics/integrable.h"
 
 /* "blade", "roll[2]" */
@@ -160,8 +162,8 @@ qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name, bool 
         QDOT_TRY(qdot_mech_integrable(scene, k, false, &i));
         QDOT_TRY(qdot_pool_check(session->pool));
         if (i.decision.verdict == (not? QDOT_PROVED : QDOT_REFUTED))
-            session->refuted = true;
-        QDOT_TRY(session->json ? constraint_answer_json(session, &scene->constraints.at[k], &i)
+            session->outcome->refuted = true;
+        QDOT_TRY(session->output->json ? constraint_answer_json(session, &scene->constraints.at[k], &i)
                                : answer_text(session, &scene->constraints.at[k], &i));
     }
     if (found)
@@ -202,7 +204,7 @@ qdot_constraints_tell_disguise(qdot_session *session, size_t before)
         print_constraint(c, &text);
         qdot_text_add(&text, " is holonomic in disguise");
         if (i.integral != QDOT_NIL) {
-            qdot_sheet sheet = qdot_sheet_begin_text(session, session->style);
+            qdot_sheet sheet = qdot_sheet_begin_text(session, session->output->style);
 
             qdot_text_add(&text, ": ");
             status = qdot_sheet_text(&sheet, print_integral(&sheet, i.integral), &text);

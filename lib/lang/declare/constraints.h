@@ -5,7 +5,10 @@
 #ifndef QDOT_LANG_CONSTRAINTS_H
 #define QDOT_LANG_CONSTRAINTS_H
 
+#include "base/text.h"
 #include "lang/syntax/record.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/things.h"
 
 /* `check [not] integrable LABEL`: a verdict for each component of the constraint. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name,

@@ -1,6 +1,7 @@
 /* damper.c -- the statement `damper`: a force -C d' between two points at the distance d. */
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
+#include "mech/scene/scene.h"
 
 static qdot_status damper_declare(qdot_record *r);
 

@@ -10,6 +10,7 @@
 #include "lang/language/function.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/measured.h"
 #include "lang/source/source.h"
 
@@ -88,7 +89,7 @@ keep_text(qdot_cursor *c, const qdot_token *right, qdot_expr value, qdot_functio
     qdot_status status;
     size_t at;
 
-    if (c->session->loops == 0 || !qdot_measured_occurs(c->session, value)) {
+    if (c->session->evaluation->loops == 0 || !qdot_measured_occurs(c->session, value)) {
         *body = qdot_function_body_new(c->source, right, c->at);
         return *body != NULL ? QDOT_OK : QDOT_ENOMEM;
     }

@@ -3,6 +3,8 @@
 #define QDOT_LANG_DECLARE_H
 
 #include "lang/language/cursor.h"
+#include "lang/session/names.h"
+#include "lang/source/token.h"
 
 /* Declare an entry whose name stands at `start`; file and line are filled in. A notice
  * is given where it hides a value of the language. */

@@ -14,6 +14,7 @@
 #include "lang/declare/export-massless.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
+#include "lang/session/values.h"
 #include "sim/model/substitute.h"
 #include "sim/model/switch.h"
 
@@ -56,10 +57,10 @@ typedef struct {
 static qdot_status
 find_functions(qdot_session *s, expressions *heads, expressions *bodies)
 {
-    for (size_t i = 0; i < s->set_symbols.n; i++)
-        if (qdot_expr_kind(s->pool, s->set_symbols.at[i]) == QDOT_UFUN) {
-            QDOT_TRY(qdot_vec_push(heads, s->set_symbols.at[i]));
-            QDOT_TRY(qdot_vec_push(bodies, s->set_values.at[i]));
+    for (size_t i = 0; i < s->values->set_symbols.n; i++)
+        if (qdot_expr_kind(s->pool, s->values->set_symbols.at[i]) == QDOT_UFUN) {
+            QDOT_TRY(qdot_vec_push(heads, s->values->set_symbols.at[i]));
+            QDOT_TRY(qdot_vec_push(bodies, s->values->set_values.at[i]));
         }
     return QDOT_OK;
 }
@@ -373,8 +374,8 @@ qdot_status
 qdot_export_value_of(qdot_session *s, qdot_expr parameter, double *value)
 {
     *value = NAN;
-    for (size_t i = 0; i < s->set_symbols.n; i++)
-        if (s->set_symbols.at[i] == parameter)
+    for (size_t i = 0; i < s->values->set_symbols.n; i++)
+        if (s->values->set_symbols.at[i] == parameter)
             return qdot_session_number(s, parameter, value, NULL);
     return QDOT_OK;
 }
@@ -504,9 +505,9 @@ static qdot_status
 start_value(qdot_session *s, qdot_expr symbol, double *value)
 {
     *value = 0;
-    for (size_t i = 0; i < s->start_symbols.n; i++)
-        if (s->start_symbols.at[i] == symbol) {
-            qdot_status status = qdot_session_number(s, s->start_values.at[i], value, NULL);
+    for (size_t i = 0; i < s->values->start_symbols.n; i++)
+        if (s->values->start_symbols.at[i] == symbol) {
+            qdot_status status = qdot_session_number(s, s->values->start_values.at[i], value, NULL);
 
             if (status != QDOT_EUNSET)
                 return status;
@@ -523,8 +524,8 @@ starts(description *d)
     for (size_t i = 0; i < 2 * d->x.n; i++)
         QDOT_TRY(qdot_vec_push(&d->start, 0));
     d->x.start = d->start.at;
-    if (s->runs.n > 0) {
-        qdot_run *run = s->runs.at[s->runs.n - 1].run;
+    if (s->runs->n > 0) {
+        qdot_run *run = s->runs->at[s->runs->n - 1].run;
 
         if (is_of_scene(d, qdot_run_get_report(run)))
             return start_of_run(d, run);

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_EXPORT_SCENE_H
 #define QDOT_LANG_EXPORT_SCENE_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "show/export.h"
 
 /* Append the equations of motion as source text. file: the name without folder and ending. Parameters

@@ -1,6 +1,7 @@
 /* gravity.c -- `gravity`: a uniform field. */
 #include "lang/answer/answer.h"
 #include "lang/declare/objects.h"
+#include "mech/scene/scene.h"
 
 static qdot_status gravity_declare(qdot_record *r);
 

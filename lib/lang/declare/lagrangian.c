@@ -1,5 +1,6 @@
 /* lagrangian.c -- `lagrangian`: the Lagrangian itself. */
 #include "lang/syntax/record.h"
+#include "mech/scene/scene.h"
 
 static qdot_status lagrangian_declare(qdot_record *r);
 

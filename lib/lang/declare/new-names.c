@@ -5,7 +5,9 @@
 #include "expr/symbol.h"
 #include "lang/commands/set.h"
 #include "lang/declare/declare.h"
+#include "lang/session/evaluation.h"
 #include "lang/syntax/holes.h"
+#include "mech/scene/scene.h"
 
 /* --- reading ------------------------------------------------------------------------ */
 
@@ -52,9 +54,9 @@ new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
     }
     if (value >= r->parts.at + r->parts.n || !qdot_filled_is(value, "VALUE"))
         return QDOT_OK;
-    session->declares = false; /* numbers of runs as `set` takes them, with their errors */
+    session->evaluation->declares = false; /* numbers of runs as `set` takes them, with their errors */
     status = qdot_record_scalar(r, value, &x->value);
-    session->declares = true;
+    session->evaluation->declares = true;
     return status == QDOT_OK ? qdot_set_keep_measured(session, &x->value) : status;
 }
 

@@ -3,6 +3,7 @@
 #define QDOT_LANG_OBJECTS_H
 
 #include "lang/syntax/record.h"
+#include "mech/scene/things.h"
 
 /* The label of `[NAME:]`; NULL: none. */
 QDOT_MUST_CHECK qdot_status qdot_object_label(qdot_record *r, const char **label);

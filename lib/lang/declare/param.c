@@ -2,6 +2,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/declare/new-names.h"
 #include "lang/session/bind.h"
+#include "lang/session/values.h"
 
 static qdot_status param_declare(qdot_record *r);
 

@@ -1,6 +1,7 @@
 /* particle.c -- `particle`: a mass point at r(q, t). */
 #include "lang/commands/warnings.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/scene.h"
 
 static qdot_status particle_declare(qdot_record *r);
 

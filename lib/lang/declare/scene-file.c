@@ -13,6 +13,10 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/measured.h"
+#include "lang/session/output.h"
+#include "lang/session/runs.h"
+#include "lang/session/typed.h"
+#include "lang/session/values.h"
 #include "lang/source/source.h"
 
 bool
@@ -183,7 +187,7 @@ put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, 
     QDOT_TRY(scene_file_put(s, " = ", value, out));
     qdot_text_add(out, last);
     if (remarks)
-        qdot_session_remarks_end_line(s, value, s->runs.n, from, out);
+        qdot_session_remarks_end_line(s, value, s->runs->n, from, out);
     else
         qdot_text_char(out, '\n');
     return QDOT_OK;
@@ -202,15 +206,15 @@ put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols
 static qdot_status
 put_start(qdot_session *s, bool remarks, qdot_text *out)
 {
-    size_t left = s->start_symbols.n;
+    size_t left = s->values->start_symbols.n;
 
     for (size_t i = 0; i < 2 * s->scene->coordinates.n; i++) {
         const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
 
-        for (size_t k = 0; k < s->start_symbols.n; k++)
-            if (s->start_symbols.at[k] == jet)
-                QDOT_TRY(put_value(s, "start ", jet, s->start_values.at[k],
-                                   --left == 0 && s->start_exactly ? " exactly" : "", remarks, out));
+        for (size_t k = 0; k < s->values->start_symbols.n; k++)
+            if (s->values->start_symbols.at[k] == jet)
+                QDOT_TRY(put_value(s, "start ", jet, s->values->start_values.at[k],
+                                   --left == 0 && s->values->start_exactly ? " exactly" : "", remarks, out));
     }
     return QDOT_OK;
 }
@@ -225,9 +229,9 @@ put_settings(const qdot_session *s, qdot_text *out)
                                          [QDOT_LATEX] = "latex",
                                          [QDOT_MATHML] = "mathml"};
 
-    qdot_text_format(out, "style %s\n", styles[s->style]);
-    qdot_text_add(out, s->flat ? "style flat\n" : "");
-    qdot_text_add(out, s->timing ? "timing on\n" : "");
+    qdot_text_format(out, "style %s\n", styles[s->output->style]);
+    qdot_text_add(out, s->output->flat ? "style flat\n" : "");
+    qdot_text_add(out, s->output->timing ? "timing on\n" : "");
 }
 
 static const char history_header[] = "# statements typed in qdot\n";
@@ -241,9 +245,9 @@ put_all(qdot_session *s, bool session, qdot_text *lost, qdot_text *out)
     QDOT_TRY(put_symbols(s, out));
     QDOT_TRY(qdot_scene_print_things(s->scene, out));
     QDOT_TRY(put_definitions(s, lost, out));
-    QDOT_TRY(put_values(s, "set ", s->set_symbols.n, s->set_symbols.at, s->set_values.at, session, out));
+    QDOT_TRY(put_values(s, "set ", s->values->set_symbols.n, s->values->set_symbols.at, s->values->set_values.at, session, out));
     QDOT_TRY(put_start(s, session, out));
-    QDOT_TRY(put_values(s, "scale ", s->scale_symbols.n, s->scale_symbols.at, s->scale_values.at, session, out));
+    QDOT_TRY(put_values(s, "scale ", s->values->scale_symbols.n, s->values->scale_symbols.at, s->values->scale_values.at, session, out));
     if (session)
         put_settings(s, out);
     return qdot_session_file_runs(s, session, lost, out);
@@ -257,8 +261,8 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 
     if (what == QDOT_FILE_HISTORY) {
         qdot_text_add(out, history_header);
-        qdot_text_add(out, qdot_text_str(&s->typed.all));
-        out->failed = out->failed || s->typed.all.failed;
+        qdot_text_add(out, qdot_text_str(&s->typed->all));
+        out->failed = out->failed || s->typed->all.failed;
         return qdot_text_status(out);
     }
     status = put_all(s, what == QDOT_FILE_SESSION, &lost, out);

@@ -17,7 +17,9 @@
 #ifndef QDOT_LANG_SCENE_FILE_H
 #define QDOT_LANG_SCENE_FILE_H
 
+#include "base/text.h"
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 
 /* Whether the token is the name of a scene file, "NAME.lag". */
 bool qdot_scene_file_is(const qdot_token *token);

@@ -13,6 +13,9 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/names.h"
+#include "lang/session/runs.h"
+#include "lang/session/values.h"
 
 /* What `start` would be after the lines written so far. */
 typedef struct {
@@ -100,7 +103,7 @@ static bool
 goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
 {
     qdot_session *s = w->s;
-    const qdot_run_report *report = qdot_run_get_report(s->runs.at[k].run);
+    const qdot_run_report *report = qdot_run_get_report(s->runs->at[k].run);
     bool all = true, some = false;
 
     if (report->n - report->n_states != c->q0.n || report->exact != NULL)
@@ -129,8 +132,8 @@ session_put_start(writer *w, const qdot_conditions *c, size_t before)
 
     for (size_t k = before; k-- > 0 && !end;)
         if (goes_on(w, c, k, false)) {
-            end = qdot_run_get_report(w->s->runs.at[k].run);
-            qdot_text_format(w->out, "start %s", w->s->runs.at[k].name);
+            end = qdot_run_get_report(w->s->runs->at[k].run);
+            qdot_text_format(w->out, "start %s", w->s->runs->at[k].name);
         }
     QDOT_TRY(keep_start(w, c));
     if (!end)
@@ -193,9 +196,9 @@ put_with(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
             qdot_expr now = QDOT_NIL;
             qdot_status status = QDOT_OK;
 
-            for (size_t k = 0; k < s->set_symbols.n; k++)
-                if (s->set_symbols.at[k] == symbol)
-                    now = s->set_values.at[k];
+            for (size_t k = 0; k < s->values->set_symbols.n; k++)
+                if (s->values->set_symbols.at[k] == symbol)
+                    now = s->values->set_values.at[k];
             if (!qdot_expr_is_class(s->pool, symbol, QDOT_PARAM) ||
                 (now != QDOT_NIL && qdot_session_bind(s, now) == c->values.at[i]) ||
                 (follows == 0 && now != QDOT_NIL && qdot_expr_kind(s->pool, now) != QDOT_NUM))
@@ -231,8 +234,8 @@ is_repeatable(const qdot_session *s, const qdot_named_run *run)
     for (size_t i = 0; i < c->symbols.n; i++) {
         bool same = qdot_expr_is_class(s->pool, c->symbols.at[i], QDOT_PARAM);
 
-        for (size_t k = 0; k < s->set_symbols.n && !same; k++)
-            same = s->set_symbols.at[k] == c->symbols.at[i] && s->set_values.at[k] == c->values.at[i];
+        for (size_t k = 0; k < s->values->set_symbols.n && !same; k++)
+            same = s->values->set_symbols.at[k] == c->symbols.at[i] && s->values->set_values.at[k] == c->values.at[i];
         if (!same)
             return false;
     }
@@ -243,7 +246,7 @@ static qdot_status
 put_run(writer *w, size_t k)
 {
     qdot_session *s = w->s;
-    const qdot_named_run *run = &s->runs.at[k];
+    const qdot_named_run *run = &s->runs->at[k];
     const qdot_conditions *c = run->conditions;
     qdot_kept_values kept;
     qdot_status status;
@@ -275,19 +278,19 @@ put_run(writer *w, size_t k)
 static void
 make_latest(qdot_session *s, size_t k)
 {
-    const qdot_named_run run = s->runs.at[k];
+    const qdot_named_run run = s->runs->at[k];
 
-    memmove(&s->runs.at[k], &s->runs.at[k + 1], (s->runs.n - k - 1) * sizeof run);
-    s->runs.at[s->runs.n - 1] = run;
+    memmove(&s->runs->at[k], &s->runs->at[k + 1], (s->runs->n - k - 1) * sizeof run);
+    s->runs->at[s->runs->n - 1] = run;
 }
 
 static void
 put_back(qdot_session *s, size_t k)
 {
-    const qdot_named_run run = s->runs.at[s->runs.n - 1];
+    const qdot_named_run run = s->runs->at[s->runs->n - 1];
 
-    memmove(&s->runs.at[k + 1], &s->runs.at[k], (s->runs.n - k - 1) * sizeof run);
-    s->runs.at[k] = run;
+    memmove(&s->runs->at[k + 1], &s->runs->at[k], (s->runs->n - k - 1) * sizeof run);
+    s->runs->at[k] = run;
 }
 
 /* Whether the text with which the name was defined gives its numbers again if run k is the latest. */
@@ -313,12 +316,12 @@ find_run(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
 {
     bool is = false;
 
-    for (*k = s->runs.n; *k > first && name->body != NULL && !is;) {
+    for (*k = s->runs->n; *k > first && name->body != NULL && !is;) {
         --*k;
         QDOT_TRY(reads_numbers(s, name, *k, &is));
     }
     if (!is)
-        *k = s->runs.n;
+        *k = s->runs->n;
     return QDOT_OK;
 }
 
@@ -378,7 +381,7 @@ place_names(qdot_session *s, bool runs, placements *list)
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
-        placed one = {name, s->runs.n};
+        placed one = {name, s->runs->n};
 
         if (name->kind != QDOT_NAME_VALUE || !qdot_measured_occurs(s, name->value))
             continue;
@@ -397,7 +400,7 @@ put_names(writer *w, const placements *list, size_t behind)
 
         if (list->at[i].behind != behind)
             continue;
-        if (behind == w->s->runs.n) {
+        if (behind == w->s->runs->n) {
             QDOT_TRY(put_lost(w, name));
             continue;
         }
@@ -413,15 +416,15 @@ put_names(writer *w, const placements *list, size_t behind)
 qdot_status
 qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c)
 {
-    c->exactly = s->start_exactly;
+    c->exactly = s->values->start_exactly;
     for (size_t i = 0; i < 2 * s->scene->coordinates.n; i++) {
         const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
         qdot_expr value = QDOT_ZERO;
         bool named = false;
 
-        for (size_t k = 0; k < s->start_symbols.n; k++)
-            if (s->start_symbols.at[k] == jet) {
-                value = s->start_values.at[k];
+        for (size_t k = 0; k < s->values->start_symbols.n; k++)
+            if (s->values->start_symbols.at[k] == jet) {
+                value = s->values->start_values.at[k];
                 named = true;
             }
         if (i % 2 == 0) {
@@ -441,9 +444,9 @@ static void
 forget_ends(writer *w)
 {
     for (size_t i = 0; i < w->values.n; i++)
-        for (size_t k = 0; k < w->s->runs.n && w->values.at[i] != QDOT_NIL
+        for (size_t k = 0; k < w->s->runs->n && w->values.at[i] != QDOT_NIL
                            && qdot_session_file_is_long(w->s, w->values.at[i]); k++) {
-            const qdot_run_report *report = qdot_run_get_report(w->s->runs.at[k].run);
+            const qdot_run_report *report = qdot_run_get_report(w->s->runs->at[k].run);
 
             for (size_t j = 0; j < report->n && w->values.at[i] != QDOT_NIL; j++)
                 if (w->values.at[i] == qdot_expr_of_double(w->s->pool, report->q[j])
@@ -462,13 +465,13 @@ session_put_all(writer *w, const placements *list)
     if (status == QDOT_OK)
         status = keep_start(w, &start);
     forget_ends(w);
-    for (size_t k = 0; k < s->runs.n && status == QDOT_OK; k++) {
+    for (size_t k = 0; k < s->runs->n && status == QDOT_OK; k++) {
         status = put_run(w, k);
         if (status == QDOT_OK)
             status = put_names(w, list, k);
     }
     if (status == QDOT_OK && conditions_compare(w, &start) != SAME)
-        status = session_put_start(w, &start, s->runs.n);
+        status = session_put_start(w, &start, s->runs->n);
     qdot_conditions_clear(&start);
     return status;
 }
@@ -477,16 +480,16 @@ session_put_all(writer *w, const placements *list)
 static size_t
 sort_out(qdot_session *s, const qdot_named_run *all)
 {
-    const size_t n = s->runs.n;
+    const size_t n = s->runs->n;
     size_t kept = 0, lost = 0;
 
     for (size_t k = 0; k < n; k++)
         kept += is_repeatable(s, &all[k]);
     for (size_t k = 0, i = 0; k < n; k++)
         if (is_repeatable(s, &all[k]))
-            s->runs.at[i++] = all[k];
+            s->runs->at[i++] = all[k];
         else
-            s->runs.at[kept + lost++] = all[k];
+            s->runs->at[kept + lost++] = all[k];
     return kept;
 }
 
@@ -513,7 +516,7 @@ put_runs_and_names(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot
     if (status == QDOT_OK && runs)
         status = session_put_all(&w, &list);
     if (status == QDOT_OK)
-        status = put_names(&w, &list, s->runs.n);
+        status = put_names(&w, &list, s->runs->n);
     qdot_free(w.symbols.at);
     qdot_free(w.values.at);
     qdot_free(list.at);
@@ -523,21 +526,21 @@ put_runs_and_names(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot
 qdot_status
 qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out)
 {
-    const size_t n = s->runs.n;
+    const size_t n = s->runs->n;
     qdot_named_run *all = qdot_malloc((n + 1) * sizeof *all);
     qdot_status status;
 
     if (all == NULL)
         return QDOT_ENOMEM;
     if (n > 0)
-        memcpy(all, s->runs.at, n * sizeof *all);
-    s->runs.n = sort_out(s, all);
+        memcpy(all, s->runs->at, n * sizeof *all);
+    s->runs->n = sort_out(s, all);
     status = put_runs_and_names(s, runs, n, lost, out);
     if (status == QDOT_OK && runs)
-        status = put_lost_runs(s, n - s->runs.n, s->runs.at + s->runs.n, lost);
-    s->runs.n = n;
+        status = put_lost_runs(s, n - s->runs->n, s->runs->at + s->runs->n, lost);
+    s->runs->n = n;
     if (n > 0)
-        memcpy(s->runs.at, all, n * sizeof *all);
+        memcpy(s->runs->at, all, n * sizeof *all);
     qdot_free(all);
     return status;
 }

@@ -12,7 +12,9 @@
 #ifndef QDOT_LANG_SESSION_FILE_H
 #define QDOT_LANG_SESSION_FILE_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/conditions.h"
+#include "lang/session/parts.h"
 
 /* Append the runs, and names that hold their numbers, and to `lost` comments of what cannot be made again. runs false:
  * nothing, and a notice for each name. */

@@ -7,6 +7,9 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "lang/session/measured.h"
+#include "lang/session/names.h"
+#include "lang/session/runs.h"
+#include "lang/session/text-list.h"
 
 const char qdot_session_file_header[] = "# a scene written by qdot\n";
 
@@ -38,8 +41,8 @@ put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
 {
     if (!qdot_session_file_is_long(s, value))
         return;
-    for (size_t i = 0; i < s->measured.n; i++) {
-        const qdot_measured *m = &s->measured.at[i];
+    for (size_t i = 0; i < s->measured->n; i++) {
+        const qdot_measured *m = &s->measured->at[i];
 
         if (value != m->exact &&
             (m->digits > 0 || value != qdot_expr_of_double(s->pool, m->value)))
@@ -49,13 +52,13 @@ put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
         return;
     }
     for (size_t k = 0; k < runs; k++) {
-        const qdot_run_report *report = qdot_run_get_report(s->runs.at[k].run);
+        const qdot_run_report *report = qdot_run_get_report(s->runs->at[k].run);
 
         for (size_t i = 0; i < report->n; i++) {
             if (value != qdot_expr_of_double(s->pool, report->q[i]) &&
                 value != qdot_expr_of_double(s->pool, report->v[i]))
                 continue;
-            qdot_text_format(out, " # from the end of %s, its error ", s->runs.at[k].name);
+            qdot_text_format(out, " # from the end of %s, its error ", s->runs->at[k].name);
             put_error(report->error, out);
             return;
         }
@@ -71,9 +74,9 @@ qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t run
     put_known(s, value, runs, out);
     if (out->n == end) {
         qdot_text_format(&line, "%s # ", qdot_text_str(out) + from);
-        for (size_t i = 0; i < s->remarks.n && out->n == end && line.n > 0; i++)
-            if (strncmp(s->remarks.at[i], line.at, line.n) == 0)
-                qdot_text_add(out, s->remarks.at[i] + line.n - 3);
+        for (size_t i = 0; i < s->remarks->n && out->n == end && line.n > 0; i++)
+            if (strncmp(s->remarks->at[i], line.at, line.n) == 0)
+                qdot_text_add(out, s->remarks->at[i] + line.n - 3);
         qdot_text_clear(&line);
     }
     qdot_text_char(out, '\n');
@@ -84,8 +87,8 @@ qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t run
 static bool
 is_kept(const qdot_session *s, const char *line)
 {
-    for (size_t i = 0; i < s->remarks.n; i++)
-        if (strcmp(s->remarks.at[i], line) == 0)
+    for (size_t i = 0; i < s->remarks->n; i++)
+        if (strcmp(s->remarks->at[i], line) == 0)
             return true;
     return false;
 }
@@ -110,7 +113,7 @@ qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length)
             return QDOT_ENOMEM;
         memcpy(copy, line, (size_t)(next - line));
         copy[next - line] = '\0';
-        if (is_kept(s, copy) || qdot_vec_push(&s->remarks, copy) != QDOT_OK)
+        if (is_kept(s, copy) || qdot_vec_push(s->remarks, copy) != QDOT_OK)
             qdot_free(copy);
     }
     return QDOT_OK;
@@ -134,8 +137,8 @@ is_found(const qdot_session *s, const char *line)
         return false;
     memcpy(name, from, n);
     name[n] = '\0';
-    for (size_t k = 0; k < s->runs.n; k++)
-        if (strcmp(s->runs.at[k].name, name) == 0)
+    for (size_t k = 0; k < s->runs->n; k++)
+        if (strcmp(s->runs->at[k].name, name) == 0)
             return true;
     return qdot_names_find(s->names, name) != NULL;
 }
@@ -143,8 +146,8 @@ is_found(const qdot_session *s, const char *line)
 void
 qdot_session_remarks_lost(const qdot_session *s, const qdot_text *more, qdot_text *out)
 {
-    for (size_t i = 0; i < s->remarks.n; i++)
-        if (s->remarks.at[i][0] == '#' && !is_found(s, s->remarks.at[i]))
-            qdot_text_format(out, "%s\n", s->remarks.at[i]);
+    for (size_t i = 0; i < s->remarks->n; i++)
+        if (s->remarks->at[i][0] == '#' && !is_found(s, s->remarks->at[i]))
+            qdot_text_format(out, "%s\n", s->remarks->at[i]);
     qdot_text_add(out, qdot_text_str(more));
 }

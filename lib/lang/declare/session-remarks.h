@@ -11,7 +11,8 @@
 #ifndef QDOT_LANG_SESSION_REMARKS_H
 #define QDOT_LANG_SESSION_REMARKS_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
 
 /* The first line of scene and session files. */
 extern const char qdot_session_file_header[];

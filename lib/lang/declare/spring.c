@@ -2,6 +2,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
+#include "mech/scene/scene.h"
 
 static qdot_status spring_declare(qdot_record *r);
 

@@ -2,6 +2,7 @@
 #include "expr/node.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"
+#include "mech/scene/scene.h"
 
 static qdot_status torque_declare(qdot_record *r);
 

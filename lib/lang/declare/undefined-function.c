@@ -7,7 +7,10 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/declare/declare.h"
+#include "lang/session/history.h"
+#include "lang/session/values.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/scene.h"
 
 static qdot_status declare_functions(qdot_record *r);
 
@@ -128,14 +131,14 @@ replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(qdot_names_update(session->names, one->name, value, one->formals));
     }
-    for (size_t i = 0; i < session->history.n; i++)
-        session->history.at[i] =
-            qdot_subs(pool, session->history.at[i], 1, &own, &symbol);
-    for (size_t i = 0; i < session->set_symbols.n; i++) {
-        session->set_symbols.at[i] =
-            qdot_subs(pool, session->set_symbols.at[i], 1, &own, &symbol);
-        session->set_values.at[i] =
-            qdot_subs(pool, session->set_values.at[i], 1, &own, &symbol);
+    for (size_t i = 0; i < session->history->values.n; i++)
+        session->history->values.at[i] =
+            qdot_subs(pool, session->history->values.at[i], 1, &own, &symbol);
+    for (size_t i = 0; i < session->values->set_symbols.n; i++) {
+        session->values->set_symbols.at[i] =
+            qdot_subs(pool, session->values->set_symbols.at[i], 1, &own, &symbol);
+        session->values->set_values.at[i] =
+            qdot_subs(pool, session->values->set_values.at[i], 1, &own, &symbol);
     }
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_scene_replace(session->scene, own, symbol);

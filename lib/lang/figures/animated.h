@@ -2,7 +2,8 @@
 #ifndef QDOT_LANG_ANIMATED_H
 #define QDOT_LANG_ANIMATED_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+#include "lang/session/runs.h"
 #include "show/animation.h"
 
 /* Which part of a run is drawn, and how. */

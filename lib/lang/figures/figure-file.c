@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include "base/terminal.h"
+#include "expr/print-name.h"
 #include "lang/answer/answer.h"
 #include "lang/language/read.h"
+#include "lang/session/output.h"
+#include "lang/session/text-list.h"
 
 enum { SKETCH_COLUMNS = 100, SKETCH_ROWS = 16, MOST_FILES = 1000000 };
 
@@ -18,7 +21,7 @@ static void
 add_stem(const qdot_session *session, qdot_text *path)
 {
     const char *script =
-        session->including.n > 0 ? session->including.at[session->including.n - 1] : "-";
+        session->including->n > 0 ? session->including->at[session->including->n - 1] : "-";
     size_t n = strlen(script);
 
     if (strcmp(script, "-") == 0)
@@ -52,7 +55,7 @@ default_path(const qdot_session *session, qdot_text *path)
 static bool
 has_terminal(const qdot_session *session)
 {
-    return !session->json && session->out == stdout && qdot_terminal_is(stdout);
+    return !session->output->json && session->output->out == stdout && qdot_terminal_is(stdout);
 }
 
 /* Every panel in characters, as wide as the terminal. */
@@ -68,7 +71,7 @@ sketch(qdot_session *session, const qdot_figure *figure)
     rows = rows > SKETCH_ROWS + 4 ? SKETCH_ROWS : rows > 8 ? rows - 4 : 4;
     for (size_t i = 0; i < figure->n && status == QDOT_OK; i++)
         status = qdot_figure_sketch(figure, i, columns, figure->n > 1 ? rows / 2 + 2 : rows,
-                                    session->style != QDOT_UNICODE, &text);
+                                    session->output->style != QDOT_UNICODE, &text);
     return qdot_answer_written(session, "sketch", status, &text);
 }
 

@@ -1,6 +1,8 @@
 /* plot-loop.c -- the `for` of a panel: a curve of each expression for each pass. */
 #include "lang/figures/plot-loop.h"
 
+#include "expr/print-name.h"
+#include "expr/print.h"
 #include "lang/commands/loop-index.h"
 
 const qdot_filled *

@@ -5,6 +5,7 @@
 #ifndef QDOT_LANG_PLOT_LOOP_H
 #define QDOT_LANG_PLOT_LOOP_H
 
+#include "base/text.h"
 #include "lang/commands/loop.h"
 #include "lang/syntax/record.h"
 

@@ -13,6 +13,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/declare/scene-file.h"
+#include "lang/session/output.h"
 
 struct qdot_redirect_type {
     const char *ending;
@@ -99,21 +100,21 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
         r->file = open_memstream(&r->text, &r->length);
         if (r->file == NULL)
             return qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", path);
-        r->out = session->out;
-        r->json = session->json;
-        r->console = session->console;
+        r->out = session->output->out;
+        r->json = session->output->json;
+        r->console = session->output->console;
         if (r->console == NULL) {
-            session->console = r->out;
-            session->console_json = r->json;
+            session->output->console = r->out;
+            session->output->console_json = r->json;
         }
         r->type = &endings[i];
-        r->style = session->style;
-        session->out = r->file;
-        session->json = r->type->kind == JSON;
+        r->style = session->output->style;
+        session->output->out = r->file;
+        session->output->json = r->type->kind == JSON;
         if (r->type->kind == PAGE) {
             r->page.kind = r->type->style == QDOT_LATEX ? QDOT_PAGE_LATEX : QDOT_PAGE_MATHML;
-            session->page = &r->page;
-            session->style = r->type->style;
+            session->output->page = &r->page;
+            session->output->style = r->type->style;
         }
         return QDOT_OK;
     }
@@ -143,12 +144,12 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
     else
         qdot_sheet_forget(session);
     complete = fclose(r->file) == 0;
-    session->out = r->out;
-    session->json = r->json;
-    session->console = r->console;
+    session->output->out = r->out;
+    session->output->json = r->json;
+    session->output->console = r->console;
     if (paged)
-        session->style = r->style;
-    session->page = NULL;
+        session->output->style = r->style;
+    session->output->page = NULL;
     if (status == QDOT_OK && !complete)
         status = qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", r->path);
     if (status == QDOT_OK && paged)

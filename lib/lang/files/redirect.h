@@ -9,7 +9,9 @@
 #ifndef QDOT_LANG_REDIRECT_H
 #define QDOT_LANG_REDIRECT_H
 
+#include "expr/print-name.h"
 #include "lang/commands/statement.h"
+#include "lang/source/token.h"
 #include "show/formula-page.h"
 
 typedef struct {

@@ -4,31 +4,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lang/session/history.h"
+#include "lang/session/output.h"
 #include "show/animation.h"
 
 qdot_status
 qdot_report_answer_begin(qdot_session *s, qdot_style style, qdot_report_answer *k)
 {
-    *k = (qdot_report_answer){.out = s->out,
-                .console = s->console,
-                .json = s->json,
-                .console_json = s->console_json,
-                .style = s->style,
+    *k = (qdot_report_answer){.out = s->output->out,
+                .console = s->output->console,
+                .json = s->output->json,
+                .console_json = s->output->console_json,
+                .style = s->output->style,
                 .page = {.kind = QDOT_PAGE_REPORT},
-                .page_before = s->page,
-                .history = s->history.n,
-                .history_over = s->history_over.n};
+                .page_before = s->output->page,
+                .history = s->history->values.n,
+                .history_over = s->history->over.n};
     k->file = open_memstream(&k->text, &k->length);
     if (k->file == NULL)
         return qdot_fail(QDOT_ENOMEM, "no memory for the report");
-    if (s->console == NULL) {
-        s->console = s->out;
-        s->console_json = s->json;
+    if (s->output->console == NULL) {
+        s->output->console = s->output->out;
+        s->output->console_json = s->output->json;
     }
-    s->out = k->file;
-    s->json = false;
-    s->style = style;
-    s->page = style == QDOT_MATHML ? &k->page : NULL;
+    s->output->out = k->file;
+    s->output->json = false;
+    s->output->style = style;
+    s->output->page = style == QDOT_MATHML ? &k->page : NULL;
     return QDOT_OK;
 }
 
@@ -38,15 +40,15 @@ qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status statu
 {
     bool whole = fclose(k->file) == 0;
 
-    s->out = k->out;
-    s->console = k->console;
-    s->json = k->json;
-    s->console_json = k->console_json;
-    s->style = k->style;
-    s->page = k->page_before;
-    s->history.n = k->history;
-    if (s->history_over.n > k->history_over)
-        s->history_over.n = k->history_over;
+    s->output->out = k->out;
+    s->output->console = k->console;
+    s->output->json = k->json;
+    s->output->console_json = k->console_json;
+    s->output->style = k->style;
+    s->output->page = k->page_before;
+    s->history->values.n = k->history;
+    if (s->history->over.n > k->history_over)
+        s->history->over.n = k->history_over;
     if (status == QDOT_OK && !whole)
         status = qdot_fail(QDOT_ENOMEM, "no memory for the report");
     if (status == QDOT_OK) {

@@ -2,6 +2,7 @@
 #ifndef QDOT_LANG_REPORT_ANSWER_H
 #define QDOT_LANG_REPORT_ANSWER_H
 
+#include "expr/print-name.h"
 #include "lang/syntax/record.h"
 #include "show/formula-page.h"
 

@@ -9,6 +9,7 @@
 #include "lang/files/report-run.h"
 #include "lang/files/report-work.h"
 #include "lang/session/runs.h"
+#include "lang/session/text-list.h"
 #include "lang/syntax/record.h"
 #include "mech/study/noether.h"
 #include "show/page.h"
@@ -98,7 +99,7 @@ add_script(page *p)
     qdot_status status = QDOT_OK;
 
     qdot_report_heading(&p->page, "Script");
-    if (s->including.n > 0 && strcmp(s->including.at[s->including.n - 1], "-") != 0) {
+    if (s->including->n > 0 && strcmp(s->including->at[s->including->n - 1], "-") != 0) {
         qdot_page_verbatim(&p->page, p->c->source->text);
         return QDOT_OK;
     }
@@ -163,7 +164,7 @@ find_runs(qdot_record *r, page *p)
                 return qdot_fail(QDOT_EINVAL, "run `%s` is named twice", name);
         p->runs[p->n++] = run;
     }
-    if (p->n == 0 && p->session->runs.n > 0) {
+    if (p->n == 0 && p->session->runs->n > 0) {
         qdot_named_run *run;
 
         QDOT_TRY(qdot_runs_find(p->session, NULL, &run));
@@ -176,7 +177,7 @@ find_runs(qdot_record *r, page *p)
 static void
 add_title(const qdot_session *s, qdot_text *title)
 {
-    const char *script = s->including.n > 0 ? s->including.at[s->including.n - 1] : "-";
+    const char *script = s->including->n > 0 ? s->including->at[s->including->n - 1] : "-";
     const char *slash = strrchr(script, '/'), *name = slash != NULL ? slash + 1 : script;
     size_t n = strlen(name);
 

@@ -2,7 +2,9 @@
 #ifndef QDOT_LANG_REPORT_RUN_H
 #define QDOT_LANG_REPORT_RUN_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
+#include "lang/session/runs.h"
 
 enum { QDOT_REPORT_RUNS = 8 }; /* runs that one page compares: as many looks has a figure */
 

@@ -107,7 +107,7 @@ find_study(qdot_session *session, qdot_conditions *c, bool *known,
     qdot_workprecision w = {0};
     qdot_status status;
 
-    *study = qdot_studies_find(&session->studies, c);
+    *study = qdot_studies_find(session->studies, c);
     *known = *study != NULL;
     if (*known)
         return QDOT_OK;
@@ -115,9 +115,9 @@ find_study(qdot_session *session, qdot_conditions *c, bool *known,
     if (status == QDOT_OK && w.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: no report is written");
     if (status == QDOT_OK) {
-        status = qdot_studies_keep(&session->studies, c, &w);
+        status = qdot_studies_keep(session->studies, c, &w);
         if (status == QDOT_OK)
-            *study = &session->studies.at[session->studies.n - 1].measured;
+            *study = &session->studies->at[session->studies->n - 1].measured;
     }
     qdot_workprecision_clear(&w);
     return status;

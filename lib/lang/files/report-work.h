@@ -2,7 +2,9 @@
 #ifndef QDOT_LANG_REPORT_WORK_H
 #define QDOT_LANG_REPORT_WORK_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
+#include "lang/session/runs.h"
 
 /* Append, for runs [n], a figure of error against time and a table: every method over a ladder of
  * tolerances, with the values, the start and the limits of the run. A study that was made of these is

@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/output.h"
 
 static qdot_status table_answer(qdot_record *r);
 
@@ -199,7 +200,7 @@ table_along(qdot_record *r)
     }
     if (status == QDOT_OK)
         status = qdot_grid_fill(&g, &list, rows, times);
-    if (status == QDOT_OK && path == NULL && !session->json)
+    if (status == QDOT_OK && path == NULL && !session->output->json)
         status = blank_all_unknown(session, &g, &list, times);
     if (status == QDOT_OK)
         status = qdot_grid_write(session, &g, only_run(&list), path);

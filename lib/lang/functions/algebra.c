@@ -6,13 +6,17 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/node.h"
+#include "expr/print-name.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/momenta.h"
+#include "mech/scene/things.h"
 #include "normal/simplify/kinks.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
@@ -82,7 +86,7 @@ qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
                   "a velocity or t");
         if (qdot_expr_kind(s->pool, args[1]) == QDOT_UFUN)
             return qdot_hint("as in diff(x(s), s)");
-        if (qdot_expr_kind(s->pool, args[1]) == QDOT_NUM && s->loops > 0)
+        if (qdot_expr_kind(s->pool, args[1]) == QDOT_NUM && s->evaluation->loops > 0)
             return qdot_hint("an index has its value: subs(diff(e, l), l = k) for k = [1, 2]");
         return QDOT_ETYPE;
     }

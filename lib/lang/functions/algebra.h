@@ -2,7 +2,8 @@
 #ifndef QDOT_LANG_ALGEBRA_H
 #define QDOT_LANG_ALGEBRA_H
 
-#include "lang/session/session.h"
+#include "base/memory.h"
+#include "lang/session/parts.h"
 
 /* Handlers for the rows of functions/builtin.c, with args [n]. */
 #define QDOT_ALGEBRA(word)                                                               \

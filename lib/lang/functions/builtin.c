@@ -23,6 +23,7 @@
 #include "lang/session/labels.h"
 #include "lang/session/member.h"
 #include "lang/session/range.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/study/geometry.h"
 #include "mech/study/hamilton.h"
 

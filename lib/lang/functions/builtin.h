@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_BUILTIN_H
 #define QDOT_LANG_BUILTIN_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* A function such as `diff`, `ds2`, `expand`; the rows are in lang/functions/builtin.c. */
 typedef struct {

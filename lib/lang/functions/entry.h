@@ -2,7 +2,8 @@
 #ifndef QDOT_LANG_ENTRY_H
 #define QDOT_LANG_ENTRY_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
 
 /* The entry of a value at index [n]; over: the coordinates by which entries are indexed, nil: by
  * numbers only. */

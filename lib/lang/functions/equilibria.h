@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_EQUILIBRIA_H
 #define QDOT_LANG_EQUILIBRIA_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "mech/study/equilibrium.h"
 #include "mech/study/modes.h"
 

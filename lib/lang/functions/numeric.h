@@ -8,7 +8,7 @@
 #ifndef QDOT_LANG_NUMERIC_H
 #define QDOT_LANG_NUMERIC_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* args [n]: E, perhaps how many digits. E is taken with the values of `set`.
  * QDOT_EDOMAIN: a part of it is undefined, not real, or not told from 0. */

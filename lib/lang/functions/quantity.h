@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_QUANTITY_H
 #define QDOT_LANG_QUANTITY_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* A value of the scene, `T`, `eom`, `mass_matrix` ...; `index`: for
  * eom[theta], p[theta], mass_matrix[a, b]; n = 0 for the bare name. */

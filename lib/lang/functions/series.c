@@ -7,7 +7,9 @@
 #include "expr/value-kind.h"
 #include "lang/functions/algebra.h"
 #include "lang/session/bind.h"
+#include "lang/session/history.h"
 #include "lang/session/momenta.h"
+#include "mech/scene/things.h"
 #include "normal/calculus/series.h"
 
 /* Read equations x = a as symbols and expansion points. */
@@ -34,7 +36,7 @@ series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long 
         e = qdot_momenta_for(s, e, r.from.at[i]);
     if (status == QDOT_OK) {
         status = qdot_series(s->pool, &facts, e, r.from.n, r.from.at, r.to.at, most, value);
-        s->series_in = qdot_list(s->pool, (uint32_t)r.from.n, r.from.at);
+        s->history->series_in = qdot_list(s->pool, (uint32_t)r.from.n, r.from.at);
     }
     qdot_algebra_drop(&r);
     return status;
@@ -65,7 +67,7 @@ qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
     if (status == QDOT_OK)
         status = qdot_value_kind_check(s->pool, *value);
     if (status == QDOT_OK)
-        s->series = *value;
+        s->history->series = *value;
     qdot_free(members);
     return status;
 }

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_SERIES_H
 #define QDOT_LANG_SERIES_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 #define QDOT_SERIES "series(e, x = a, y = b, n)"
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/session/evaluation.h"
 
 const char *
 qdot_short_names_long(const qdot_quantity *row)
@@ -30,8 +31,8 @@ qdot_short_names_note(qdot_session *session, const qdot_quantity *row, qdot_stat
     if (qdot_short_names_long(row) == NULL)
         return status;
     if (status == QDOT_OK)
-        session->taken = row->name;
-    else if (session->declares)
+        session->evaluation->taken = row->name;
+    else if (session->evaluation->declares)
         return hint(row);
     return status;
 }
@@ -39,23 +40,23 @@ qdot_short_names_note(qdot_session *session, const qdot_quantity *row, qdot_stat
 void
 qdot_short_names_forget(qdot_session *session)
 {
-    session->taken = NULL;
+    session->evaluation->taken = NULL;
 }
 
 /* If a declaration failed after a short name was read as a quantity, explain that in the hint. */
 static qdot_status
 explain(const qdot_session *session, qdot_status status)
 {
-    if (session->taken == NULL || qdot_last_error()->status != status ||
+    if (session->evaluation->taken == NULL || qdot_last_error()->status != status ||
         qdot_last_error()->hint[0] != '\0')
         return status;
-    return hint(qdot_quantity_find(session->taken));
+    return hint(qdot_quantity_find(session->evaluation->taken));
 }
 
 qdot_status
 qdot_short_names_tell(qdot_session *session, qdot_status status)
 {
-    const char *name = session->taken;
+    const char *name = session->evaluation->taken;
 
     if (status != QDOT_OK)
         return explain(session, status);

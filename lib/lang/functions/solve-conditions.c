@@ -4,6 +4,8 @@
 #include "base/text.h"
 #include "expr/build.h"
 #include "expr/node.h"
+#include "expr/print-name.h"
+#include "expr/print.h"
 #include "lang/answer/answer.h"
 #include "normal/solve/conditions.h"
 

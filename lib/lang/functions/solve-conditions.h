@@ -10,7 +10,7 @@
 #define QDOT_LANG_SOLVE_CONDITIONS_H
 
 #include "base/text.h"
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "normal/solve/solve-special.h"
 
 /* Notices of the solutions at special parameter values, and of values where these are not known. */

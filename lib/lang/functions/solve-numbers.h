@@ -9,7 +9,7 @@
 #ifndef QDOT_LANG_SOLVE_NUMBERS_H
 #define QDOT_LANG_SOLVE_NUMBERS_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "normal/solve/solutions.h"
 
 /* Evaluate solve(equation, x, a..b): a LIST. */

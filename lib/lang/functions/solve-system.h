@@ -9,7 +9,7 @@
 #ifndef QDOT_LANG_SOLVE_SYSTEM_H
 #define QDOT_LANG_SOLVE_SYSTEM_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* The solutions as a LIST of LISTs of equations u = value. `domain`: conditions on solutions
  * besides the equations. */

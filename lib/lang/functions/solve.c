@@ -17,7 +17,9 @@
 #include "lang/functions/solve-numbers.h"
 #include "lang/functions/solve-system.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/momenta.h"
+#include "mech/scene/things.h"
 #include "normal/refute/ball.h"
 #include "normal/solve/assumptions.h"
 #include "normal/solve/solve.h"
@@ -27,7 +29,7 @@ static qdot_expr
 domain_as_written(qdot_session *session, qdot_expr x)
 {
     qdot_pool *pool = session->pool;
-    const qdot_passed *p = session->passed;
+    const qdot_passed *p = session->evaluation->passed;
     qdot_expr list;
 
     if (p == NULL || p->spoiled || p->value.n == 0)
@@ -56,7 +58,7 @@ static qdot_status
 read_written(qdot_session *session, qdot_written *w)
 {
     qdot_pool *pool = session->pool;
-    const qdot_passed *p = session->passed;
+    const qdot_passed *p = session->evaluation->passed;
     qdot_written of_roots = {QDOT_NIL, QDOT_NIL};
     qdot_expr all = domain_as_written(session, QDOT_NIL), asked;
 

@@ -15,7 +15,7 @@
 #ifndef QDOT_LANG_SOLVE_H
 #define QDOT_LANG_SOLVE_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* args [n]: n = 4 if a range is given, its ends stand last. What stood in them before simplification is in
  * session->passed. */

@@ -13,6 +13,7 @@
 #include "lang/session/along.h"
 #include "lang/session/member.h"
 #include "lang/session/range.h"
+#include "mech/scene/scene.h"
 
 /* Functions that differentiate or solve: a value along a run would wrongly count as a constant there. */
 static const char *const of_formulas[] = {

@@ -10,6 +10,7 @@
 #define QDOT_LANG_COMPILED_H
 
 #include "lang/language/evaluator.h"
+#include "lang/source/token.h"
 
 typedef struct {
     const qdot_token *from, *to; /* its tokens [from, to) */

@@ -8,6 +8,8 @@
 #include "base/spelling.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/session/names.h"
+#include "mech/scene/scene.h"
 
 bool
 qdot_cursor_is_op(const qdot_cursor *c, const char *op)

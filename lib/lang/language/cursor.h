@@ -2,7 +2,8 @@
 #ifndef QDOT_LANG_CURSOR_H
 #define QDOT_LANG_CURSOR_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+#include "lang/source/token.h"
 
 typedef struct {
     qdot_session *session;

@@ -15,7 +15,9 @@
 #include "lang/language/partial-sum.h"
 #include "lang/session/bind.h"
 #include "lang/session/event-time.h"
+#include "lang/session/history.h"
 #include "lang/session/range.h"
+#include "lang/session/runs.h"
 #include "lang/source/lex.h"
 
 /* --- sums and products -------------------------------------------------------------- */
@@ -71,7 +73,7 @@ product(qdot_machine *m, size_t n)
         bool divide = s[i].sign->text[0] == '/';
 
         m->blame = s[i].sign;
-        if (divide && m->session->passed != NULL &&
+        if (divide && m->session->evaluation->passed != NULL &&
             qdot_expr_is_scalar(m->pool, m->args.at[i]))
             QDOT_TRY(qdot_machine_pass(m, qdot_div(m->pool, QDOT_ONE, m->args.at[i])));
         if (at_once && !divide)
@@ -145,8 +147,8 @@ run_around(const qdot_machine *m, const qdot_postfix *code)
 static qdot_status
 check_run(const qdot_machine *m, const char *name)
 {
-    for (size_t i = 0; i < m->session->runs.n; i++)
-        if (strcmp(m->session->runs.at[i].name, name) == 0)
+    for (size_t i = 0; i < m->session->runs->n; i++)
+        if (strcmp(m->session->runs->at[i].name, name) == 0)
             return QDOT_OK;
     (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
     return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
@@ -355,16 +357,16 @@ label(qdot_machine *m, const qdot_postfix *code)
 static qdot_status
 history(qdot_machine *m, uint32_t n)
 {
-    size_t count = m->session->history.n;
+    size_t count = m->session->history->values.n;
 
     if (count == 0)
         return qdot_fail(QDOT_EINVAL, "there is no value yet for `%%`");
     if (n > count)
         return qdot_fail(QDOT_EINVAL, "there are only %zu values so far", count);
     count = n == 0 ? count : n;
-    QDOT_TRY(qdot_machine_push(m, m->session->history.at[count - 1]));
-    if (count <= m->session->history_over.n)
-        qdot_machine_top(m, 1)->over = m->session->history_over.at[count - 1];
+    QDOT_TRY(qdot_machine_push(m, m->session->history->values.at[count - 1]));
+    if (count <= m->session->history->over.n)
+        qdot_machine_top(m, 1)->over = m->session->history->over.at[count - 1];
     return QDOT_OK;
 }
 

@@ -6,7 +6,10 @@
 #ifndef QDOT_LANG_EVALUATOR_H
 #define QDOT_LANG_EVALUATOR_H
 
+#include "base/text.h"
 #include "lang/language/cursor.h"
+#include "lang/session/names.h"
+#include "lang/source/token.h"
 
 /* --- postfix code ------------------------------------------------------------------- */
 

@@ -3,6 +3,7 @@
 #ifndef QDOT_LANG_FOREIGN_H
 #define QDOT_LANG_FOREIGN_H
 
+#include "base/text.h"
 #include "lang/language/cursor.h"
 
 /* The statement [from, to) failed with the last error, at the byte c->error_at. Where its form is

@@ -7,6 +7,7 @@
 #include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "lang/session/names.h"
 
 qdot_status
 qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)

@@ -3,6 +3,7 @@
 #define QDOT_LANG_FORMALS_H
 
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 
 /* `(a, b, c)`: the tokens [*n] of the names, owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c,

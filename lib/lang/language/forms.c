@@ -60,7 +60,7 @@ qdot_forms_sum(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     const qdot_partial_sum *known;
     qdot_sum_frame f = {.index = place->text,
                         .place = place,
-                        .varies = m->session->passed != NULL,
+                        .varies = m->session->evaluation->passed != NULL,
                         .resume = *pc,
                         .terms = m->terms.n};
 
@@ -137,8 +137,8 @@ qdot_forms_if(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     qdot_slot *s = qdot_machine_top(m, 1);
     qdot_slot none = {0};
 
-    if (m->session->passed != NULL)
-        m->session->passed->branches++;
+    if (m->session->evaluation->passed != NULL)
+        m->session->evaluation->passed->branches++;
     if (s->run != NULL)
         return qdot_machine_along_condition(s->run);
     if (!qdot_condition_is(m->pool, s->value))
@@ -157,8 +157,8 @@ qdot_forms_else(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 {
     if (qdot_machine_top(m, 2)->value != QDOT_TRUE)
         return;
-    if (m->session->passed != NULL)
-        m->session->passed->branches--;
+    if (m->session->evaluation->passed != NULL)
+        m->session->evaluation->passed->branches--;
     *qdot_machine_top(m, 2) = *qdot_machine_top(m, 1);
     m->stack.n--;
     *pc = code->to;
@@ -171,8 +171,8 @@ qdot_forms_end(qdot_machine *m)
     qdot_expr c, a, b;
     uint32_t n;
 
-    if (m->session->passed != NULL)
-        m->session->passed->branches--;
+    if (m->session->evaluation->passed != NULL)
+        m->session->evaluation->passed->branches--;
     if (qdot_machine_top(m, 3)->value == QDOT_FALSE) {
         *qdot_machine_top(m, 3) = *qdot_machine_top(m, 1);
         m->stack.n -= 2;

@@ -13,8 +13,10 @@
 #include "lang/language/evaluator.h"
 #include "lang/language/formals.h"
 #include "lang/language/token-text.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/member.h"
 #include "lang/source/source.h"
+#include "mech/scene/things.h"
 #include "normal/prove/decide.h"
 
 static bool
@@ -134,9 +136,9 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
     const qdot_error error = *qdot_last_error();
     uint32_t line, column;
 
-    if (s->placed || error.status != status || qdot_grave(status) != QDOT_OK)
+    if (s->evaluation->placed || error.status != status || qdot_grave(status) != QDOT_OK)
         return status;
-    s->placed = true;
+    s->evaluation->placed = true;
     qdot_source_locate(entry->body->source, at, &line, &column);
     (void)qdot_fail(status, "in the body of `%.100s` (%.150s:%u:%u): %s", entry->name,
                     entry->body->source->name, line, column, error.message);
@@ -174,17 +176,17 @@ apply(qdot_session *s, const qdot_name *entry, const qdot_argument *args, qdot_e
     qdot_status status;
     size_t outer;
 
-    s->placed = false;
-    if (s->calls >= QDOT_FUNCTION_DEPTH)
+    s->evaluation->placed = false;
+    if (s->evaluation->calls >= QDOT_FUNCTION_DEPTH)
         return qdot_fail(QDOT_ELIMIT,
                          "the recursion of `%.200s` does not end: %d calls within one another",
                          entry->name, QDOT_FUNCTION_DEPTH);
-    s->calls++;
+    s->evaluation->calls++;
     status = enclose(s, entry, args, &outer);
     if (status == QDOT_OK)
         status = function_evaluate_body(&c, entry->body, value, over);
     qdot_names_disclose(s->names, outer);
-    s->calls--;
+    s->evaluation->calls--;
     return status == QDOT_OK ? QDOT_OK : tell_place(s, entry, c.error_at, status);
 }
 
@@ -241,8 +243,8 @@ apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
     const qdot_error error = *qdot_last_error();
     qdot_status status;
 
-    if (m->s->passed != NULL)
-        m->s->passed->spoiled = true; /* what was met on the way need not exist */
+    if (m->s->evaluation->passed != NULL)
+        m->s->evaluation->passed->spoiled = true; /* what was met on the way need not exist */
     if (qdot_expr_kind(m->s->pool, arg) == QDOT_LIST) {
         status = apply_to_members(m, arg, value);
     } else {
@@ -313,8 +315,8 @@ qdot_function_call(qdot_session *s, const qdot_name *entry, unsigned primes, uin
     if (primes == 0)
         return n == 1 ? apply_to(&m, args, value, over)
                       : apply(s, entry, args, value, over);
-    if (s->passed != NULL)
-        s->passed->spoiled = true;
+    if (s->evaluation->passed != NULL)
+        s->evaluation->passed->spoiled = true;
     *value = qdot_value_map(s->pool, args[0].value, of_scalar, &m);
     return qdot_value_kind_check(s->pool, *value);
 }

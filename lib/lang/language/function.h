@@ -11,7 +11,9 @@
 #ifndef QDOT_LANG_FUNCTION_H
 #define QDOT_LANG_FUNCTION_H
 
+#include "base/text.h"
 #include "lang/language/cursor.h"
+#include "lang/session/names.h"
 
 /* The deepest nesting of calls, over all functions. */
 enum { QDOT_FUNCTION_DEPTH = 500 };

@@ -9,6 +9,7 @@
 #include "lang/functions/quantity.h"
 #include "lang/language/foreign-words.h"
 #include "lang/session/labels.h"
+#include "lang/session/names.h"
 
 /* --- the nearest of everything known ------------------------------------------------ */
 

@@ -4,6 +4,7 @@
 #define QDOT_LANG_HINTS_H
 
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 
 /* A name that looks like a derivative: its coordinate and its usual notation. */
 typedef struct {

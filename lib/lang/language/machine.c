@@ -22,7 +22,7 @@ qdot_machine_push(qdot_machine *m, qdot_expr value)
 static bool
 is_passed(const qdot_machine *m, qdot_expr value)
 {
-    const qdot_passed *p = m->session->passed;
+    const qdot_passed *p = m->session->evaluation->passed;
 
     return p != NULL && !p->spoiled && p->branches == 0 && value != QDOT_NIL &&
            qdot_expr_is_scalar(m->pool, value) && qdot_expr_kind(m->pool, value) != QDOT_NUM;
@@ -31,7 +31,7 @@ is_passed(const qdot_machine *m, qdot_expr value)
 qdot_status
 qdot_machine_pass(qdot_machine *m, qdot_expr value)
 {
-    return is_passed(m, value) ? qdot_vec_push(&m->session->passed->value, value) : QDOT_OK;
+    return is_passed(m, value) ? qdot_vec_push(&m->session->evaluation->passed->value, value) : QDOT_OK;
 }
 
 qdot_status
@@ -39,9 +39,9 @@ qdot_machine_pass_power(qdot_machine *m, qdot_expr base, qdot_expr exponent, qdo
 {
     if (!is_passed(m, value) || !qdot_expr_is_scalar(m->pool, base))
         return QDOT_OK;
-    QDOT_TRY(qdot_vec_push(&m->session->passed->value, value));
-    QDOT_TRY(qdot_vec_push(&m->session->passed->root, base));
-    return qdot_vec_push(&m->session->passed->root, exponent);
+    QDOT_TRY(qdot_vec_push(&m->session->evaluation->passed->value, value));
+    QDOT_TRY(qdot_vec_push(&m->session->evaluation->passed->root, base));
+    return qdot_vec_push(&m->session->evaluation->passed->root, exponent);
 }
 
 qdot_status
@@ -51,10 +51,10 @@ qdot_machine_pass_begin(qdot_machine *m)
 
     if (frame == NULL)
         return QDOT_ENOMEM;
-    frame->outer = m->session->passed;
+    frame->outer = m->session->evaluation->passed;
     frame->below = m->passed;
     m->passed = frame;
-    m->session->passed = &frame->passed;
+    m->session->evaluation->passed = &frame->passed;
     return QDOT_OK;
 }
 
@@ -63,7 +63,7 @@ qdot_machine_pass_end(qdot_machine *m)
 {
     qdot_passed_frame *frame = m->passed;
 
-    m->session->passed = frame->outer;
+    m->session->evaluation->passed = frame->outer;
     m->passed = frame->below;
     if (frame->outer != NULL)
         frame->outer->spoiled = true; /* such a function takes its arguments apart */
@@ -79,9 +79,9 @@ qdot_machine_spoil(qdot_machine *m, const char *name)
 {
     qdot_fun_id id;
 
-    if (m->session->passed != NULL && !qdot_fun_find(name, &id) && strcmp(name, "sqrt") != 0 &&
+    if (m->session->evaluation->passed != NULL && !qdot_fun_find(name, &id) && strcmp(name, "sqrt") != 0 &&
         qdot_names_find(m->session->names, name) == NULL)
-        m->session->passed->spoiled = true;
+        m->session->evaluation->passed->spoiled = true;
 }
 
 qdot_status

@@ -3,6 +3,8 @@
 #define QDOT_LANG_MACHINE_H
 
 #include "lang/language/evaluator.h"
+#include "lang/session/evaluation.h"
+#include "lang/source/token.h"
 
 /* A value on the stack. */
 typedef struct {

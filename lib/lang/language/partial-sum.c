@@ -11,8 +11,8 @@ const qdot_partial_sum *
 qdot_partial_sum_find(const qdot_session *session, const qdot_token *place, long first,
                       long last)
 {
-    for (size_t i = 0; i < session->partial_sums.n; i++) {
-        const qdot_partial_sum *sum = session->partial_sums.at + i;
+    for (size_t i = 0; i < session->evaluation->partial_sums.n; i++) {
+        const qdot_partial_sum *sum = session->evaluation->partial_sums.at + i;
 
         if (sum->place == place && sum->first == first && sum->last <= last)
             return sum;
@@ -23,17 +23,17 @@ qdot_partial_sum_find(const qdot_session *session, const qdot_token *place, long
 qdot_status
 qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum)
 {
-    if (session->loops == 0)
+    if (session->evaluation->loops == 0)
         return QDOT_OK;
-    for (size_t i = 0; i < session->partial_sums.n; i++) {
-        qdot_partial_sum *other = session->partial_sums.at + i;
+    for (size_t i = 0; i < session->evaluation->partial_sums.n; i++) {
+        qdot_partial_sum *other = session->evaluation->partial_sums.at + i;
 
         if (other->place == sum.place && other->first == sum.first) {
             *other = sum;
             return QDOT_OK;
         }
     }
-    return qdot_vec_push(&session->partial_sums, sum);
+    return qdot_vec_push(&session->evaluation->partial_sums, sum);
 }
 
 /* Whether the value is a parameter or coordinate of that name, or a member of that family. */

@@ -12,6 +12,7 @@
 #define QDOT_LANG_PARTIAL_SUM_H
 
 #include "lang/language/machine.h"
+#include "lang/source/token.h"
 
 typedef struct qdot_partial_sum {
     const qdot_token *place; /* its index, where it stands in the text */

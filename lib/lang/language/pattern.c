@@ -11,6 +11,9 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/foreign-words.h"
+#include "lang/session/names.h"
+#include "lang/session/runs.h"
+#include "mech/scene/things.h"
 
 typedef struct {
     const qdot_session *session;
@@ -115,7 +118,7 @@ is_kind(const matcher *x, char kind, const qdot_token *t)
     case 'n': return true;
     case 'u': return !qdot_cursor_knows(s, t->text);
     case 'p': return name != NULL && name->kind == QDOT_NAME_PARAM;
-    case 'D': return name != NULL && name->kind == QDOT_NAME_VALUE && s->runs.n == 0;
+    case 'D': return name != NULL && name->kind == QDOT_NAME_VALUE && s->runs->n == 0;
     case 'l': return qdot_scene_has_label(s->scene, t->text);
     case 'd':
         name = t->text[0] == 'd' ? qdot_names_find(s->names, t->text + 1) : NULL;
@@ -441,7 +444,7 @@ add_placeholder(const qdot_cursor *c, const char *line, const qdot_match *m,
     if (line[1] == 'r') {
         const qdot_session *s = c->session;
 
-        qdot_text_add(out, s->runs.n > 0 ? s->runs.at[s->runs.n - 1].name : "run1");
+        qdot_text_add(out, s->runs->n > 0 ? s->runs->at[s->runs->n - 1].name : "run1");
         return line + 2;
     }
     if (i >= m->n)

@@ -5,7 +5,9 @@
 #ifndef QDOT_LANG_PATTERN_H
 #define QDOT_LANG_PATTERN_H
 
+#include "base/text.h"
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 
 enum { QDOT_PATTERN_HELD = 9 };
 

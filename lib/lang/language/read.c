@@ -9,6 +9,7 @@
 #include "lang/language/compiled.h"
 #include "lang/language/hints.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/held.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
@@ -45,11 +46,11 @@ evaluate_program(qdot_cursor *c, const qdot_compiled *program, course along, qdo
 {
     c->error_at = program->from->start;
     QDOT_TRY(qdot_evaluate(c, &program->code, value, over, run));
-    if (c->session->declares) { /* a scene is declared in velocities, with exact numbers */
+    if (c->session->evaluation->declares) { /* a scene is declared in velocities, with exact numbers */
         *value = qdot_momenta_to_velocities(c->session, qdot_measured_as_rationals(c->session, *value));
         return qdot_value_kind_check(c->session->pool, *value);
     }
-    if (c->session->held.n == 0)
+    if (c->session->evaluation->held.n == 0)
         return QDOT_OK;
     *value = along == MOTION ? qdot_held_parameters(c->session, *value)
                              : qdot_held_apply(c->session, *value);

@@ -8,6 +8,7 @@
 #define QDOT_LANG_READ_H
 
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 
 /* A whole expression, equations and logic included; stops before the first token that cannot go on (an
  * option word, `,`, `:`, `..`, a closing bracket, the end). */

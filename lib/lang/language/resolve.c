@@ -17,9 +17,13 @@
 #include "lang/functions/short-names.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
+#include "lang/session/evaluation.h"
+#include "lang/session/history.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
 #include "lang/source/letters.h"
+#include "mech/scene/scene.h"
+#include "mech/scene/things.h"
 
 bool
 qdot_resolve_is_function(const qdot_session *session, const char *name)
@@ -329,8 +333,8 @@ small(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdo
 static bool
 is_held(const qdot_session *s, const char *name)
 {
-    for (size_t i = 0; i < s->held.n && !s->declares; i++) {
-        const qdot_symbol *symbol = qdot_expr_symbol(s->pool, s->held.at[i].symbol);
+    for (size_t i = 0; i < s->evaluation->held.n && !s->evaluation->declares; i++) {
+        const qdot_symbol *symbol = qdot_expr_symbol(s->pool, s->evaluation->held.at[i].symbol);
 
         if (symbol->class == QDOT_COORD && strcmp(symbol->name, name) == 0)
             return true;
@@ -424,7 +428,7 @@ is_canonical(const qdot_session *s, const qdot_token *t)
                    strcmp(t->text, "routhian") == 0 || strcmp(t->text, "poisson") == 0;
         e = entry->value;
     } else if (t->kind == QDOT_TOKEN_OPERATOR && strcmp(t->text, "%") == 0) {
-        e = s->history.n > 0 ? s->history.at[s->history.n - 1] : QDOT_NIL;
+        e = s->history->values.n > 0 ? s->history->values.at[s->history->values.n - 1] : QDOT_NIL;
     }
     return e != QDOT_NIL && (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM);
 }

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "expr/print-name.h"
+#include "expr/print.h"
 #include "lang/language/evaluator.h"
 
 /* Whether a sign after this token stands between two operands. */

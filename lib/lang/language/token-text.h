@@ -2,7 +2,9 @@
 #ifndef QDOT_LANG_TOKEN_TEXT_H
 #define QDOT_LANG_TOKEN_TEXT_H
 
-#include "lang/session/session.h"
+#include "base/text.h"
+#include "lang/session/parts.h"
+#include "lang/source/token.h"
 
 /* The source text of the tokens [from, to), spaces as a person would set them; an index
  * of a loop under way is replaced by its value. */

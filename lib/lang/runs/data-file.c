@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/session/names.h"
 #include "table/csv.h"
 #include "table/hdf5.h"
 #include "table/html.h"
@@ -67,10 +68,10 @@ add_run(const qdot_session *session, const qdot_run *run, facts *to)
         [QDOT_RUN_DONE] = "done", [QDOT_RUN_STOPPED] = "stopped", [QDOT_RUN_FAILED] = "failed"};
     const qdot_run_report *r = qdot_run_get_report(run);
 
-    for (size_t i = 0; i < session->runs.n; i++)
-        if (session->runs.at[i].run == run) {
-            QDOT_TRY(add_text(to, "run", session->runs.at[i].name));
-            QDOT_TRY(add_text(to, "statement", session->runs.at[i].text));
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (session->runs->at[i].run == run) {
+            QDOT_TRY(add_text(to, "run", session->runs->at[i].name));
+            QDOT_TRY(add_text(to, "statement", session->runs->at[i].text));
         }
     QDOT_TRY(add_text(to, "method", r->method));
     QDOT_TRY(add_number(to, "tol", r->digits > 0 ? NAN : r->tol));

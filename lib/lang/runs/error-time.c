@@ -8,6 +8,7 @@
 #include "lang/answer/answer.h"
 #include "lang/figures/figure-file.h"
 #include "lang/runs/data-file.h"
+#include "lang/session/output.h"
 #include "show/figure.h"
 #include "table/text.h"
 
@@ -127,7 +128,7 @@ tell_table(qdot_session *session, const qdot_error_study *of)
     qdot_text text = {0};
     qdot_status status;
 
-    if (session->json)
+    if (session->output->json)
         return of->rows(session, of->study);
     status = write_table(of, QDOT_WRAP_CELL, &text);
     return qdot_answer_written(session, of->name, status, &text);

@@ -6,6 +6,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/session/event-time.h"
+#include "lang/session/output.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
 
@@ -215,14 +216,14 @@ events_list(qdot_record *r)
     qdot_status status = QDOT_OK;
     size_t n, n_faded;
 
-    if (session->runs.n == 0)
+    if (session->runs->n == 0)
         return list_declared(session);
     QDOT_TRY(qdot_runs_find(session, NULL, &run));
     QDOT_TRY(qdot_run_occurrences(run->run, &list, &n));
     QDOT_TRY(qdot_run_faded_events(run->run, &faded, &n_faded));
-    if (session->json)
+    if (session->output->json)
         QDOT_TRY(tell_faded(session, run->run, faded, n_faded));
-    if (session->json && n > 0)
+    if (session->output->json && n > 0)
         return qdot_run_get_report(run->run)->digits > 0
                    ? list_exact(session, run->run, list, n)
                    : list_numbers(session, list, n);

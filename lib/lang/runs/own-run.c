@@ -59,16 +59,16 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
 static qdot_named_run *
 own(qdot_session *session)
 {
-    qdot_named_run *latest = session->runs.at + session->runs.n - 1;
+    qdot_named_run *latest = session->runs->at + session->runs->n - 1;
 
-    return session->runs.n > 0 && strcmp(latest->name, run_name) == 0 ? latest : NULL;
+    return session->runs->n > 0 && strcmp(latest->name, run_name) == 0 ? latest : NULL;
 }
 
 void
 qdot_own_run_drop(qdot_session *session)
 {
     if (own(session) != NULL)
-        qdot_named_run_release(&session->runs.at[--session->runs.n]);
+        qdot_named_run_release(&session->runs->at[--session->runs->n]);
 }
 
 qdot_status

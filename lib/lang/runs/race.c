@@ -8,6 +8,7 @@
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 #include "sim/study/race.h"
 
@@ -121,7 +122,7 @@ race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choi
         status = print_race(race, &t, &text);
     if (status == QDOT_OK)
         status = qdot_answer_text(session, "race", qdot_text_str(&text));
-    if (status == QDOT_OK && session->json)
+    if (status == QDOT_OK && session->output->json)
         status = qdot_answer_rows(session, "race", &t);
     qdot_text_clear(&text);
     qdot_table_clear(&t);

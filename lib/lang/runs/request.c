@@ -10,6 +10,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/scales.h"
+#include "lang/session/values.h"
 
 void
 qdot_request_free(qdot_request *o)
@@ -26,10 +27,10 @@ qdot_request_free(qdot_request *o)
 static qdot_expr
 start_value(const qdot_session *session, qdot_expr jet, bool *named)
 {
-    for (size_t i = 0; i < session->start_symbols.n; i++)
-        if (session->start_symbols.at[i] == jet) {
-            *named = qdot_expr_place(session->start_open.n, session->start_open.at, jet) == session->start_open.n;
-            return session->start_values.at[i];
+    for (size_t i = 0; i < session->values->start_symbols.n; i++)
+        if (session->values->start_symbols.at[i] == jet) {
+            *named = qdot_expr_place(session->values->start_open.n, session->values->start_open.at, jet) == session->values->start_open.n;
+            return session->values->start_values.at[i];
         }
     *named = false;
     return QDOT_ZERO;
@@ -72,16 +73,16 @@ put_errors(const qdot_session *session, qdot_request *o)
     const size_t n = session->scene->coordinates.n;
     bool any = false;
 
-    if (session->start_errors.n == 0)
+    if (session->values->start_errors.n == 0)
         return QDOT_OK;
     o->apart = qdot_calloc(4 * n + 1, sizeof *o->apart);
     if (o->apart == NULL)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < session->start_errors.n; k++) {
-        const qdot_start_error *e = &session->start_errors.at[k];
-        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, e->symbol);
+    for (size_t k = 0; k < session->values->start_errors.n; k++) {
+        const qdot_start_error *e = &session->values->start_errors.at[k];
+        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, e->symbol);
 
-        if (at == session->start_symbols.n || session->start_values.at[at] != e->value)
+        if (at == session->values->start_symbols.n || session->values->start_values.at[at] != e->value)
             continue;
         for (size_t i = 0; i < 2 * n; i++)
             if (qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n) == e->symbol) {
@@ -109,9 +110,9 @@ is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
 static qdot_status
 follow_events(qdot_session *session, qdot_request *o)
 {
-    const size_t n = session->set_symbols.n;
-    const qdot_expr *symbols = session->set_symbols.at;
-    qdot_expr *const at = session->set_values.at;
+    const size_t n = session->values->set_symbols.n;
+    const qdot_expr *symbols = session->values->set_symbols.at;
+    qdot_expr *const at = session->values->set_values.at;
     qdot_expr *kept = qdot_malloc((n + 1) * sizeof *kept);
     bool some = false;
 
@@ -142,9 +143,9 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
                         "there is nothing to integrate: no coordinate is declared");
         return qdot_hint("coord theta");
     }
-    for (size_t i = 0; i < session->set_symbols.n; i++) {
-        qdot_expr symbol = session->set_symbols.at[i];
-        qdot_expr value = qdot_session_bind(session, session->set_values.at[i]);
+    for (size_t i = 0; i < session->values->set_symbols.n; i++) {
+        qdot_expr symbol = session->values->set_symbols.at[i];
+        qdot_expr value = qdot_session_bind(session, session->values->set_values.at[i]);
 
         QDOT_TRY(qdot_pool_check(session->pool));
         if (qdot_expr_is_class(session->pool, symbol, QDOT_PARAM))
@@ -164,7 +165,7 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
     o->request.q_named = o->q_named.at;
     o->request.v_named = o->v_named.at;
     o->request.scales = o->scales;
-    o->request.exactly = session->start_exactly;
+    o->request.exactly = session->values->start_exactly;
     return QDOT_OK;
 }
 

@@ -3,7 +3,8 @@
 #define QDOT_LANG_REQUEST_H
 
 #include "lang/commands/pairs.h"
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+#include "sim/model/request.h"
 
 /* A request with the arrays that it borrows. */
 typedef struct {

@@ -9,7 +9,9 @@
 #include "lang/commands/value-check.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/held.h"
+#include "lang/session/values.h"
 
 /* Append the tokens [from, to) to the text of the options. */
 static void
@@ -30,15 +32,15 @@ add_held(qdot_cursor *c, qdot_run_options *o)
     qdot_session *session = c->session;
 
     QDOT_TRY(qdot_held_check(session));
-    for (size_t i = 0; i < session->held.n; i++) {
-        const qdot_held *held = &session->held.at[i];
+    for (size_t i = 0; i < session->evaluation->held.n; i++) {
+        const qdot_held *held = &session->evaluation->held.at[i];
 
         QDOT_TRY(qdot_pairs_push(&o->with, c->at, held->symbol, held->value));
         qdot_text_format(&o->text, "%s%s = ", i > 0 || o->with.symbols.n > 1 ? ", " : " with ",
                          qdot_expr_symbol(session->pool, held->symbol)->name);
         QDOT_TRY(qdot_print(session->pool, held->value, QDOT_PLAIN, &o->text));
     }
-    return session->held.n > 0 ? qdot_value_check(c, &o->with) : QDOT_OK;
+    return session->evaluation->held.n > 0 ? qdot_value_check(c, &o->with) : QDOT_OK;
 }
 
 /* NAME = VALUE of a parameter or of a coordinate or velocity. */

@@ -2,8 +2,10 @@
 #ifndef QDOT_LANG_RUN_OPTIONS_H
 #define QDOT_LANG_RUN_OPTIONS_H
 
+#include "base/text.h"
 #include "lang/runs/request.h"
 #include "lang/syntax/record.h"
+#include "sim/model/request.h"
 
 /* The options as they occur in usages, except for a name. */
 #define QDOT_RUN_USAGE "[tol E | digits N] " QDOT_RUN_USAGE_OTHERS

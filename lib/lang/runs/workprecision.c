@@ -7,6 +7,7 @@
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
+#include "lang/session/conditions.h"
 #include "lang/syntax/record.h"
 #include "sim/study/workprecision.h"
 
@@ -157,7 +158,7 @@ workprecision_keep(qdot_session *session, const qdot_run_request *request, qdot_
     qdot_status status = qdot_conditions_take(session->scene, request, &conditions);
 
     if (status == QDOT_OK)
-        status = qdot_studies_keep(&session->studies, &conditions, w);
+        status = qdot_studies_keep(session->studies, &conditions, w);
     qdot_conditions_clear(&conditions);
     return status;
 }

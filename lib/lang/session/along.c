@@ -96,10 +96,10 @@ along_value_at(qdot_session *session, const char *run, qdot_expr e, double t, do
 static qdot_status
 add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, double *error)
 {
-    const size_t n = session->measured.n;
+    const size_t n = session->measured->n;
 
     for (size_t i = 0; i < n; i++) {
-        const qdot_measured m = session->measured.at[i];
+        const qdot_measured m = session->measured->at[i];
         double slope = 0;
         qdot_expr d;
 

@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_ALONG_H
 #define QDOT_LANG_ALONG_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* value(e1, ..., t) with args [n], the last the time; run NULL: the latest. The result holds
  * measured symbols; several columns: a LIST. */

@@ -5,13 +5,17 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/print-name.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
+#include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/values.h"
 #include "tape/tape.h"
 
 /* --- values of parameters and functions --------------------------------------------- */
@@ -59,15 +63,15 @@ bind_functions(qdot_session *session, qdot_expr e)
 
         if (qdot_expr_kind(pool, atom) != QDOT_UFUN)
             continue;
-        for (size_t k = 0; k < session->set_symbols.n; k++) {
-            qdot_expr head = session->set_symbols.at[k];
+        for (size_t k = 0; k < session->values->set_symbols.n; k++) {
+            qdot_expr head = session->values->set_symbols.at[k];
 
             if (qdot_expr_kind(pool, head) != QDOT_UFUN ||
                 qdot_expr_node(pool, head)->op != qdot_expr_node(pool, atom)->op)
                 continue;
             if (qdot_vec_push(&from, atom) != QDOT_OK ||
                 qdot_vec_push(&to, apply_function(pool, atom, head,
-                                                  session->set_values.at[k])) != QDOT_OK)
+                                                  session->values->set_values.at[k])) != QDOT_OK)
                 e = qdot_pool_fail(pool);
             break;
         }
@@ -86,15 +90,15 @@ qdot_session_bind(qdot_session *session, qdot_expr e)
 
     /* A value may hold other parameters, these others again: at most as often as there
      * are. */
-    for (size_t round = 0; round <= session->set_symbols.n + 1; round++) {
+    for (size_t round = 0; round <= session->values->set_symbols.n + 1; round++) {
         uint32_t holds = e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->holds;
         qdot_expr before = e;
 
-        if (session->set_symbols.n == 0 ||
+        if (session->values->set_symbols.n == 0 ||
             !(holds & (QDOT_HAS_PARAM | QDOT_HAS_UFUN | QDOT_HAS_MOMENTUM | QDOT_HAS_FORMAL)))
             return e;
-        e = qdot_subs(pool, e, session->set_symbols.n, session->set_symbols.at,
-                      session->set_values.at);
+        e = qdot_subs(pool, e, session->values->set_symbols.n, session->values->set_symbols.at,
+                      session->values->set_values.at);
         if (e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & QDOT_HAS_UFUN))
             e = bind_functions(session, e);
         if (e == before || e == QDOT_NIL)
@@ -125,9 +129,9 @@ find_measured(qdot_session *session, qdot_expr e, size_t *n, const qdot_measured
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, atoms); i++) {
         qdot_expr atom = qdot_expr_arg(session->pool, atoms, i);
 
-        for (size_t k = 0; k < session->measured.n; k++)
-            if (session->measured.at[k].symbol == atom &&
-                qdot_vec_push(&found, &session->measured.at[k]) != QDOT_OK) {
+        for (size_t k = 0; k < session->measured->n; k++)
+            if (session->measured->at[k].symbol == atom &&
+                qdot_vec_push(&found, &session->measured->at[k]) != QDOT_OK) {
                 qdot_free(found.at);
                 return QDOT_ENOMEM;
             }

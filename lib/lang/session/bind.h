@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_BIND_H
 #define QDOT_LANG_BIND_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* e with the values of parameters (`set`, `param x = v`) put in; exact. Repeated, as values may
  * hold other parameters; a cycle is QDOT_EINVAL. */

@@ -36,7 +36,9 @@ typedef struct {
     qdot_workprecision measured;
 } qdot_kept_study;
 
-typedef qdot_vec(qdot_kept_study) qdot_kept_studies;
+typedef struct qdot_kept_studies {
+    qdot_vec(qdot_kept_study);
+} qdot_kept_studies;
 
 /* The study made under these conditions, or NULL; borrowed. */
 const qdot_workprecision *qdot_studies_find(const qdot_kept_studies *studies,

@@ -13,10 +13,10 @@ qdot_event_is(const qdot_session *session, const char *run, const char *name)
 {
     if (qdot_scene_find_event(session->scene, name) != NULL)
         return true;
-    for (size_t i = session->runs.n; i-- > 0;)
-        if (run == NULL || strcmp(session->runs.at[i].name, run) == 0)
-            return session->runs.at[i].run != NULL &&
-                   qdot_run_has_event(session->runs.at[i].run, name);
+    for (size_t i = session->runs->n; i-- > 0;)
+        if (run == NULL || strcmp(session->runs->at[i].name, run) == 0)
+            return session->runs->at[i].run != NULL &&
+                   qdot_run_has_event(session->runs->at[i].run, name);
     return false;
 }
 

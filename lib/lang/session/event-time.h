@@ -2,7 +2,8 @@
 #ifndef QDOT_LANG_EVENT_TIME_H
 #define QDOT_LANG_EVENT_TIME_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+#include "sim/course/report.h"
 
 /* Whether the scene, or that run (NULL: the latest), has an event of that name. */
 bool qdot_event_is(const qdot_session *session, const char *run, const char *name);

@@ -6,6 +6,8 @@
 #include "expr/calculus.h"
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
+#include "lang/session/values.h"
 
 /* --- values of `set` and `start` --------------------------------------------------------- */
 
@@ -24,16 +26,16 @@ qdot_status
 qdot_held_begin(qdot_session *session, qdot_expr symbol, qdot_expr value)
 {
     const bool starts = qdot_expr_is_class(session->pool, symbol, QDOT_COORD);
-    const qdot_expr *symbols = starts ? session->start_symbols.at : session->set_symbols.at;
-    const qdot_expr *values = starts ? session->start_values.at : session->set_values.at;
-    const size_t n = starts ? session->start_symbols.n : session->set_symbols.n;
+    const qdot_expr *symbols = starts ? session->values->start_symbols.at : session->values->set_symbols.at;
+    const qdot_expr *values = starts ? session->values->start_values.at : session->values->set_values.at;
+    const size_t n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
     const size_t i = find(symbols, n, symbol);
     const qdot_held held = {symbol, value, i < n ? values[i] : QDOT_NIL};
 
-    QDOT_TRY(qdot_vec_push(&session->held, held));
+    QDOT_TRY(qdot_vec_push(&session->evaluation->held, held));
     if (qdot_session_put(session, symbol, value) == QDOT_OK)
         return QDOT_OK;
-    session->held.n--;
+    session->evaluation->held.n--;
     return QDOT_ENOMEM;
 }
 
@@ -47,22 +49,22 @@ qdot_held_end(qdot_session *session)
     bool starts;
     size_t n, i;
 
-    if (session->held.n == 0) /* a `reset` inside of the loop */
+    if (session->evaluation->held.n == 0) /* a `reset` inside of the loop */
         return;
-    held = session->held.at[--session->held.n];
+    held = session->evaluation->held.at[--session->evaluation->held.n];
     starts = qdot_expr_is_class(session->pool, held.symbol, QDOT_COORD);
-    n = starts ? session->start_symbols.n : session->set_symbols.n;
-    i = find(starts ? session->start_symbols.at : session->set_symbols.at, n, held.symbol);
+    n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
+    i = find(starts ? session->values->start_symbols.at : session->values->set_symbols.at, n, held.symbol);
     if (i == n) /* taken out by the statement, `reset start` */
         return;
     if (held.before != QDOT_NIL) {
-        *(starts ? &session->start_values.at[i] : &session->set_values.at[i]) = held.before;
+        *(starts ? &session->values->start_values.at[i] : &session->values->set_values.at[i]) = held.before;
     } else if (starts) {
-        TAKE_OUT(session->start_symbols, i);
-        TAKE_OUT(session->start_values, i);
+        TAKE_OUT(session->values->start_symbols, i);
+        TAKE_OUT(session->values->start_values, i);
     } else {
-        TAKE_OUT(session->set_symbols, i);
-        TAKE_OUT(session->set_values, i);
+        TAKE_OUT(session->values->set_symbols, i);
+        TAKE_OUT(session->values->set_values, i);
     }
 }
 
@@ -71,27 +73,27 @@ qdot_held_end(qdot_session *session)
 qdot_expr
 qdot_held_apply(qdot_session *session, qdot_expr e)
 {
-    for (size_t i = session->held.n; i-- > 0 && e != QDOT_NIL;)
-        e = qdot_subs(session->pool, e, 1, &session->held.at[i].symbol,
-                      &session->held.at[i].value);
+    for (size_t i = session->evaluation->held.n; i-- > 0 && e != QDOT_NIL;)
+        e = qdot_subs(session->pool, e, 1, &session->evaluation->held.at[i].symbol,
+                      &session->evaluation->held.at[i].value);
     return e;
 }
 
 qdot_expr
 qdot_held_parameters(qdot_session *session, qdot_expr e)
 {
-    for (size_t i = session->held.n; i-- > 0 && e != QDOT_NIL;)
-        if (!qdot_expr_is_class(session->pool, session->held.at[i].symbol, QDOT_COORD))
-            e = qdot_subs(session->pool, e, 1, &session->held.at[i].symbol,
-                          &session->held.at[i].value);
+    for (size_t i = session->evaluation->held.n; i-- > 0 && e != QDOT_NIL;)
+        if (!qdot_expr_is_class(session->pool, session->evaluation->held.at[i].symbol, QDOT_COORD))
+            e = qdot_subs(session->pool, e, 1, &session->evaluation->held.at[i].symbol,
+                          &session->evaluation->held.at[i].value);
     return e;
 }
 
 bool
 qdot_held_coordinate(const qdot_session *session)
 {
-    for (size_t i = 0; i < session->held.n; i++)
-        if (qdot_expr_is_class(session->pool, session->held.at[i].symbol, QDOT_COORD))
+    for (size_t i = 0; i < session->evaluation->held.n; i++)
+        if (qdot_expr_is_class(session->pool, session->evaluation->held.at[i].symbol, QDOT_COORD))
             return true;
     return false;
 }
@@ -99,9 +101,9 @@ qdot_held_coordinate(const qdot_session *session)
 qdot_status
 qdot_held_check(qdot_session *session)
 {
-    for (size_t i = 0; i < session->held.n; i++)
-        QDOT_TRY(qdot_session_in_domain(session, session->held.at[i].symbol,
-                                        session->held.at[i].value));
+    for (size_t i = 0; i < session->evaluation->held.n; i++)
+        QDOT_TRY(qdot_session_in_domain(session, session->evaluation->held.at[i].symbol,
+                                        session->evaluation->held.at[i].value));
     return QDOT_OK;
 }
 

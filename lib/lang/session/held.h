@@ -9,7 +9,7 @@
 #ifndef QDOT_LANG_HELD_H
 #define QDOT_LANG_HELD_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "mech/scene/saved.h"
 
 /* Set a symbol to the value for one iteration; the value of `set` or `start` is saved. */

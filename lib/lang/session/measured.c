@@ -50,14 +50,14 @@ qdot_measured_add(qdot_session *session, qdot_measured m)
     qdot_text name = {0};
 
     write_number(session, &m, &name);
-    qdot_text_format(&name, "#%zu", session->measured.n + 1);
+    qdot_text_format(&name, "#%zu", session->measured->n + 1);
     m.symbol = qdot_text_status(&name) == QDOT_OK
                    ? qdot_symbol_get(session->pool, QDOT_FORMAL, qdot_text_str(&name))
                    : qdot_pool_fail(session->pool);
     qdot_text_clear(&name);
     if (m.symbol == QDOT_NIL)
         return QDOT_NIL;
-    return qdot_vec_push(&session->measured, m) == QDOT_OK
+    return qdot_vec_push(session->measured, m) == QDOT_OK
                ? m.symbol
                : qdot_pool_fail(session->pool);
 }
@@ -73,8 +73,8 @@ qdot_measured_occurs(qdot_session *session, qdot_expr e)
 {
     if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
         return false;
-    for (size_t i = 0; i < session->measured.n; i++)
-        if (qdot_expr_contains(session->pool, e, session->measured.at[i].symbol))
+    for (size_t i = 0; i < session->measured->n; i++)
+        if (qdot_expr_contains(session->pool, e, session->measured->at[i].symbol))
             return true;
     return false;
 }
@@ -82,16 +82,16 @@ qdot_measured_occurs(qdot_session *session, qdot_expr e)
 qdot_expr
 qdot_measured_as_rationals(qdot_session *session, qdot_expr e)
 {
-    for (size_t i = 0; i < session->measured.n && e != QDOT_NIL; i++) {
-        qdot_expr from = session->measured.at[i].symbol, to;
+    for (size_t i = 0; i < session->measured->n && e != QDOT_NIL; i++) {
+        qdot_expr from = session->measured->at[i].symbol, to;
 
         if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
             return e;
         if (!qdot_expr_contains(session->pool, e, from))
             continue;
-        to = session->measured.at[i].digits > 0
-                 ? session->measured.at[i].exact
-                 : qdot_measured_rational(session->pool, session->measured.at[i].value);
+        to = session->measured->at[i].digits > 0
+                 ? session->measured->at[i].exact
+                 : qdot_measured_rational(session->pool, session->measured->at[i].value);
         e = qdot_subs(session->pool, e, 1, &from, &to);
     }
     return e;

@@ -2,7 +2,23 @@
 #ifndef QDOT_LANG_MEASURED_H
 #define QDOT_LANG_MEASURED_H
 
-#include "lang/session/session.h"
+#include "base/memory.h"
+#include "lang/session/origin.h"
+#include "lang/session/parts.h"
+
+/* A number from a run; a FORMAL symbol represents it in expressions. */
+typedef struct {
+    qdot_expr symbol;
+    double value, error; /* error NaN: unknown */
+    int digits;          /* > 0: of a run with `digits`, whose number is */
+    qdot_expr exact;     /* ... this rational; digits 0: nil, or the value that `set` has of it */
+    bool plain;          /* without requested digits: a number with --json, not a string */
+    qdot_origin origin;
+} qdot_measured;
+
+typedef struct qdot_measured_list {
+    qdot_vec(qdot_measured);
+} qdot_measured_list;
 
 /* A new symbol for a result of a run; nil on failure, which the pool keeps. */
 qdot_expr qdot_measured_new(qdot_session *session, double value, double error);

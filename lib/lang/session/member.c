@@ -18,9 +18,9 @@
 const qdot_member *
 qdot_member_find(const qdot_session *session, qdot_expr symbol)
 {
-    for (size_t i = 0; i < session->members.n; i++)
-        if (session->members.at[i].symbol == symbol)
-            return &session->members.at[i];
+    for (size_t i = 0; i < session->members->n; i++)
+        if (session->members->at[i].symbol == symbol)
+            return &session->members->at[i];
     return NULL;
 }
 
@@ -34,10 +34,10 @@ member_symbol(qdot_session *session, const char *run, qdot_expr e)
     qdot_text name = {0}, text = {0};
     qdot_status status;
 
-    for (size_t i = 0; i < session->members.n; i++)
-        if (session->members.at[i].value == e &&
-            strcmp(session->members.at[i].run, run) == 0)
-            return session->members.at[i].symbol;
+    for (size_t i = 0; i < session->members->n; i++)
+        if (session->members->at[i].value == e &&
+            strcmp(session->members->at[i].run, run) == 0)
+            return session->members->at[i].symbol;
     status = qdot_print(pool, e, QDOT_PLAIN, &text);
     qdot_text_format(&name, plain ? "%s.%s" : "%s.(%s)", run, qdot_text_str(&text));
     if (status == QDOT_OK)
@@ -45,7 +45,7 @@ member_symbol(qdot_session *session, const char *run, qdot_expr e)
     if (status == QDOT_OK)
         m.symbol = qdot_symbol_get(pool, QDOT_FORMAL, qdot_text_str(&name));
     m.run = status == QDOT_OK && m.symbol != QDOT_NIL ? qdot_strdup(run) : NULL;
-    if (m.run == NULL || qdot_vec_push(&session->members, m) != QDOT_OK) {
+    if (m.run == NULL || qdot_vec_push(session->members, m) != QDOT_OK) {
         qdot_free(m.run);
         m.symbol = QDOT_NIL;
     }
@@ -86,8 +86,8 @@ qdot_member_any(const qdot_session *session, qdot_expr e)
 {
     if (!(qdot_expr_node(session->pool, e)->holds & QDOT_HAS_FORMAL))
         return false;
-    for (size_t i = 0; i < session->members.n; i++)
-        if (qdot_expr_contains(session->pool, e, session->members.at[i].symbol))
+    for (size_t i = 0; i < session->members->n; i++)
+        if (qdot_expr_contains(session->pool, e, session->members->at[i].symbol))
             return true;
     return false;
 }
@@ -97,8 +97,8 @@ qdot_member_refuse(const qdot_session *session, qdot_expr e)
 {
     if (e == QDOT_NIL || !qdot_member_any(session, e))
         return QDOT_OK;
-    for (size_t i = 0; i < session->members.n; i++) {
-        const qdot_member *m = &session->members.at[i];
+    for (size_t i = 0; i < session->members->n; i++) {
+        const qdot_member *m = &session->members->at[i];
         const char *name = qdot_expr_symbol(session->pool, m->symbol)->name;
 
         if (!qdot_expr_contains(session->pool, e, m->symbol))
@@ -119,8 +119,8 @@ along_one(const qdot_session *session, qdot_expr e, const char **run)
     const char *only = NULL;
     bool one = true;
 
-    for (size_t i = 0; i < session->members.n; i++) {
-        const qdot_member *m = &session->members.at[i];
+    for (size_t i = 0; i < session->members->n; i++) {
+        const qdot_member *m = &session->members->at[i];
 
         if (!qdot_expr_contains(session->pool, e, m->symbol))
             continue;
@@ -136,8 +136,8 @@ along_one(const qdot_session *session, qdot_expr e, const char **run)
 static qdot_expr
 put_back(qdot_session *session, qdot_expr e)
 {
-    for (size_t i = session->members.n; i-- > 0 && e != QDOT_NIL;) {
-        qdot_expr from = session->members.at[i].symbol, to = session->members.at[i].value;
+    for (size_t i = session->members->n; i-- > 0 && e != QDOT_NIL;) {
+        qdot_expr from = session->members->at[i].symbol, to = session->members->at[i].value;
 
         e = qdot_subs(session->pool, e, 1, &from, &to);
     }

@@ -2,8 +2,19 @@
 #ifndef QDOT_LANG_MEMBER_H
 #define QDOT_LANG_MEMBER_H
 
+#include "base/memory.h"
 #include "expr/symbol.h"
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+
+/* a.EXPR within an expression, represented by a FORMAL symbol. */
+typedef struct {
+    qdot_expr symbol, value;
+    char *run;
+} qdot_member;
+
+typedef struct qdot_member_list {
+    qdot_vec(qdot_member);
+} qdot_member_list;
 
 /* Classes of symbols that, without the name of a run, are read along the latest run. */
 #define QDOT_MEMBER_MOTION                                                               \

@@ -208,13 +208,13 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
 qdot_status
 qdot_member_span(qdot_session *session, qdot_expr e, double *from, double *to)
 {
-    for (size_t i = 0; i < session->members.n; i++) {
+    for (size_t i = 0; i < session->members->n; i++) {
         const qdot_run_report *report;
         qdot_named_run *named;
 
-        if (!qdot_expr_contains(session->pool, e, session->members.at[i].symbol))
+        if (!qdot_expr_contains(session->pool, e, session->members->at[i].symbol))
             continue;
-        QDOT_TRY(qdot_runs_find(session, session->members.at[i].run, &named));
+        QDOT_TRY(qdot_runs_find(session, session->members->at[i].run, &named));
         report = qdot_run_get_report(named->run);
         *from = fmax(*from, fmin(report->t0, report->t1));
         *to = fmin(*to, fmax(report->t0, report->t1));

@@ -10,6 +10,7 @@
 #define QDOT_LANG_MIXTURE_H
 
 #include "lang/session/member.h"
+#include "sim/run/run.h"
 
 typedef struct qdot_mixture qdot_mixture;
 

@@ -10,7 +10,7 @@
 #ifndef QDOT_LANG_MOMENTA_H
 #define QDOT_LANG_MOMENTA_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* e with every momentum as dL/dq'. Nil: the pool keeps the failure, as below. */
 qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);

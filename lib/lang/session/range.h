@@ -2,7 +2,7 @@
 #ifndef QDOT_LANG_RANGE_H
 #define QDOT_LANG_RANGE_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 bool qdot_range_is_word(const char *word);
 /* Whether the word is one of these or `value`, which read a run at intermediate times. */

@@ -7,6 +7,8 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "lang/session/names.h"
+#include "lang/session/values.h"
 
 /* The index of the table of that name; the number of tables if there is none. */
 static size_t
@@ -14,7 +16,7 @@ index_of(const qdot_session *session, const char *name)
 {
     size_t i = 0;
 
-    while (i < session->tables.n && strcmp(session->tables.at[i]->name, name) != 0)
+    while (i < session->tables->n && strcmp(session->tables->at[i]->name, name) != 0)
         i++;
     return i;
 }
@@ -25,13 +27,13 @@ qdot_row_tables_keep(qdot_session *session, qdot_row_table *table)
     const size_t old = index_of(session, table->name);
     qdot_status status;
 
-    if (old < session->tables.n) {
-        qdot_row_table_release(session->tables.at[old]);
-        memmove(&session->tables.at[old], &session->tables.at[old + 1],
-                (session->tables.n - old - 1) * sizeof *session->tables.at);
-        session->tables.n--;
+    if (old < session->tables->n) {
+        qdot_row_table_release(session->tables->at[old]);
+        memmove(&session->tables->at[old], &session->tables->at[old + 1],
+                (session->tables->n - old - 1) * sizeof *session->tables->at);
+        session->tables->n--;
     }
-    status = qdot_vec_push(&session->tables, table);
+    status = qdot_vec_push(session->tables, table);
     if (status != QDOT_OK)
         qdot_row_table_release(table);
     return status;
@@ -42,13 +44,13 @@ qdot_row_tables_find(const qdot_session *session, const char *name)
 {
     const size_t i = index_of(session, name);
 
-    return i < session->tables.n ? session->tables.at[i] : NULL;
+    return i < session->tables->n ? session->tables->at[i] : NULL;
 }
 
 void
 qdot_row_tables_next_name(const qdot_session *session, char *name, size_t size)
 {
-    size_t k = session->tables.n;
+    size_t k = session->tables->n;
 
     do
         snprintf(name, size, "sweep%zu", ++k);
@@ -79,10 +81,10 @@ note_parameter(qdot_row_table *t, const char *name, double value)
 static void
 let_open(qdot_session *session, size_t n, const qdot_expr *open)
 {
-    for (size_t i = 0; i < session->set_symbols.n; i++)
+    for (size_t i = 0; i < session->values->set_symbols.n; i++)
         for (size_t k = 0; k < n; k++)
-            if (session->set_symbols.at[i] == open[k])
-                session->set_values.at[i] = open[k];
+            if (session->values->set_symbols.at[i] == open[k])
+                session->values->set_values.at[i] = open[k];
 }
 
 qdot_status

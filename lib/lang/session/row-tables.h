@@ -5,7 +5,14 @@
 #ifndef QDOT_LANG_ROW_TABLES_H
 #define QDOT_LANG_ROW_TABLES_H
 
-#include "lang/session/session.h"
+#include "base/memory.h"
+#include "lang/session/parts.h"
+#include "lang/session/row-table.h"
+
+/* Shared by the session and the states that `undo` keeps. */
+typedef struct qdot_row_table_list {
+    qdot_vec(qdot_row_table *);
+} qdot_row_table_list;
 
 /* Keep a table, taking over its reference; an older one of that name is dropped. Takes it even on failure. */
 QDOT_MUST_CHECK qdot_status qdot_row_tables_keep(qdot_session *session, qdot_row_table *table);

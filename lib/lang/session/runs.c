@@ -8,10 +8,25 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/labels.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
 #include "tape/tape.h"
+
+void
+qdot_named_run_release(qdot_named_run *run)
+{
+    if (--*run->uses > 0)
+        return;
+    qdot_free(run->name);
+    qdot_free(run->text);
+    qdot_run_free(run->run);
+    if (run->conditions != NULL)
+        qdot_conditions_clear(run->conditions);
+    qdot_free(run->conditions);
+    qdot_free(run->uses);
+}
 
 qdot_status
 qdot_runs_keep(qdot_session *session, const char *name, const char *text,
@@ -39,16 +54,16 @@ qdot_runs_keep(qdot_session *session, const char *name, const char *text,
         return status;
     }
 
-    for (size_t i = 0; i < session->runs.n; i++) {
-        if (strcmp(session->runs.at[i].name, name) != 0)
+    for (size_t i = 0; i < session->runs->n; i++) {
+        if (strcmp(session->runs->at[i].name, name) != 0)
             continue;
-        qdot_named_run_release(&session->runs.at[i]);
-        memmove(&session->runs.at[i], &session->runs.at[i + 1],
-                (session->runs.n - i - 1) * sizeof named);
-        session->runs.n--;
+        qdot_named_run_release(&session->runs->at[i]);
+        memmove(&session->runs->at[i], &session->runs->at[i + 1],
+                (session->runs->n - i - 1) * sizeof named);
+        session->runs->n--;
         break;
     }
-    status = qdot_vec_push(&session->runs, named);
+    status = qdot_vec_push(session->runs, named);
     if (status != QDOT_OK)
         qdot_named_run_release(&named);
     return status;
@@ -57,12 +72,12 @@ qdot_runs_keep(qdot_session *session, const char *name, const char *text,
 void
 qdot_runs_next_name(const qdot_session *session, char *name, size_t size)
 {
-    for (size_t k = session->runs.n + 1;; k++) {
+    for (size_t k = session->runs->n + 1;; k++) {
         bool taken = false;
 
         snprintf(name, size, "run%zu", k);
-        for (size_t i = 0; i < session->runs.n; i++)
-            taken = taken || strcmp(session->runs.at[i].name, name) == 0;
+        for (size_t i = 0; i < session->runs->n; i++)
+            taken = taken || strcmp(session->runs->at[i].name, name) == 0;
         if (!taken)
             return;
     }
@@ -74,8 +89,8 @@ unknown_run(const qdot_session *session, const char *name)
     qdot_words words = {0};
     qdot_status status;
 
-    for (size_t i = 0; i < session->runs.n; i++)
-        (void)qdot_vec_push(&words, session->runs.at[i].name); /* a hint less without memory */
+    for (size_t i = 0; i < session->runs->n; i++)
+        (void)qdot_vec_push(&words, session->runs->at[i].name); /* a hint less without memory */
     (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
     status = qdot_labels_hint(name, &words);
     qdot_free(words.at);
@@ -85,16 +100,16 @@ unknown_run(const qdot_session *session, const char *name)
 qdot_status
 qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
 {
-    if (session->runs.n == 0) {
+    if (session->runs->n == 0) {
         (void)qdot_fail(QDOT_EINVAL, "there is no run yet");
         return qdot_hint("run 0..20");
     }
-    *run = &session->runs.at[session->runs.n - 1];
+    *run = &session->runs->at[session->runs->n - 1];
     if (name == NULL)
         return QDOT_OK;
-    for (size_t i = 0; i < session->runs.n; i++)
-        if (strcmp(session->runs.at[i].name, name) == 0) {
-            *run = &session->runs.at[i];
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (strcmp(session->runs->at[i].name, name) == 0) {
+            *run = &session->runs->at[i];
             return QDOT_OK;
         }
     return unknown_run(session, name);
@@ -149,8 +164,8 @@ qdot_runs_read(qdot_session *session, const char *name, qdot_named_run **run)
 
     QDOT_TRY(qdot_runs_find(session, name, run));
     c = (*run)->conditions;
-    for (size_t i = 0; c != NULL && i < session->held.n; i++) {
-        const qdot_held *held = &session->held.at[i];
+    for (size_t i = 0; c != NULL && i < session->evaluation->held.n; i++) {
+        const qdot_held *held = &session->evaluation->held.at[i];
         const qdot_expr value = made_with(session, c, held->symbol);
 
         if (value != QDOT_NIL && value != qdot_session_bind(session, held->value))
@@ -252,8 +267,8 @@ qdot_runs_is_family(const qdot_session *session, const char *name)
 {
     size_t n = strlen(name);
 
-    for (size_t i = 0; i < session->runs.n; i++) {
-        const char *run = session->runs.at[i].name;
+    for (size_t i = 0; i < session->runs->n; i++) {
+        const char *run = session->runs->at[i].name;
 
         if (strncmp(run, name, n) == 0 && run[n] == '[')
             return true;

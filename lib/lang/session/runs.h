@@ -2,7 +2,24 @@
 #ifndef QDOT_LANG_RUNS_H
 #define QDOT_LANG_RUNS_H
 
-#include "lang/session/session.h"
+#include "lang/session/conditions.h"
+#include "lang/session/measured.h"
+#include "sim/course/report.h"
+#include "sim/model/request.h"
+
+/* Shared by the session and the states that `undo` keeps. */
+typedef struct {
+    char *name; /* "a", "run1" */
+    char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
+    qdot_run *run;
+    qdot_conditions *conditions; /* that it was made under; NULL: nobody told */
+    unsigned *uses;
+} qdot_named_run;
+void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
+
+typedef struct qdot_run_list {
+    qdot_vec(qdot_named_run);
+} qdot_run_list;
 
 /* The run of that name; the latest one for NULL. QDOT_ENAME if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_runs_find(qdot_session *session, const char *name,

@@ -7,19 +7,21 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "lang/session/values.h"
+#include "mech/scene/things.h"
 
 qdot_status
 qdot_scales_set(qdot_session *session, qdot_expr symbol, qdot_expr value)
 {
-    for (size_t i = 0; i < session->scale_symbols.n; i++)
-        if (session->scale_symbols.at[i] == symbol) {
-            session->scale_values.at[i] = value;
+    for (size_t i = 0; i < session->values->scale_symbols.n; i++)
+        if (session->values->scale_symbols.at[i] == symbol) {
+            session->values->scale_values.at[i] = value;
             return QDOT_OK;
         }
-    QDOT_TRY(qdot_vec_push(&session->scale_symbols, symbol));
-    if (qdot_vec_push(&session->scale_values, value) == QDOT_OK)
+    QDOT_TRY(qdot_vec_push(&session->values->scale_symbols, symbol));
+    if (qdot_vec_push(&session->values->scale_values, value) == QDOT_OK)
         return QDOT_OK;
-    session->scale_symbols.n--;
+    session->values->scale_symbols.n--;
     return QDOT_ENOMEM;
 }
 
@@ -53,9 +55,9 @@ static qdot_status
 said_of(qdot_session *session, qdot_expr symbol, double *scale)
 {
     *scale = 0;
-    for (size_t i = 0; i < session->scale_symbols.n; i++)
-        if (session->scale_symbols.at[i] == symbol)
-            return number_of(session, symbol, session->scale_values.at[i], scale);
+    for (size_t i = 0; i < session->values->scale_symbols.n; i++)
+        if (session->values->scale_symbols.at[i] == symbol)
+            return number_of(session, symbol, session->values->scale_values.at[i], scale);
     return QDOT_OK;
 }
 
@@ -67,7 +69,7 @@ qdot_scales_of_run(qdot_session *session, double **scales)
     qdot_status status;
 
     *scales = NULL;
-    if (session->scale_symbols.n == 0)
+    if (session->values->scale_symbols.n == 0)
         return QDOT_OK;
     QDOT_TRY(said_of(session, QDOT_T, &unit));
     of = qdot_calloc(2 * n + 1, sizeof *of);

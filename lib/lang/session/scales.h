@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_SCALES_H
 #define QDOT_LANG_SCALES_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* Set the scale of q, q' or t. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_scales_set(qdot_session *session, qdot_expr symbol,

@@ -8,9 +8,12 @@
 #ifndef QDOT_LANG_TYPED_H
 #define QDOT_LANG_TYPED_H
 
-#include "base/text.h"
+#include <stdint.h>
 
-typedef struct {
+#include "base/text.h"
+#include "lang/session/parts.h"
+
+typedef struct qdot_typed {
     size_t texts;   /* being carried out, one within the other */
     size_t number;  /* of the statement; 0: there was none yet */
     uint32_t line;  /* where it begins, with JSON */

@@ -3,16 +3,23 @@
 
 #include <string.h>
 
+#include "lang/session/history.h"
+#include "lang/session/output.h"
+#include "lang/session/row-table.h"
+#include "lang/session/row-tables.h"
+#include "lang/session/runs.h"
+#include "lang/session/values.h"
+
 qdot_scene_part
 qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k)
 {
 #define PART(list) {&(list).at, &(list).n, &(list).capacity, sizeof *(list).at}
     const qdot_scene_part own[QDOT_UNDO_PARTS - QDOT_SCENE_PARTS] = {
-        PART(s->set_symbols),  PART(s->set_values),    PART(s->start_symbols),
-        PART(s->start_values), PART(s->start_errors),  PART(s->scale_symbols),
-        PART(s->scale_values),
-        PART(s->history),      PART(s->history_over),  PART(s->runs),
-        PART(s->tables),       PART(state->names),
+        PART(s->values->set_symbols),  PART(s->values->set_values),    PART(s->values->start_symbols),
+        PART(s->values->start_values), PART(s->values->start_errors),  PART(s->values->scale_symbols),
+        PART(s->values->scale_values),
+        PART(s->history->values),      PART(s->history->over),  PART(*s->runs),
+        PART(*s->tables),       PART(state->names),
     };
 #undef PART
 
@@ -33,12 +40,12 @@ qdot_undo_single
 qdot_undo_single_of(const qdot_session *s)
 {
     return (qdot_undo_single){.lagrangian = s->scene->lagrangian,
-                    .series = s->series,
-                    .series_in = s->series_in,
-                    .style = s->style,
-                    .flat = s->flat,
-                    .timing = s->timing,
-                    .start_exactly = s->start_exactly};
+                    .series = s->history->series,
+                    .series_in = s->history->series_in,
+                    .style = s->output->style,
+                    .flat = s->output->flat,
+                    .timing = s->output->timing,
+                    .start_exactly = s->values->start_exactly};
 }
 
 /* --- items ---------------------------------------------------------------------------- */

@@ -5,7 +5,10 @@
 #ifndef QDOT_LANG_UNDO_STATE_H
 #define QDOT_LANG_UNDO_STATE_H
 
-#include "lang/session/session.h"
+#include "expr/print-name.h"
+#include "lang/session/names.h"
+#include "lang/session/parts.h"
+#include "mech/scene/scene.h"
 
 enum { /* behind those of the scene */
     QDOT_UNDO_SET_SYMBOLS = QDOT_SCENE_PARTS,

@@ -5,7 +5,12 @@
 #include <string.h>
 
 #include "expr/symbol.h"
+#include "lang/session/history.h"
+#include "lang/session/output.h"
+#include "lang/session/runs.h"
+#include "lang/session/session.h"
 #include "lang/session/undo-state.h"
+#include "lang/session/values.h"
 
 enum { TEXT_LIMIT = 160 };
 static const size_t most_bytes = (size_t)256 << 20; /* of all records */
@@ -449,10 +454,10 @@ cut_history(qdot_session *s, size_t n)
 {
     qdot_undo_array *kept = s->undo->now.part;
 
-    if (s->history.n > n)
-        s->history.n = n;
-    if (s->history_over.n > n)
-        s->history_over.n = n;
+    if (s->history->values.n > n)
+        s->history->values.n = n;
+    if (s->history->over.n > n)
+        s->history->over.n = n;
     for (int k = QDOT_UNDO_HISTORY; k <= QDOT_UNDO_HISTORY_OVER; k++)
         if (kept[k].n > n)
             kept[k].n = n;
@@ -515,12 +520,12 @@ apply(qdot_session *s, record *r, int to)
     }
     u->now.single = r->single[to];
     s->scene->lagrangian = u->now.single.lagrangian;
-    s->series = u->now.single.series;
-    s->series_in = u->now.single.series_in;
-    s->style = u->now.single.style;
-    s->flat = u->now.single.flat;
-    s->timing = u->now.single.timing;
-    s->start_exactly = u->now.single.start_exactly;
+    s->history->series = u->now.single.series;
+    s->history->series_in = u->now.single.series_in;
+    s->output->style = u->now.single.style;
+    s->output->flat = u->now.single.flat;
+    s->output->timing = u->now.single.timing;
+    s->values->start_exactly = u->now.single.start_exactly;
     s->scene->version = r->version[to];
     return QDOT_OK;
 }

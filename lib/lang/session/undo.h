@@ -15,7 +15,7 @@
 #ifndef QDOT_LANG_UNDO_H
 #define QDOT_LANG_UNDO_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 typedef struct qdot_undo qdot_undo;
 

@@ -6,6 +6,7 @@
 
 #include "base/number-text.h"
 #include "lang/answer/answer.h"
+#include "lang/session/output.h"
 #include "lang/slopes/orbit-run.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
@@ -31,7 +32,7 @@ answer_complex(qdot_session *session, const char *name, double re, double im,
     qdot_text value = {0}, bound = {0};
     qdot_status status;
 
-    if (session->json) {
+    if (session->output->json) {
         qdot_text_char(&value, '[');
         qdot_number_text_json(&value, re);
         qdot_text_char(&value, ',');

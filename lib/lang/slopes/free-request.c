@@ -4,6 +4,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
+#include "lang/session/values.h"
 
 /* Fill values and start of the request; unknown parameters keep their symbols as values. */
 static qdot_status
@@ -14,23 +15,23 @@ request_fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const q
 
     for (size_t i = 0; i < had->n_values; i++) {
         const size_t at =
-            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, had->symbols[i]);
+            qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, had->symbols[i]);
 
-        values[i] = at == session->set_symbols.n
+        values[i] = at == session->values->set_symbols.n
                         ? had->values[i]
-                        : qdot_session_bind(session, session->set_values.at[at]);
+                        : qdot_session_bind(session, session->values->set_values.at[at]);
     }
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
-        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
+        const size_t at = qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet);
         const bool unknown = qdot_expr_place(k, unknowns, jet) < k;
 
-        named[i] = unknown || at < session->start_symbols.n;
+        named[i] = unknown || at < session->values->start_symbols.n;
         start[i] = unknown                          ? jet
-                   : at == session->start_symbols.n ? QDOT_ZERO
+                   : at == session->values->start_symbols.n ? QDOT_ZERO
                                                     : qdot_session_bind(
-                                                        session, session->start_values.at[at]);
+                                                        session, session->values->start_values.at[at]);
     }
     return qdot_pool_check(session->pool);
 }

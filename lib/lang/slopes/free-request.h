@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_FREE_REQUEST_H
 #define QDOT_LANG_FREE_REQUEST_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "sim/model/request.h"
 
 /* From the request `had` of the session's present values: its values [n_values] and its start q, q' [2n], named [2n], in

@@ -41,22 +41,22 @@ qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
     qdot_named_run *latest;
 
     QDOT_TRY(qdot_runs_find(session, NULL, &latest));
-    for (size_t i = session->runs.n; i-- > 0;) {
+    for (size_t i = session->runs->n; i-- > 0;) {
         double off;
         qdot_expr where;
 
-        if (!is_whole(session, &session->runs.at[i]))
+        if (!is_whole(session, &session->runs->at[i]))
             continue;
         QDOT_TRY(
-            qdot_floquet_return(session->scene, session->runs.at[i].run, &off, &where));
+            qdot_floquet_return(session->scene, session->runs->at[i].run, &off, &where));
         if (off <= QDOT_FLOQUET_CLOSED) {
-            *orbit = &session->runs.at[i];
+            *orbit = &session->runs->at[i];
             return QDOT_OK;
         }
         if (at == QDOT_NIL) {
             first = off;
             at = where;
-            latest = &session->runs.at[i];
+            latest = &session->runs->at[i];
         }
     }
     *orbit = latest;

@@ -5,7 +5,8 @@
 #ifndef QDOT_LANG_ORBIT_RUN_H
 #define QDOT_LANG_ORBIT_RUN_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
+#include "lang/session/runs.h"
 
 /* The latest run of the scene that is a periodic orbit. QDOT_EINVAL: there is none. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit);

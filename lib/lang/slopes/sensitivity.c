@@ -64,9 +64,9 @@ tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
 static const char *
 run_of(const qdot_session *session, size_t first)
 {
-    for (size_t i = first; i < session->measured.n; i++)
-        if (session->measured.at[i].origin.run != NULL)
-            return session->measured.at[i].origin.run;
+    for (size_t i = first; i < session->measured->n; i++)
+        if (session->measured->at[i].origin.run != NULL)
+            return session->measured->at[i].origin.run;
     return NULL;
 }
 
@@ -76,7 +76,7 @@ sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
 {
     const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
     qdot_session *session = r->cursor.session;
-    const size_t first = session->measured.n;
+    const size_t first = session->measured->n;
     qdot_expr e;
 
     QDOT_TRY(qdot_record_value(r, part, &e));
@@ -99,7 +99,7 @@ sensitivity_tell(qdot_record *r)
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
-    if (session->runs.n == 0) {
+    if (session->runs->n == 0) {
         const qdot_cursor look = {.session = session, .source = r->cursor.source, .at = r->start};
         const qdot_expr end = qdot_own_run_needed(&look, QDOT_ZERO);
 

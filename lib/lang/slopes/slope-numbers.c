@@ -58,9 +58,9 @@ slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
         sum = qdot_mul(pool, rate, time);
     }
     for (size_t i = first;
-         i < s->session->measured.n && s->session->measured.at[i].symbol != m->symbol;
+         i < s->session->measured->n && s->session->measured->at[i].symbol != m->symbol;
          i++) {
-        const qdot_measured *inner = &s->session->measured.at[i];
+        const qdot_measured *inner = &s->session->measured->at[i];
         qdot_expr by, one;
 
         if (!qdot_expr_contains(pool, m->origin.e, inner->symbol))
@@ -68,7 +68,7 @@ slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
         by = qdot_measured_as_rationals(s->session,
                                         qdot_diff(pool, m->origin.e, inner->symbol));
         QDOT_TRY(at_time(s, by, m->origin.time, &by));
-        QDOT_TRY(qdot_slopes_of(s, s->session->measured.at[i].symbol, first, k, &one));
+        QDOT_TRY(qdot_slopes_of(s, s->session->measured->at[i].symbol, first, k, &one));
         sum = qdot_add(pool, sum, qdot_mul(pool, by, one));
     }
     *slope = qdot_add(pool, *slope, sum);
@@ -211,7 +211,7 @@ slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k, q
 static qdot_status
 slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
 {
-    const qdot_measured m = s->session->measured.at[i]; /* the list grows */
+    const qdot_measured m = s->session->measured->at[i]; /* the list grows */
     qdot_named_run *named;
 
     if (i < first || m.origin.kind == QDOT_ORIGIN_OTHER)
@@ -233,7 +233,7 @@ qdot_status
 qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
-    const size_t n = s->session->measured.n;
+    const size_t n = s->session->measured->n;
     qdot_expr sum;
 
     if (qdot_member_any(s->session, e)) {
@@ -242,7 +242,7 @@ qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *s
     }
     sum = qdot_variation_by_parameter(&s->variation, e, k);
     for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
-        const qdot_expr symbol = s->session->measured.at[i].symbol;
+        const qdot_expr symbol = s->session->measured->at[i].symbol;
         qdot_expr one;
 
         if (!qdot_expr_contains(pool, e, symbol))

@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/values.h"
 #include "sim/model/substitute.h"
 #include "sim/run/slides.h"
 #include "sim/study/sizes.h"
@@ -99,12 +100,12 @@ free_values(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_
 {
     for (size_t i = 0; i < of->symbols.n; i++) {
         const size_t at =
-            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, of->symbols.at[i]);
+            qdot_expr_place(session->values->set_symbols.n, session->values->set_symbols.at, of->symbols.at[i]);
 
         values[i] = i == own ? p
-                    : at == session->set_symbols.n
+                    : at == session->values->set_symbols.n
                         ? of->values.at[i]
-                        : free_value(session, of, session->set_values.at[at], p, of->values.at[i]);
+                        : free_value(session, of, session->values->set_values.at[at], p, of->values.at[i]);
     }
     return qdot_pool_check(session->pool);
 }
@@ -152,12 +153,12 @@ free_parameter(qdot_slopes *s, size_t k)
         const qdot_expr jet =
             qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
         const size_t at =
-            qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
+            qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet);
 
-        if (at == session->start_symbols.n)
+        if (at == session->values->start_symbols.n)
             continue;
         start[i] = qdot_diff(pool,
-                             free_value(session, of, session->start_values.at[at], p,
+                             free_value(session, of, session->values->start_values.at[at], p,
                                         (i < n ? of->q0.at : of->v0.at)[i % n]),
                              p);
         start[i] = start[i] == QDOT_NIL ? start[i]
@@ -313,9 +314,9 @@ typedef qdot_vec(size_t) indices;
 static qdot_status
 find_values(const qdot_slopes *s, size_t first, indices *values)
 {
-    for (size_t i = first; i < s->session->measured.n; i++)
-        if (s->session->measured.at[i].origin.kind == QDOT_ORIGIN_VALUE ||
-            s->session->measured.at[i].origin.kind == QDOT_ORIGIN_RANGE)
+    for (size_t i = first; i < s->session->measured->n; i++)
+        if (s->session->measured->at[i].origin.kind == QDOT_ORIGIN_VALUE ||
+            s->session->measured->at[i].origin.kind == QDOT_ORIGIN_RANGE)
             QDOT_TRY(qdot_vec_push(values, i));
     return QDOT_OK;
 }
@@ -328,7 +329,7 @@ is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symb
     bool used = qdot_expr_contains(pool, e, symbol);
 
     for (size_t i = 0; i < values->n && !used; i++) {
-        const qdot_origin *of = &s->session->measured.at[values->at[i]].origin;
+        const qdot_origin *of = &s->session->measured->at[values->at[i]].origin;
 
         if (of->kind == QDOT_ORIGIN_VALUE)
             used = qdot_expr_contains(pool, of->e, symbol) || qdot_expr_contains(pool, of->time, symbol);
@@ -346,8 +347,8 @@ find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, 
     const double t0 = qdot_run_get_report(s->run)->t0;
 
     *furthest = 0;
-    for (size_t i = first; i < s->session->measured.n; i++) {
-        const qdot_measured m = s->session->measured.at[i];
+    for (size_t i = first; i < s->session->measured->n; i++) {
+        const qdot_measured m = s->session->measured->at[i];
         qdot_expr time;
         double t;
 
@@ -456,9 +457,9 @@ qdot_slopes_free(qdot_slopes *s)
 {
     qdot_session *session = s->session;
 
-    if (session && session->runs.n > 0 &&
-        strcmp(session->runs.at[session->runs.n - 1].name, qdot_slopes_run) == 0)
-        qdot_named_run_release(&session->runs.at[--session->runs.n]);
+    if (session && session->runs->n > 0 &&
+        strcmp(session->runs->at[session->runs->n - 1].name, qdot_slopes_run) == 0)
+        qdot_named_run_release(&session->runs->at[--session->runs->n]);
     qdot_variation_clear(&s->variation);
     for (size_t i = 0; i < s->names.n; i++)
         qdot_free(s->names.at[i].label);

@@ -15,6 +15,7 @@
 #ifndef QDOT_LANG_SLOPES_H
 #define QDOT_LANG_SLOPES_H
 
+#include "lang/session/conditions.h"
 #include "lang/syntax/record.h"
 #include "sim/study/variation.h"
 

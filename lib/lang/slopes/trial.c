@@ -32,7 +32,7 @@ qdot_trial_open(qdot_trial *t, const qdot_expr *values)
 
     QDOT_TRY(qdot_session_keep_values(session, &t->kept));
     t->open = true;
-    t->first = session->measured.n;
+    t->first = session->measured->n;
     QDOT_TRY(qdot_trial_put(session, t->n, t->unknowns, values));
     return qdot_own_run_make(session, t->options, t->from, t->to, &t->run, &t->end);
 }
@@ -47,7 +47,7 @@ qdot_trial_close(qdot_trial *t)
     if (t->slopes.session != NULL)
         qdot_slopes_free(&t->slopes);
     qdot_own_run_drop(session);
-    session->measured.n = t->first;
+    session->measured->n = t->first;
     qdot_session_restore_values(session, &t->kept);
     t->open = false;
     t->run = NULL;
@@ -133,8 +133,8 @@ hold_others(const qdot_trial *t, qdot_expr *e)
     qdot_session *session = t->session;
     qdot_named_run *named;
 
-    for (size_t i = t->first; i < session->measured.n; i++) {
-        const qdot_measured *m = &session->measured.at[i];
+    for (size_t i = t->first; i < session->measured->n; i++) {
+        const qdot_measured *m = &session->measured->at[i];
         qdot_expr number;
 
         if (m->origin.run == NULL)

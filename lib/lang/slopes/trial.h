@@ -15,6 +15,7 @@
 #define QDOT_LANG_TRIAL_H
 
 #include "lang/runs/run-options.h"
+#include "lang/session/values.h"
 #include "lang/slopes/slopes.h"
 
 typedef struct {

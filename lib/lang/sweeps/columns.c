@@ -10,6 +10,7 @@
 #include "lang/session/momenta.h"
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
+#include "lang/session/values.h"
 
 qdot_status
 qdot_columns_find(const qdot_record *r, qdot_columns *x)
@@ -50,9 +51,9 @@ is_set_by_events(const qdot_session *session, qdot_expr e)
             const qdot_expr target = session->scene->events.at[i].targets.at[k];
             bool is = qdot_expr_contains(pool, e, target);
 
-            for (size_t j = 0; j < session->set_symbols.n && !is; j++)
-                is = qdot_expr_contains(pool, e, session->set_symbols.at[j])
-                     && qdot_expr_contains(pool, session->set_values.at[j], target);
+            for (size_t j = 0; j < session->values->set_symbols.n && !is; j++)
+                is = qdot_expr_contains(pool, e, session->values->set_symbols.at[j])
+                     && qdot_expr_contains(pool, session->values->set_values.at[j], target);
             if (is)
                 return true;
         }

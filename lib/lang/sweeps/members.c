@@ -3,6 +3,8 @@
 
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/values.h"
 
 /* --- reading ---------------------------------------------------------------------------- */
 
@@ -39,7 +41,7 @@ static qdot_status
 make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use use, void *user)
 {
     qdot_session *session = c->session;
-    const size_t measured = session->measured.n;
+    const size_t measured = session->measured->n;
     qdot_run *run;
     qdot_expr end;
     qdot_status status = qdot_own_run_make(session, &m->run, m->run.from, to, &run, &end);
@@ -47,7 +49,7 @@ make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use us
     if (status == QDOT_OK)
         status = use(c, run, end, user);
     qdot_own_run_drop(session);
-    session->measured.n = measured;
+    session->measured->n = measured;
     return status;
 }
 

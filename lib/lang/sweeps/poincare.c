@@ -12,6 +12,7 @@
 #include "lang/runs/run.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
+#include "lang/session/output.h"
 #include "lang/session/row-tables.h"
 #include "lang/session/runs.h"
 #include "lang/sweeps/columns.h"
@@ -350,7 +351,7 @@ poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                                     "in %zu of the runs crossings cannot be told from rounding from some time on: "
                                     "they are not known",
                                     p->n_lost));
-    if (!session->json) {
+    if (!session->output->json) {
         qdot_text_format(&text, "%s: %zu point%s", t->name, t->rows - p->failed,
                          t->rows - p->failed == 1 ? "" : "s");
         if (p->failed > 0)
@@ -358,7 +359,7 @@ poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
         qdot_text_char(&text, '\n');
         QDOT_TRY(qdot_answer_written(session, t->name, QDOT_OK, &text));
     }
-    return session->json || (t->rows > 0 && t->rows <= QDOT_ROWS_PRINTED)
+    return session->output->json || (t->rows > 0 && t->rows <= QDOT_ROWS_PRINTED)
                ? qdot_row_answer(session, t)
                : QDOT_OK;
 }

@@ -12,6 +12,7 @@
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/values.h"
 #include "sim/ensemble/path.h"
 #include "sim/model/substitute.h"
 
@@ -175,9 +176,9 @@ is_read_elsewhere(const qdot_sweep *s, qdot_expr symbol)
     if (qdot_expr_contains(pool, s->members.run.from, symbol)
         || qdot_expr_contains(pool, s->members.run.to, symbol))
         return true;
-    for (size_t i = 0; i < session->set_values.n; i++)
-        if (session->set_symbols.at[i] != symbol
-            && qdot_expr_contains(pool, session->set_values.at[i], symbol))
+    for (size_t i = 0; i < session->values->set_values.n; i++)
+        if (session->values->set_symbols.at[i] != symbol
+            && qdot_expr_contains(pool, session->values->set_values.at[i], symbol))
             return true;
     for (size_t i = 0; i < session->scene->coordinates.n; i++) {
         const qdot_symbol *q = qdot_expr_symbol(pool, session->scene->coordinates.at[i]);

@@ -6,6 +6,8 @@
 
 #include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/values.h"
 #include "lang/sweeps/sweep-lanes-parts.h"
 #include "ode/companion.h"
 #include "sim/ensemble/path.h"
@@ -176,7 +178,7 @@ static qdot_status
 read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
 {
     qdot_session *session = x->s->c->session;
-    const size_t measured = session->measured.n;
+    const size_t measured = session->measured->n;
     qdot_kept_values kept;
     qdot_request request = {0};
     qdot_status status;
@@ -190,7 +192,7 @@ read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors
         status = measure_way(x, request.request.t1, values, errors, there);
         qdot_own_run_take_back(session);
     }
-    session->measured.n = measured;
+    session->measured->n = measured;
     qdot_request_free(&request);
     qdot_session_restore_values(session, &kept);
     return status;

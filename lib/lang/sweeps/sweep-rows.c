@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "lang/answer/row-answer.h"
 #include "lang/runs/own-run.h"
+#include "lang/session/output.h"
 #include "lang/sweeps/sweep-file.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
@@ -93,7 +94,7 @@ tell_rows(qdot_sweep *s, bool all)
 {
     const size_t from = s->told;
 
-    while (s->c->session->json && s->told < s->table->rows && (all || s->done[s->told]))
+    while (s->c->session->output->json && s->told < s->table->rows && (all || s->done[s->told]))
         s->told++;
     return s->told > from ? qdot_row_answer_part(s->c->session, s->table, from, s->told) : QDOT_OK;
 }

@@ -14,6 +14,8 @@
 #include "lang/commands/warnings.h"
 #include "lang/declare/scene-file.h"
 #include "lang/language/token-text.h"
+#include "lang/session/output.h"
+#include "lang/session/values.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/syntax/record.h"
 
@@ -150,7 +152,7 @@ sweep_tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, 
 {
     qdot_text text = {0};
 
-    if (session->json)
+    if (session->output->json)
         return QDOT_OK;
     qdot_text_format(&text, "%s: %zu row%s", t->name, t->rows, t->rows == 1 ? "" : "s");
     if (s->members.axes.random)

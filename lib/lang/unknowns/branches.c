@@ -7,6 +7,7 @@
 #include "base/number-text.h"
 #include "lang/answer/table-answer.h"
 #include "lang/answer/write.h"
+#include "lang/session/output.h"
 #include "lang/session/row-tables.h"
 
 /* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
@@ -581,7 +582,7 @@ qdot_branches_answer(qdot_session *session, const qdot_branches *b)
     qdot_text text = {0};
     qdot_status status;
 
-    if (session->json)
+    if (session->output->json)
         return answer_json(session, b);
     status = tell_branches(b, &text);
     if (status == QDOT_OK)

@@ -11,7 +11,7 @@
 #ifndef QDOT_LANG_BRANCHES_H
 #define QDOT_LANG_BRANCHES_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "sim/branches/continuation.h"
 
 /* The branches found by `continue`, with the names of their unknowns. */

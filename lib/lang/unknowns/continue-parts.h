@@ -8,6 +8,7 @@
 #define QDOT_LANG_CONTINUE_PARTS_H
 
 #include "lang/language/cursor.h"
+#include "lang/source/token.h"
 #include "lang/unknowns/branches.h"
 
 typedef struct {

@@ -10,6 +10,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/session/bind.h"
 #include "lang/session/row-tables.h"
+#include "lang/session/values.h"
 #include "lang/slopes/slopes.h"
 #include "lang/syntax/record.h"
 #include "lang/unknowns/continue-parts.h"
@@ -216,9 +217,9 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
 static void
 free_parameter(qdot_session *session, qdot_expr parameter)
 {
-    for (size_t i = 0; i < session->set_symbols.n; i++)
-        if (session->set_symbols.at[i] == parameter)
-            session->set_values.at[i] = parameter;
+    for (size_t i = 0; i < session->values->set_symbols.n; i++)
+        if (session->values->set_symbols.at[i] == parameter)
+            session->values->set_values.at[i] = parameter;
 }
 
 static qdot_status

@@ -181,7 +181,7 @@ latest_find(qdot_find *f)
     qdot_session *session = f->c->session;
     qdot_named_run *named;
 
-    if (session->runs.n == 0)
+    if (session->runs->n == 0)
         return QDOT_OK;
     QDOT_TRY(qdot_runs_find(session, NULL, &named));
     if (named->conditions->version != session->scene->version)

@@ -58,7 +58,7 @@ open_start(const qdot_find *f, bool velocities)
 {
     qdot_session *session = f->c->session;
     const qdot_scene *scene = session->scene;
-    size_t held = 0, named = 0, before = session->start_open.n, open = scene->coordinates.n;
+    size_t held = 0, named = 0, before = session->values->start_open.n, open = scene->coordinates.n;
     bool some = false;
 
     for (size_t i = 0; i < scene->constraints.n; i++)
@@ -70,13 +70,13 @@ open_start(const qdot_find *f, bool velocities)
         some = some || is_unknown(f, q) || is_unknown(f, jet);
         open -= is_unknown(f, jet);
         if (is_unknown(f, jet)
-            || qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet) == session->start_symbols.n)
+            || qdot_expr_place(session->values->start_symbols.n, session->values->start_symbols.at, jet) == session->values->start_symbols.n)
             continue;
         named++;
-        QDOT_TRY(qdot_vec_push(&session->start_open, jet));
+        QDOT_TRY(qdot_vec_push(&session->values->start_open, jet));
     }
     if (!some || open - named >= held || open > held) /* enough are open, or it is not known which */
-        session->start_open.n = before;
+        session->values->start_open.n = before;
     return QDOT_OK;
 }
 
@@ -88,20 +88,20 @@ find_read_start(const hunt *h, double *numbers)
     const qdot_session *session = h->trial.session;
     const double t0 = qdot_run_get_report(h->trial.run)->t0;
 
-    return session->start_open.n == 0
+    return session->values->start_open.n == 0
                ? QDOT_OK
-               : qdot_run_values(h->trial.run, session->start_open.n, session->start_open.at, 1, &t0, numbers, NULL);
+               : qdot_run_values(h->trial.run, session->values->start_open.n, session->values->start_open.at, 1, &t0, numbers, NULL);
 }
 
 static qdot_status
 keep_start(qdot_session *session, const double *numbers)
 {
-    for (size_t i = 0; i < session->start_open.n; i++) {
+    for (size_t i = 0; i < session->values->start_open.n; i++) {
         qdot_text name = {0};
-        qdot_status status = qdot_print(session->pool, session->start_open.at[i], QDOT_PLAIN, &name);
+        qdot_status status = qdot_print(session->pool, session->values->start_open.at[i], QDOT_PLAIN, &name);
 
         if (status == QDOT_OK)
-            status = qdot_session_put(session, session->start_open.at[i],
+            status = qdot_session_put(session, session->values->start_open.at[i],
                                       qdot_measured_rational(session->pool, numbers[i]));
         if (status == QDOT_OK)
             status = qdot_answer_notice(session, "by the constraints %s starts at %.10g", qdot_text_str(&name),
@@ -109,7 +109,7 @@ keep_start(qdot_session *session, const double *numbers)
         qdot_text_clear(&name);
         QDOT_TRY(status);
     }
-    session->start_open.n = 0;
+    session->values->start_open.n = 0;
     return qdot_pool_check(session->pool);
 }
 
@@ -680,7 +680,7 @@ qdot_find_carry_out(qdot_find *f)
     if (status == QDOT_OK)
         status = find_search(&h, &r);
     qdot_trial_close(&h.trial);
-    f->c->session->start_open.n = 0;
+    f->c->session->values->start_open.n = 0;
     qdot_free(h.values);
     qdot_free(room);
     return status;

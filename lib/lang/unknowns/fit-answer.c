@@ -9,6 +9,7 @@
 #include "base/utf8.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/table-answer.h"
+#include "lang/session/output.h"
 #include "lang/unknowns/fit-parts.h"
 
 /* A numerical error counts as large if it exceeds this part of a standard error. */
@@ -272,6 +273,6 @@ qdot_fit_tell(qdot_fit *f)
         return status;
     }
     QDOT_TRY(qdot_row_tables_keep(f->session, table));
-    QDOT_TRY(f->session->json ? tell_json(f) : tell_text(f, name));
+    QDOT_TRY(f->session->output->json ? tell_json(f) : tell_text(f, name));
     return tell_notices(f);
 }

@@ -5,6 +5,7 @@
 
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
+#include "lang/session/session.h"
 #include "lang/unknowns/fit-parts.h"
 
 /* The time of a row and its number, for sorting. */

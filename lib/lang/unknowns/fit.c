@@ -82,7 +82,7 @@ static qdot_status
 expression_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
     qdot_session *session = r->cursor.session;
-    const size_t measured = session->measured.n;
+    const size_t measured = session->measured->n;
     qdot_text text = {0};
 
     QDOT_TRY(qdot_compiled_motion(&r->cursor, &r->compiled.at[part->first], &x->e));
@@ -100,7 +100,7 @@ expression_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_c
     x->kind = QDOT_FIT_VALUE;
     if (!qdot_expr_is_scalar(session->pool, x->e))
         return qdot_fail(QDOT_ETYPE, "a column is one number a row");
-    if (session->measured.n > measured || qdot_member_any(session, x->e)) {
+    if (session->measured->n > measured || qdot_member_any(session, x->e)) {
         (void)qdot_fail(QDOT_EINVAL, "a column is what the scene has at each time, not a number of a run");
         return qdot_hint("theta, x + L*sin(theta), energy");
     }
@@ -303,7 +303,7 @@ qdot_fit_set(qdot_fit *f)
 static qdot_status
 fit_carry_out(qdot_cursor *c, qdot_fit *f)
 {
-    const size_t measured = c->session->measured.n;
+    const size_t measured = c->session->measured->n;
     size_t m = 0;
     qdot_status status;
 
@@ -324,7 +324,7 @@ fit_carry_out(qdot_cursor *c, qdot_fit *f)
         if (f->columns.at[i].kind == QDOT_FIT_VALUE)
             f->exprs[m++] = f->columns.at[i].e;
     status = qdot_fit_find(f);
-    c->session->measured.n = measured;
+    c->session->measured->n = measured;
     QDOT_TRY(status);
     QDOT_TRY(qdot_fit_set(f));
     return qdot_fit_tell(f);

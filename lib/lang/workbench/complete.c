@@ -11,6 +11,9 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/session/labels.h"
+#include "lang/session/names.h"
+#include "lang/session/row-tables.h"
+#include "lang/session/runs.h"
 #include "lang/source/letters.h"
 #include "lang/source/source.h"
 #include "lang/syntax/usage.h"
@@ -171,10 +174,10 @@ offer_kinds(completion *c, unsigned kinds)
     offer_tables(c, kinds);
     offer_names(c, kinds);
     offer_labels(c, kinds);
-    for (size_t i = 0; (kinds & RUNS) != 0 && i < c->session->runs.n; i++)
-        offer(c, c->session->runs.at[i].name);
-    for (size_t i = 0; (kinds & TABLES) != 0 && i < c->session->tables.n; i++)
-        offer(c, c->session->tables.at[i]->name);
+    for (size_t i = 0; (kinds & RUNS) != 0 && i < c->session->runs->n; i++)
+        offer(c, c->session->runs->at[i].name);
+    for (size_t i = 0; (kinds & TABLES) != 0 && i < c->session->tables->n; i++)
+        offer(c, c->session->tables->at[i]->name);
 }
 
 /* --- within brackets ------------------------------------------------------------------- */

@@ -8,7 +8,7 @@
 #ifndef QDOT_LANG_COMPLETE_H
 #define QDOT_LANG_COMPLETE_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* The words that may stand behind `before` [length], the text typed so far, and begin with
  * `prefix`; sorted, unique. Of a prefix in Greek letters (θ1 for theta1) they begin as it does. Of a family `theta[1]`, `theta[2]`, ... there is one, `theta[`.

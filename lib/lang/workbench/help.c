@@ -8,6 +8,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/hints.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 #include "lang/workbench/search.h"
 #include "lang/workbench/topics.h"
@@ -201,7 +202,7 @@ help_tell(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
     const qdot_filled *word = qdot_record_hole(r, "help", NULL);
-    const size_t width = qdot_write_width(session, session->out);
+    const size_t width = qdot_write_width(session, session->output->out);
     const char *near;
     qdot_text text = {0};
 

@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_HIGHLIGHT_H
 #define QDOT_LANG_HIGHLIGHT_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 typedef enum {
     QDOT_HIGHLIGHT_PLAIN,

@@ -1,4 +1,5 @@
 /* include.c -- the statement `include`: carries out another script. */
+#include "lang/session/session.h"
 #include "lang/syntax/record.h"
 #include "lang/workbench/script.h"
 

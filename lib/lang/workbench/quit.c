@@ -1,10 +1,11 @@
 /* quit.c -- the statement `quit`: ends the script or the session. */
+#include "lang/session/outcome.h"
 #include "lang/syntax/record.h"
 
 static qdot_status
 quit_leave(qdot_record *r)
 {
-    r->cursor.session->quit = true;
+    r->cursor.session->outcome->quit = true;
     return QDOT_OK;
 }
 

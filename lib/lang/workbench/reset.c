@@ -2,9 +2,15 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "lang/language/function.h"
+#include "lang/session/evaluation.h"
+#include "lang/session/measured.h"
+#include "lang/session/output.h"
+#include "lang/session/session.h"
 #include "lang/session/transfer.h"
 #include "lang/session/undo.h"
+#include "lang/session/values.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/things.h"
 
 static qdot_status reset_carry_out(qdot_record *r);
 
@@ -65,8 +71,8 @@ session_keep(const qdot_session *old, qdot_session *fresh)
             copy.ufun = qdot_expr_node(fresh->pool, copy.value)->op;
         QDOT_TRY(qdot_names_declare(fresh->names, &copy));
     }
-    for (size_t i = 0; i < old->set_symbols.n; i++) {
-        const qdot_node *symbol = qdot_expr_node(old->pool, old->set_symbols.at[i]);
+    for (size_t i = 0; i < old->values->set_symbols.n; i++) {
+        const qdot_node *symbol = qdot_expr_node(old->pool, old->values->set_symbols.at[i]);
 
         if (symbol->holds & QDOT_HAS_MOMENTUM)
             continue;
@@ -75,10 +81,10 @@ session_keep(const qdot_session *old, qdot_session *fresh)
                 NULL)
             continue;
         QDOT_TRY(
-            qdot_vec_push(&fresh->set_symbols,
-                          qdot_transfer(old->pool, fresh->pool, old->set_symbols.at[i])));
-        QDOT_TRY(qdot_vec_push(&fresh->set_values, qdot_transfer(old->pool, fresh->pool,
-                                                                 old->set_values.at[i])));
+            qdot_vec_push(&fresh->values->set_symbols,
+                          qdot_transfer(old->pool, fresh->pool, old->values->set_symbols.at[i])));
+        QDOT_TRY(qdot_vec_push(&fresh->values->set_values, qdot_transfer(old->pool, fresh->pool,
+                                                                 old->values->set_values.at[i])));
     }
     for (size_t i = 0; i < old->scene->assumed.n; i++) {
         const qdot_assumption *said = &old->scene->assumed.at[i];
@@ -88,13 +94,13 @@ session_keep(const qdot_session *old, qdot_session *fresh)
                 fresh->scene, qdot_transfer(old->pool, fresh->pool, said->relation),
                 said->turned));
     }
-    for (size_t i = 0; i < old->measured.n; i++) {
-        qdot_measured m = old->measured.at[i];
+    for (size_t i = 0; i < old->measured->n; i++) {
+        qdot_measured m = old->measured->at[i];
 
         m.symbol = qdot_transfer(old->pool, fresh->pool, m.symbol);
         if (m.digits > 0)
             m.exact = qdot_transfer(old->pool, fresh->pool, m.exact);
-        QDOT_TRY(qdot_vec_push(&fresh->measured, m));
+        QDOT_TRY(qdot_vec_push(fresh->measured, m));
     }
     return qdot_pool_check(fresh->pool);
 }
@@ -106,9 +112,9 @@ reset(qdot_session *session, bool everything)
     qdot_session *fresh;
     qdot_status status = QDOT_OK;
 
-    if (session->loops > 0)
+    if (session->evaluation->loops > 0)
         return qdot_fail(QDOT_EINVAL, "`reset` has no place inside a loop");
-    fresh = qdot_session_new(session->out, session->err);
+    fresh = qdot_session_new(session->output->out, session->output->err);
     if (fresh == NULL)
         return QDOT_ENOMEM;
     if (!everything)
@@ -129,13 +135,13 @@ reset_carry_out(qdot_record *r)
 
     r->cursor.error_at = r->start->start;
     if (qdot_record_word(r, "start") != NULL) {
-        session->start_symbols.n = 0;
-        session->start_exactly = false;
-        session->start_values.n = session->start_errors.n = 0;
+        session->values->start_symbols.n = 0;
+        session->values->start_exactly = false;
+        session->values->start_values.n = session->values->start_errors.n = 0;
         return QDOT_OK;
     }
     if (qdot_record_word(r, "scale") != NULL) {
-        session->scale_symbols.n = session->scale_values.n = 0;
+        session->values->scale_symbols.n = session->values->scale_values.n = 0;
         return QDOT_OK;
     }
     return reset(session, qdot_record_word(r, "scene") == NULL);

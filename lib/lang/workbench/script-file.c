@@ -4,6 +4,8 @@
 
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
+#include "lang/session/outcome.h"
+#include "lang/session/text-list.h"
 #include "lang/source/source.h"
 #include "lang/workbench/script.h"
 #include "parallel/ranks.h"
@@ -13,10 +15,10 @@ enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
 static int
 exit_status(qdot_session *session, qdot_status status)
 {
-    session->failed = status != QDOT_OK;
+    session->outcome->failed = status != QDOT_OK;
     if (status != QDOT_OK)
         return status == QDOT_ESYNTAX ? 2 : 1;
-    return session->refuted ? 1 : 0;
+    return session->outcome->refuted ? 1 : 0;
 }
 
 int
@@ -46,8 +48,8 @@ script_is_open(const qdot_session *session, const char *path)
 
     if (stat(path, &info) != 0)
         return false;
-    for (size_t i = 0; i < session->including.n; i++)
-        if (stat(session->including.at[i], &other) == 0 && info.st_dev == other.st_dev &&
+    for (size_t i = 0; i < session->including->n; i++)
+        if (stat(session->including->at[i], &other) == 0 && info.st_dev == other.st_dev &&
             info.st_ino == other.st_ino)
             return true;
     return false;
@@ -64,13 +66,13 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
     *opened = false;
     if (!standard && script_is_open(session, path))
         return qdot_fail(QDOT_EINVAL, "`%s` includes itself", path);
-    if (session->including.n >= INCLUDE_LIMIT)
+    if (session->including->n >= INCLUDE_LIMIT)
         return qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another",
                          INCLUDE_LIMIT);
     own = qdot_strdup(path);
     if (own == NULL)
         return QDOT_ENOMEM;
-    status = qdot_vec_push(&session->including, own);
+    status = qdot_vec_push(session->including, own);
     if (status != QDOT_OK) {
         qdot_free(own);
         return status;
@@ -82,7 +84,7 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
                                        qdot_text_str(&text), text.n);
     }
     qdot_text_clear(&text);
-    qdot_free(session->including.at[--session->including.n]);
+    qdot_free(session->including->at[--session->including->n]);
     return status;
 }
 

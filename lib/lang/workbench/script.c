@@ -13,6 +13,7 @@
 #include "base/interrupt.h"
 #include "base/memory-failure.h"
 #include "base/progress.h"
+#include "expr/print.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/commands/definition-check.h"
@@ -24,7 +25,11 @@
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/foreign.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/held.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
+#include "lang/session/typed.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
 #include "lang/syntax/match.h"
@@ -134,12 +139,12 @@ carry_out_row(engine *x, qdot_cursor *c, const qdot_statement *row)
 {
     qdot_status status;
 
-    c->session->declares = qdot_statement_declares(row);
+    c->session->evaluation->declares = qdot_statement_declares(row);
     qdot_short_names_forget(c->session);
     status = carry_out_record(x, c, row);
-    if (c->session->declares)
+    if (c->session->evaluation->declares)
         status = qdot_short_names_tell(c->session, status);
-    c->session->declares = false;
+    c->session->evaluation->declares = false;
     return status;
 }
 
@@ -191,7 +196,7 @@ dispatch_held(engine *x, qdot_cursor *c)
     qdot_scene_saved kept = {0};
     qdot_status status = QDOT_OK;
 
-    if (session->held.n == 0 || !asks(session, c->at))
+    if (session->evaluation->held.n == 0 || !asks(session, c->at))
         return dispatch(x, c);
     status = qdot_held_check(session);
     if (status == QDOT_OK)
@@ -437,7 +442,7 @@ lead(engine *x, size_t i, size_t end, qdot_status status)
     qdot_cursor c = {.session = x->session, .source = x->source, .error_at = x->error_at};
     const qdot_statement *example;
 
-    if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->placed)
+    if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->evaluation->placed)
         return status;
     if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
         is_bare_or_declares(qdot_last_error()->hint)) { /* `runn 0..10` */
@@ -476,12 +481,12 @@ simple(engine *x, size_t i, size_t *next)
 {
     size_t end = statement_end(x, i);
     clock_t since = clock();
-    bool timed = x->session->timing && x->frames.n == 0;
+    bool timed = x->session->output->timing && x->frames.n == 0;
     qdot_cursor c = {.session = x->session, .source = x->source, .at = &x->tokens[i]};
     qdot_status status;
 
     *next = find_end(x, end);
-    x->session->placed = false;
+    x->session->evaluation->placed = false;
     status = qdot_definition_check(&c, &x->tokens[*next]);
     if (status != QDOT_OK) {
         x->error_at = c.error_at;
@@ -491,7 +496,7 @@ simple(engine *x, size_t i, size_t *next)
     if (status != QDOT_OK)
         return lead(x, i, *next, status);
     QDOT_TRY(tell_seldom_meant(x, i, *next));
-    if (timed && x->session->timing)
+    if (timed && x->session->output->timing)
         tell_time(x, since);
     return QDOT_OK;
 }
@@ -601,7 +606,7 @@ whole(engine *x, size_t *i)
     qdot_typed_begin(x->session, x->source, first->start);
     do
         status = advance(x, i);
-    while (status == QDOT_OK && x->frames.n > 0 && !x->session->quit);
+    while (status == QDOT_OK && x->frames.n > 0 && !x->session->outcome->quit);
     last = &x->tokens[x->frames.n > 0         ? x->frames.at[0].resume
                       : status == QDOT_OK     ? *i
                                               : find_end(x, (size_t)(first - x->tokens))];
@@ -618,7 +623,7 @@ carry_out(engine *x)
 {
     size_t i = 0;
 
-    while (i < x->n && !x->session->quit) {
+    while (i < x->n && !x->session->outcome->quit) {
         if (x->tokens[i].kind == QDOT_TOKEN_END)
             i++;
         else
@@ -645,7 +650,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
     qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
     size_t outer = qdot_undo_text_begin(session);
 
-    session->typed.texts++;
+    session->typed->texts++;
     (void)qdot_memory_ran_out(); /* before: whoever asked then has heard of it */
     if (status == QDOT_OK)
         status = qdot_session_remarks_keep(session, text, length);
@@ -666,7 +671,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
         report_error(&x);
     if (status != QDOT_OK)
         qdot_typed_end(session, "", 0, status);
-    session->typed.texts--;
+    session->typed->texts--;
     if (status == QDOT_EINTR)
         qdot_interrupt_clear();
     for (size_t i = 0; i < x.usages.n; i++)

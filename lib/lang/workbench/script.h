@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_SCRIPT_H
 #define QDOT_LANG_SCRIPT_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 
 /* Carry out a text. `name` is what errors call it ("a.lag", "-e", "prompt"). Stops at the
  * first error, which is reported on err (and as JSON on out). Returns the exit status so far: 0, 1 a

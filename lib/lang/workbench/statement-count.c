@@ -2,20 +2,23 @@
 #include "lang/workbench/statement-count.h"
 
 #include "lang/answer/write.h"
+#include "lang/session/outcome.h"
+#include "lang/session/output.h"
+#include "lang/session/typed.h"
 
 void
 qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at)
 {
-    qdot_typed *typed = &session->typed;
+    qdot_typed *typed = session->typed;
     uint32_t column;
 
     if (typed->texts != 1 || typed->under_way)
         return;
     typed->under_way = true;
     typed->number++;
-    typed->refuted = session->refuted;
-    session->refuted = false;
-    if (session->json && source != NULL) /* else nobody asks for it */
+    typed->refuted = session->outcome->refuted;
+    session->outcome->refuted = false;
+    if (session->output->json && source != NULL) /* else nobody asks for it */
         qdot_source_locate(source, at, &typed->line, &column);
 }
 
@@ -23,13 +26,13 @@ qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at)
 static int
 status_of(const qdot_session *session, qdot_status status)
 {
-    return status == QDOT_ESYNTAX ? 2 : status != QDOT_OK || session->refuted ? 1 : 0;
+    return status == QDOT_ESYNTAX ? 2 : status != QDOT_OK || session->outcome->refuted ? 1 : 0;
 }
 
 void
 qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_status status)
 {
-    qdot_typed *typed = &session->typed;
+    qdot_typed *typed = session->typed;
     qdot_text line = {0};
 
     if (typed->texts != 1 || !typed->under_way)
@@ -41,8 +44,8 @@ qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_stat
     if (typed->told) {
         qdot_text_format(&line, "{\"kind\":\"done\",\"statement\":%zu,\"status\":%d}\n", typed->number,
                          status_of(session, status));
-        (void)!qdot_write(session, session->out, &line);
+        (void)!qdot_write(session, session->output->out, &line);
     }
-    session->refuted = session->refuted || typed->refuted;
+    session->outcome->refuted = session->outcome->refuted || typed->refuted;
     typed->under_way = false;
 }

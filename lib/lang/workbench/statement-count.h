@@ -5,7 +5,7 @@
 #ifndef QDOT_LANG_STATEMENT_COUNT_H
 #define QDOT_LANG_STATEMENT_COUNT_H
 
-#include "lang/session/session.h"
+#include "lang/session/parts.h"
 #include "lang/source/source.h"
 
 /* A statement begins at byte `at` of the source. Does nothing within another one. */

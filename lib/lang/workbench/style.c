@@ -1,4 +1,6 @@
 /* style.c -- `style`: how expressions are written. */
+#include "expr/print-name.h"
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
 static qdot_status style_choose(qdot_record *r);
@@ -24,9 +26,9 @@ style_choose(qdot_record *r)
                   {"mathml", QDOT_MATHML}};
     qdot_session *session = r->cursor.session;
 
-    session->flat = qdot_record_word(r, "flat") != NULL; /* the style stays */
+    session->output->flat = qdot_record_word(r, "flat") != NULL; /* the style stays */
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++)
         if (qdot_record_word(r, styles[i].word) != NULL)
-            session->style = styles[i].style;
+            session->output->style = styles[i].style;
     return QDOT_OK;
 }

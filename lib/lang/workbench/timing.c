@@ -1,10 +1,11 @@
 /* timing.c -- `timing`: whether the CPU time of statements is told. */
+#include "lang/session/output.h"
 #include "lang/syntax/record.h"
 
 static qdot_status
 timing_switch(qdot_record *r)
 {
-    r->cursor.session->timing = qdot_record_word(r, "on") != NULL;
+    r->cursor.session->output->timing = qdot_record_word(r, "on") != NULL;
     return QDOT_OK;
 }
 

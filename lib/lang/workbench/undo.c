@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/undo.h"
 #include "lang/syntax/record.h"
 
@@ -56,7 +57,7 @@ undo_step(qdot_record *r, const char *name, const char *word, bool again)
     if (number != NULL)
         QDOT_TRY(qdot_record_integer(r, number, &wanted));
     r->cursor.error_at = (number != NULL ? number->from : &r->start[-1])->start;
-    if (s->loops > 0)
+    if (s->evaluation->loops > 0)
         return qdot_fail(QDOT_EINVAL, "`%s` has no place inside a loop", name);
     if (wanted < 1 || (size_t)wanted > n)
         return wanted < 1 ? qdot_fail(QDOT_EINVAL, "how many statements? 1, 2, ...")

@@ -94,7 +94,7 @@ typedef struct {
 
 typedef struct qdot_derived qdot_derived; /* mech/scene/cache.h */
 
-typedef struct {
+typedef struct qdot_scene {
     qdot_pool *pool;  /* borrowed */
     qdot_arena *texts;
     uint64_t version; /* one number for each state: qdot_scene_changed */

@@ -1,5 +1,6 @@
 /* test_styles.c -- what plain and unicode style print is read as the same expression; decimals. */
 #include "lang/reading.h"
+#include "lang/session/history.h"
 
 static const char scene[] =
     "param m, m1, g, L, a > 0, b, omega_0, k[1], w > 1\n"
@@ -56,12 +57,12 @@ grow(qdot_text *out, int depth)
 static qdot_expr
 value_of(qdot_session *session, const char *text)
 {
-    size_t before = session->history.n;
+    size_t before = session->history->values.n;
 
     if (qdot_script_run_text(session, "a", text, strlen(text)) != 0 ||
-        session->history.n != before + 1)
+        session->history->values.n != before + 1)
         return QDOT_NIL;
-    return session->history.at[before];
+    return session->history->values.at[before];
 }
 
 static void

@@ -3,6 +3,8 @@
 
 #include "expr/build.h"
 #include "lang/reading.h"
+#include "lang/session/history.h"
+#include "lang/session/measured.h"
 
 #include "lang/session/bind.h"
 
@@ -14,8 +16,8 @@ number_of(qdot_session *session, const char *e, int digits)
 
     snprintf(text, sizeof text, "numeric(%s, %d)", e, digits);
     assert_int_equal(qdot_script_run_text(session, "a", text, strlen(text)), 0);
-    assert_true(session->measured.n > 0);
-    return session->measured.at[session->measured.n - 1];
+    assert_true(session->measured->n > 0);
+    return session->measured->at[session->measured->n - 1];
 }
 
 static void
@@ -71,7 +73,7 @@ symbols_stay(void **state)
 
         snprintf(text, sizeof text, "numeric(%s)\n%s", rows[i].e, rows[i].decimals);
         assert_int_equal(qdot_script_run_text(session, "a", text, strlen(text)), 0);
-        assert_int_equal(session->history.at[2 * i], session->history.at[2 * i + 1]);
+        assert_int_equal(session->history->values.at[2 * i], session->history->values.at[2 * i + 1]);
     }
     qdot_session_free(session);
     fclose(nowhere);

@@ -2,6 +2,8 @@
 #include "expr/exact.h"
 #include "expr/symbol.h"
 #include "lang/reading.h"
+#include "lang/session/history.h"
+#include "lang/session/runs.h"
 
 static void
 primes_are_time_derivatives(void **state)
@@ -168,9 +170,9 @@ history_is_counted(void **state)
     reading_open(&r);
     assert_fails(&r, "%", QDOT_EINVAL, 0, "no value yet", "");
     assert_int_equal(
-        qdot_vec_push(&r.session->history, qdot_expr_int(r.session->pool, 5)), QDOT_OK);
+        qdot_vec_push(&r.session->history->values, qdot_expr_int(r.session->pool, 5)), QDOT_OK);
     assert_int_equal(
-        qdot_vec_push(&r.session->history, qdot_expr_int(r.session->pool, 7)), QDOT_OK);
+        qdot_vec_push(&r.session->history->values, qdot_expr_int(r.session->pool, 7)), QDOT_OK);
     assert_same(&r, "%", "7");
     assert_same(&r, "%1*%", "35");
     assert_fails(&r, "%3", QDOT_EINVAL, 0, "only 2", "");
@@ -286,7 +288,7 @@ members_of_runs_are_kept_apart(void **state)
     assert_fails(&r, "a.theta", QDOT_ENAME, 0, "no run `a`", "");
     qdot_named_run a = {.name = (char *)"a"};
 
-    assert_int_equal(qdot_vec_push(&r.session->runs, a), QDOT_OK);
+    assert_int_equal(qdot_vec_push(r.session->runs, a), QDOT_OK);
     assert_int_equal(qdot_source_new("a", text, sizeof text - 1, &source, &at), QDOT_OK);
     c = (qdot_cursor){.session = r.session, .source = source, .at = source->tokens.at};
     assert_int_equal(qdot_read_member(&c, &e, &run), QDOT_OK);
@@ -302,8 +304,8 @@ members_of_runs_are_kept_apart(void **state)
     assert_int_equal(qdot_read_member(&c, &e, &run), QDOT_OK);
     assert_null(run);
     qdot_source_free(source);
-    qdot_free(r.session->runs.at);
-    memset(&r.session->runs, 0, sizeof r.session->runs);
+    qdot_free(r.session->runs->at);
+    memset(r.session->runs, 0, sizeof *r.session->runs);
     reading_close(&r);
 }
 

@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "lang/session/output.h"
+#include "lang/session/session.h"
 #include "lang/workbench/script.h"
 #include "lang/language/partial-sum.h"
 
@@ -28,7 +30,7 @@ after(const char *text)
 static void
 end(qdot_session *session)
 {
-    FILE *out = session->out;
+    FILE *out = session->output->out;
 
     qdot_session_free(session);
     fclose(out);
@@ -43,9 +45,9 @@ sums_of_a_chain_are_kept_to_their_end(void **state)
                                   " -sum(l[j]*cos(theta[j]), j, 1, k)) for k = 1..9");
 
     (void)state;
-    assert_int_equal(s->partial_sums.n, 2);
+    assert_int_equal(s->evaluation->partial_sums.n, 2);
     for (size_t i = 0; i < 2; i++) {
-        const qdot_partial_sum *sum = s->partial_sums.at + i;
+        const qdot_partial_sum *sum = s->evaluation->partial_sums.at + i;
 
         assert_int_equal(sum->first, 1);
         assert_int_equal(sum->last, 9);
@@ -71,7 +73,7 @@ sums_that_depend_on_more_are_not_kept(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         qdot_session *s = after(texts[i]);
 
-        if (s->partial_sums.n != 0)
+        if (s->evaluation->partial_sums.n != 0)
             fail_msg("kept: %s", texts[i]);
         end(s);
     }
@@ -84,7 +86,7 @@ the_next_loop_begins_with_none(void **state)
                                   "y[k] = k for k = 1..2");
 
     (void)state;
-    assert_int_equal(s->partial_sums.n, 0);
+    assert_int_equal(s->evaluation->partial_sums.n, 0);
     end(s);
 }
 

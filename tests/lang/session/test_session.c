@@ -3,7 +3,13 @@
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/symbol.h"
+#include "lang/session/evaluation.h"
+#include "lang/session/measured.h"
+#include "lang/session/names.h"
+#include "lang/session/output.h"
+#include "lang/session/values.h"
 #include "lang/talk.h"
+#include "mech/scene/things.h"
 
 #include <math.h>
 
@@ -78,8 +84,8 @@ a_failed_statement_declares_nothing(void **state)
         assert_int_equal(declared(k), names);
         assert_int_equal(k->session->scene->coordinates.n, 1);
         assert_int_equal(k->session->scene->particles.n, 0);
-        assert_int_equal(k->session->set_symbols.n, 0);
-        assert_int_equal(k->session->start_symbols.n, 0);
+        assert_int_equal(k->session->values->set_symbols.n, 0);
+        assert_int_equal(k->session->values->start_symbols.n, 0);
         assert_null(qdot_names_find(k->session->names, "k"));
     }
 }
@@ -93,7 +99,7 @@ a_loop_that_fails_leaves_no_index(void **state)
     assert_non_null(strstr(complaint(k), "in the pass with"));
     assert_null(qdot_names_find(k->session->names, "i"));
     assert_null(qdot_names_find(k->session->names, "j"));
-    assert_int_equal(k->session->loops, 0);
+    assert_int_equal(k->session->evaluation->loops, 0);
     assert_int_equal(say(k, "reset"), 0);
 }
 
@@ -102,7 +108,7 @@ json_is_one_object_a_line(void **state)
 {
     talk *k = *state;
 
-    k->session->json = true;
+    k->session->output->json = true;
     say(k, "param m > 0; coord x\nparticle p mass m at x\nT");
     assert_non_null(strstr(heard(k),
                            "{\"kind\":\"expr\",\"name\":\"T\",\"plain\":\"1/2*m*x'^2\","
@@ -166,8 +172,8 @@ errors_of_measured_numbers_add_up(void **state)
                        .error = 1e-7};
     double x, error;
 
-    assert_int_equal(qdot_vec_push(&k->session->measured, a), QDOT_OK);
-    assert_int_equal(qdot_vec_push(&k->session->measured, b), QDOT_OK);
+    assert_int_equal(qdot_vec_push(k->session->measured, a), QDOT_OK);
+    assert_int_equal(qdot_vec_push(k->session->measured, b), QDOT_OK);
     /* d(a^2 b) = 2 a b da + a^2 db */
     assert_int_equal(
         qdot_session_number(k->session,
@@ -189,7 +195,7 @@ reset_scene_begins_coordinates_anew(void **state)
     complaint(k);
     say(k, "coord r; sqrt(r^2); sqrt(m^2); h");
     assert_string_equal(heard(k), "sqrt(r^2) = abs(r)\nsqrt(m^2) = m\nh = 3*m\n");
-    assert_int_equal(k->session->set_symbols.n, 1);
+    assert_int_equal(k->session->values->set_symbols.n, 1);
     say(k, "reset; vars");
     assert_string_equal(heard(k), "nothing is declared\n");
 }

@@ -1,5 +1,8 @@
 /* test_undo.c -- statements taken back: what is left is what was there before. */
+#include "lang/session/history.h"
+#include "lang/session/names.h"
 #include "lang/talk.h"
+#include "mech/scene/things.h"
 
 #include <glob.h>
 
@@ -147,7 +150,7 @@ answers_are_counted_back(void **state)
 
     assert_int_equal(say(k, "1 + 1; param m; m + 1; m + 2; undo; % + 1"), 0);
     assert_non_null(strstr(heard(k), "undone: param m\n% + 1 = 3\n"));
-    assert_int_equal(k->session->history.n, 2);
+    assert_int_equal(k->session->history->values.n, 2);
     assert_int_equal(say(k, "redo; %1 + 1"), 0);
     assert_non_null(strstr(heard(k), "%1 + 1 = 3\n"));
 }

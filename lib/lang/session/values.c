@@ -1,0 +1,95 @@
+/* values.c -- values given, and kept while others are tried. */
+#include "lang/session/values.h"
+
+#include <string.h>
+
+#include "expr/node.h"
+#include "expr/symbol.h"
+
+void
+qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
+                 qdot_status *status)
+{
+    qdot_values *values = session->values;
+
+    for (size_t i = 0; i < values->set_symbols.n; i++)
+        if (values->set_symbols.at[i] == symbol ||
+            (qdot_expr_kind(session->pool, symbol) == QDOT_UFUN &&
+             qdot_expr_kind(session->pool, values->set_symbols.at[i]) == QDOT_UFUN &&
+             qdot_expr_node(session->pool, symbol)->op ==
+                 qdot_expr_node(session->pool, values->set_symbols.at[i])->op)) {
+            values->set_symbols.at[i] = symbol;
+            values->set_values.at[i] = value;
+            return;
+        }
+    if (*status == QDOT_OK)
+        *status = qdot_vec_push(&values->set_symbols, symbol);
+    if (*status == QDOT_OK) {
+        *status = qdot_vec_push(&values->set_values, value);
+        if (*status != QDOT_OK)
+            values->set_symbols.n--;
+    }
+}
+
+qdot_status
+qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value)
+{
+    qdot_values *values = session->values;
+
+    for (size_t i = 0; i < values->start_symbols.n; i++)
+        if (values->start_symbols.at[i] == jet) {
+            values->start_values.at[i] = value;
+            return QDOT_OK;
+        }
+    QDOT_TRY(qdot_vec_push(&values->start_symbols, jet));
+    if (qdot_vec_push(&values->start_values, value) != QDOT_OK) {
+        values->start_symbols.n--;
+        return QDOT_ENOMEM;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_session_put(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    qdot_status status = QDOT_OK;
+
+    if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
+        return qdot_session_start(session, symbol, value);
+    qdot_session_set(session, symbol, value, &status);
+    return status;
+}
+
+#define EACH_LIST(X) X(set_symbols) X(set_values) X(start_symbols) X(start_values)
+
+qdot_status
+qdot_session_keep_values(const qdot_session *session, qdot_kept_values *kept)
+{
+    const qdot_values *values = session->values;
+    qdot_status status = QDOT_OK;
+
+    *kept = (qdot_kept_values){0};
+#define X(list)                                                                          \
+    for (size_t i = 0; i < values->list.n && status == QDOT_OK; i++)                    \
+        status = qdot_vec_push(&kept->list, values->list.at[i]);
+    EACH_LIST(X)
+#undef X
+#define X(list) qdot_free(kept->list.at);
+    if (status != QDOT_OK) {
+        EACH_LIST(X)
+    }
+#undef X
+    return status;
+}
+
+void
+qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept)
+{
+    qdot_values *values = session->values;
+
+#define X(list)                                                                          \
+    qdot_free(values->list.at);                                                         \
+    memcpy(&values->list, &kept->list, sizeof kept->list);
+    EACH_LIST(X)
+#undef X
+}

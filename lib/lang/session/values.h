@@ -1,0 +1,42 @@
+/* values.h -- the values that `set`, `start` and `scale` have given. */
+#ifndef QDOT_LANG_VALUES_H
+#define QDOT_LANG_VALUES_H
+
+#include "base/memory.h"
+#include "lang/session/parts.h"
+
+/* A value of `start RUN`, and how far both companions of that run ended from it (qdot_run_end_apart). */
+typedef struct {
+    qdot_expr symbol, value;
+    double apart[2];
+} qdot_start_error;
+
+typedef struct qdot_values {
+    qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
+    qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    qdot_vec(qdot_expr) start_open; /* of these, while `find` changes others: constraints may change them */
+    qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
+    qdot_vec(qdot_start_error) start_errors; /* of the latest `start RUN`; one counts while the start has that value */
+    bool start_exactly; /* the latest `start` had `exactly` */
+} qdot_values;
+
+/* From now on the symbol (a parameter, a momentum) or undefined function (applied to formal symbols
+ * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
+void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
+                      qdot_status *status);
+/* From now on a run starts with this value of q or q'. */
+QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
+                                               qdot_expr value);
+/* The one or the other, by what the symbol is. */
+QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
+                                             qdot_expr value);
+/* The values of `set` and `start`, kept while others are tried. */
+typedef struct {
+    qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values;
+} qdot_kept_values;
+/* Copy them; QDOT_ENOMEM: nothing is kept. restore: put them back and let go of the copy. */
+QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
+                                                     qdot_kept_values *kept);
+void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);
+
+#endif
