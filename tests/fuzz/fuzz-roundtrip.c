@@ -3,6 +3,7 @@
  * equal.
  */
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "fuzz.h"
 #include "lang/session/history.h"

@@ -10,6 +10,7 @@
 #include "base/sink.h"
 #include "base/terminal.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"

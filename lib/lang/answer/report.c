@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number-text.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/write.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/session-file.h"

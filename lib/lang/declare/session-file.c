@@ -6,6 +6,7 @@
 #include "base/number-text.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/session-remarks.h"

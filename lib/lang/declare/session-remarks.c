@@ -6,6 +6,7 @@
 #include "base/number-text.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "lang/session/measured.h"
 #include "lang/session/names.h"
 #include "lang/session/runs.h"

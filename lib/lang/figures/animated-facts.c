@@ -4,6 +4,7 @@
 #include "base/number-text.h"
 #include "expr/build.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/figures/animated.h"

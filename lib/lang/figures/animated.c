@@ -7,6 +7,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"

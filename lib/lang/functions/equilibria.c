@@ -7,6 +7,7 @@
 #include "expr/function.h"
 #include "expr/list.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/functions/solve-conditions.h"

@@ -3,6 +3,7 @@
 
 #include "expr/calculus.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/commands/value-check.h"

@@ -3,6 +3,7 @@
 
 #include <limits.h>
 
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"

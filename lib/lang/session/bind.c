@@ -11,6 +11,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/print-name.h"
+#include "expr/print.h"
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/session/measured.h"

@@ -6,6 +6,7 @@
 
 #include "expr/constant.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"

@@ -12,7 +12,6 @@
 #ifndef QDOT_MECH_QUANTITY_H
 #define QDOT_MECH_QUANTITY_H
 
-#include "expr/print.h"
 #include "mech/scene/scene.h"
 
 /* --- kinematics and energy --- */

@@ -9,6 +9,7 @@
 #include "expr/calculus.h"
 #include "expr/constant.h"
 #include "expr/exact.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "sim/course/course.h"
 #include "sim/course/reader.h"

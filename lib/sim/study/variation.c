@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/function.h"
 #include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
