@@ -19,8 +19,8 @@ printf '%srun 0..1000\nevents\n' "$over" | qdot -q --json - | grep '"notice"\|"n
 printf 'coord x\nparticle a mass 1 at x\npotential x^2/2\ndissipation 0.5*x'"'"'^2\nevent in: x = 0 rising\nstart x = 1\nrun 0..300\ncheck in[9] - in[1] == 32*pi/sqrt(3) within 1e-8\nin[20]\n' |
     from_then | sed 's/: [0-9]* occ/: N occ/' | grep -v '^run\|^ '
 # the points of a section end there
-printf 'coord th\nlagrangian th'"'"'^2/2 + 10*cos(th)\ndissipation th'"'"'^2/2\nstart th = 1\nrun 0..200\npoincare th = 0 rising : th'"'"'\n' |
-    from_then | grep 'notice\|1.62\|45.90'
+printf 'coord th\nlagrangian th'"'"'^2/2 + 10*cos(th)\ndissipation th'"'"'^2\nstart th = 1\nrun 0..200\npoincare th = 0 rising : th'"'"'\n' |
+    from_then | grep 'notice\|1.73280\|22.677786'
 # what is held at a contact has not decayed
 printf 'coord y\nparticle p mass 1 at (0, y)\ngravity (0, -10)\nevent hit: y = 1 falling then y'"'"' = -y'"'"'/2\nevent low: y = 1\nstart y = 2\nrun 0..5\nevents\n' |
     from_then | grep 'equal' | wc -l
