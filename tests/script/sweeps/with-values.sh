@@ -1,5 +1,5 @@
 # Values behind `with` hold for all of a run: its limits, the columns of a sweep, by lanes and alone.
-qdot -q - <<'END' 2>&1 | sed -n 's/, in .*//p; /proved\|rror:/p'
+qdot -q - <<'END' 2>&1 | sed -n 's/, total .*//p; s/, in .*//p; /proved\|rror:/p'
 param k, m, tau = 2
 coord x
 lagrangian m*x'^2/2 - k*x^2/2
