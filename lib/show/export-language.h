@@ -13,7 +13,7 @@
 #define QDOT_SHOW_EXPORT_LANGUAGE_H
 
 #include "base/text.h"
-#include "show/export.h"
+#include "show/export-parts.h"
 #include "tape/instruction.h"
 
 struct qdot_export_language {

@@ -17,11 +17,6 @@
 #include "base/text.h"
 #include "show/export-parts.h"
 
-/* How a language writes what is exported (export-language.h). */
-typedef struct qdot_export_language qdot_export_language;
-#define LANGUAGE(word, ending, language) extern const qdot_export_language qdot_export_##language;
-#include "show/export-language.def"
-
 /* Append the source. Errors: QDOT_EINVAL (the file's name makes no name in the language, a
  * number that no double holds), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_export_system_write(const qdot_export_system *system,

@@ -17,7 +17,7 @@
 
 static const qdot_export_language *const languages[] = {
 #define LANGUAGE(word, ending, language) &qdot_export_##language,
-#include "show/export-language.def"
+#include "show/export-languages.def"
 };
 
 /* + - * / and what is made of them are written by export-code.c. */

@@ -15,7 +15,7 @@ QDOT_STATEMENT(export) = {
     .group = QDOT_WORKBENCH,
     .usage = "export "
 #define LANGUAGE(word, ending, language) #word "|"
-#include "show/export-language.def"
+#include "show/export-languages.def"
              "latex EXPR to \"FILE\"",
     .summary = "the equations of motion as functions to call (M, f, accelerations, Jacobian, constraints, "
                "events), or an expression as a function of its symbols",
@@ -28,7 +28,7 @@ static const struct language {
     const qdot_export_language *source; /* NULL: LaTeX, a formula and no source text */
 } languages[] = {
 #define LANGUAGE(word, ending, language) {#word, ending, &qdot_export_##language},
-#include "show/export-language.def"
+#include "show/export-languages.def"
     {"latex", ".tex", NULL},
 };
 

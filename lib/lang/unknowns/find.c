@@ -269,11 +269,10 @@ is_orbit(const double *u, size_t rank, bool *is, void *user)
 
 /* "theta' = 2.1, T = 3" */
 static void
-write_place(const qdot_find *f, const double *u, qdot_text *out)
+write_place(const qdot_find *f, const double *u, int digits, qdot_text *out)
 {
     for (size_t i = 0; i < f->unknowns.n; i++)
-        qdot_text_format(out, "%s%s = %.10g", i > 0 ? ", " : "", f->unknowns.at[i].label,
-                         u[i]);
+        qdot_text_format(out, "%s%s = %.*g", i > 0 ? ", " : "", f->unknowns.at[i].label, digits, u[i]);
 }
 
 static double
@@ -321,7 +320,7 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
     size_t j;
 
     h->f->c->error_at = h->f->conditions.at[0].from->start;
-    write_place(h->f, r->u, &place);
+    write_place(h->f, r->u, r->answer == QDOT_ZERO_NONE ? 3 : 10, &place);
     at = qdot_text_str(&place);
     switch (r->answer) {
     case QDOT_ZERO_NOWHERE:
@@ -356,8 +355,7 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
     default:
         (void)qdot_fail(
             QDOT_EFAILED,
-            "no solution found: nearest to it, at %.150s, the conditions are %.3g "
-            "off",
+            "no solution found: the search ended at %.150s, where the conditions are %.3g off",
             at, largest(h, r));
         (void)hint_at_more(h);
     }
@@ -473,7 +471,7 @@ refuse_shrunk(const hunt *h, const qdot_zero_result *r)
     qdot_text place = {0};
 
     h->f->c->error_at = h->f->conditions.at[0].from->start;
-    write_place(h->f, r->u, &place);
+    write_place(h->f, r->u, 10, &place);
     (void)qdot_fail(QDOT_EFAILED, "no orbit found: from the guess the motion shrinks to a place at rest, by now to %.150s",
                     qdot_text_str(&place));
     qdot_text_clear(&place);

@@ -6,7 +6,7 @@ potential x^2/2
 start x = 1
 END
 ask() {
-    qdot -q "$@" 2>&1 | grep -v '^  ' | sed 's/-*[0-9][-.0-9e]* ± [0-9.e-]*/N ± ERROR/; s/= [0-9.e-]*, the cond/= N, the cond/'
+    qdot -q "$@" 2>&1 | grep -v '^  ' | sed 's/-*[0-9][-.0-9e]* ± [0-9.e-]*/N ± ERROR/; s/= [0-9.e-]*, where the cond/= N, where the cond/'
 }
 # cos T is never less than -1: nearest at an odd multiple of pi
 ask oscillator.lag -e "find T = 1 such that value(x, T) = -1.0001"
