@@ -1,6 +1,7 @@
 /* scales.c -- finds the scales of a run: its largest coordinates and velocities, rounded to powers of ten. */
 #include "sim/run/scales.h"
 
+#include <float.h>
 #include <math.h>
 
 /* Coordinates whose largest value is below this get a scale of their own. */
@@ -9,6 +10,9 @@ static const double small = 1e-3;
 /* A is no rounding if its error is below this part of it, and it is above that part of the largest
  * coordinate. */
 static const double sure = 0.1, least_part = 1e-12;
+
+/* Two states without motion between them differ in a position by this part of it: rounding. */
+static const double rounding = 8 * DBL_EPSILON;
 
 /* A run with more work than this (about ns) is not repeated. */
 static const double most_work = 3e8;
@@ -24,6 +28,23 @@ size_along(const qdot_trajectory *tr, size_t i)
 
     for (size_t k = 0; k < tr->count; k++)
         most = fmax(most, fabs(tr->y[k * tr->n + i]));
+    return most;
+}
+
+/* The largest |y_i| of a velocity, i >= n/2, at the stored points and between: it is somewhere its mean from one to the
+ * next. (All may be where the motion turns back.) */
+static double
+speed_along(const qdot_trajectory *tr, size_t i)
+{
+    double most = size_along(tr, i);
+
+    for (size_t k = 1; k < tr->count; k++) {
+        const double *y = tr->y + k * tr->n + i - tr->n / 2, before = *(y - tr->n);
+        const double way = fabs(*y - before) - rounding * fabs(before);
+
+        if (way > 0 && tr->t[k] != tr->t[k - 1])
+            most = fmax(most, way / fabs(tr->t[k] - tr->t[k - 1]));
+    }
     return most;
 }
 
@@ -84,14 +105,16 @@ find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
 {
     const qdot_trajectory *tr = &run->course.tr;
     const size_t N = tr->n / 2;
-    const double most = largest_of(tr, N, n);
-    const bool slow = most < small;
-    double largest = 0, least_asked = INFINITY;
+    double most = largest_of(tr, N, n), largest = 0, least_asked = INFINITY;
+    bool slow;
 
+    for (size_t i = 0; i < n && most < small; i++)
+        most = fmax(most, speed_along(tr, N + i));
+    slow = most < small;
     for (size_t i = 0; i < n; i++) {
-        const double A = size_along(tr, N + i);
+        const double A = found[i] > 0 || slow ? speed_along(tr, N + i) : 0;
 
-        found[n + i] = (found[i] > 0 || slow) && is_resolved(run, N + i, A, most) ? decade(A) : 0;
+        found[n + i] = is_resolved(run, N + i, A, most) ? decade(A) : 0;
         if (request->scales && request->scales[n + i] > 0) {
             found[n + i] = request->scales[n + i];
             least_asked = fmin(least_asked, found[n + i]);
