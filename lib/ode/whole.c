@@ -148,13 +148,13 @@ to_a_double(const run *r, double h)
 }
 
 /* The step to try now. If the rest after it would be too short for a step, the step includes it
- * or is shortened so that both are equal. */
+ * or is shortened so that both are equal. A rest that has no two steps is one. */
 static double
 whole_choose_step(const run *r, bool *last)
 {
     double rest = remaining(r);
 
-    *last = r->h >= rest * (1 - 1e-12);
+    *last = r->h >= rest * (1 - 1e-12) || (rest < 2 * floor_of_step(r) && !(r->options->h_fixed > 0));
     if (*last)
         return rest;
     if (!r->s->method->multistep && !(r->options->h_fixed > 0) && r->h > 0.5 * rest)

@@ -172,6 +172,9 @@ leaves_domain(qdot_piece *x)
     return NULL;
 }
 
+/* In a run that ends so few roundings of t behind the start of a piece nothing is seen to leave its zero. */
+static const double no_time = 64 * DBL_EPSILON;
+
 /* Whether the motion stays on the zero of event i with a `then`: it leaves it so slowly that rounding
  * decides when, and to the side `way`, to which the event occurs. */
 static bool
@@ -181,7 +184,7 @@ rests_on(const qdot_piece *x, size_t i, int way)
         i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
 
     return w && way != 0 && x->c->stage->events.at[w->index].then && !x->c->stage->back && x->functions_on[i]
-           && qdot_watch_slow(qdot_piece_watch(x))[i]
+           && fabs(x->t1 - x->start.t) > no_time * fabs(x->t1) && qdot_watch_slow(qdot_piece_watch(x))[i]
            && qdot_watch_first(qdot_piece_watch(x))[i] == way;
 }
 
