@@ -301,11 +301,6 @@ QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_par
                                              int way, double guess, qdot_watch_end *ends,
                                              qdot_root *root, bool *found);
 
-/* Append the root from which on g_i is 0, |g_i| <= least: it is at `to`, not at `from`. Its sign before is
- * w->now.sign, which becomes 0. */
-QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from, double to,
-                                            double least);
-
 /* --- roots of one instant (watch-instants.c) ------------------------------------------ */
 
 /* Set root->rounding, if its function depends on t only and has that slope at the root. */
@@ -331,6 +326,11 @@ QDOT_MUST_CHECK qdot_status qdot_watch_is_touch(qdot_watch *w, const qdot_watch_
  * could have merged. */
 QDOT_MUST_CHECK qdot_status qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v,
                                              double within, qdot_root *root);
+
+/* Append the root from which on g_i is 0, |g_i| <= least: it is at `to`, not at `from`. Its sign before is
+ * w->now.sign, which becomes 0. */
+QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from, double to,
+                                            double least);
 
 /* --- where a run ends and starts (watch-ends.c) -------------------------------------- */
 

@@ -374,49 +374,6 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
     return status;
 }
 
-/* How long before t |g_i| was 4 times `least`, within rounding of which it is 0 at t; at most since the start of the
- * step: *by. Where g is flat it is 0 at a time known to that. */
-static qdot_status
-time_to_zero(qdot_watch *w, size_t i, double t, double least, double *by)
-{
-    const double whole = t - w->t;
-    double part = DBL_EPSILON;
-
-    for (; part < 1; part *= 2) {
-        QDOT_TRY(qdot_watch_value_at(w, t - part * whole, w->g));
-        if (fabs(w->g[i]) > 4 * least)
-            break;
-    }
-    *by = part * fabs(whole);
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
-{
-    double blur = 0;
-
-    for (;;) {
-        const double middle = from + 0.5 * (to - from);
-
-        if (middle == from || middle == to)
-            break;
-        QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
-        *(fabs(w->g[i]) <= least ? &to : &from) = middle;
-    }
-    if (least > 0)
-        QDOT_TRY(time_to_zero(w, i, to, least, &blur));
-    QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
-                                            .t = to,
-                                            .way = -w->now.sign[i],
-                                            .residual = least,
-                                            .exact = least == 0,
-                                            .blur = blur,
-                                            .stays = true}));
-    w->now.sign[i] = 0;
-    return QDOT_OK;
-}
-
 /* --- its roots ----------------------------------------------------------------------- */
 
 /* The root of the polynomial between x0 and x1, where it is monotonic. */
@@ -519,7 +476,22 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     return QDOT_OK;
 }
 
-/* Whether a root at t is the zero at the start, found again because of rounding. */
+/* Function i has the sign `way` where the part starts already, though the step before, whose states are rounded by
+ * themselves, ended with the other sign: the root is there. */
+static qdot_status
+cross_between_steps(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double g)
+{
+    const double slope = fabs(slope_at(p, p->a));
+
+    return qdot_watch_push(w, (qdot_root){.function = i,
+                                          .t = p->a,
+                                          .way = way,
+                                          .residual = fmax(fabs(g), fabs(w->now.g0[i])),
+                                          .blur = slope > 0 ? fmin(fabs(g) / slope, fabs(p->b - p->a)) : 0,
+                                          .exact = true});
+}
+
+/* A second root that rounding finds beside the zero at the start is that zero. */
 static bool
 is_start_again(const qdot_watch_part *p, double t)
 {
@@ -660,6 +632,8 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
             if (found && !is_start_again(p, root.t)) {
                 forget_roundings(w, i, from);
                 QDOT_TRY(qdot_watch_push(w, root));
+            } else if (!found && ends[1].t == p->a && ends[1].g != 0 && !p->from_zero) {
+                QDOT_TRY(cross_between_steps(w, p, i, there, ends[1].g));
             }
             sure = ends[found ? 1 : 0].t;
             there = found || ends[1].g != 0 ? there : sign;

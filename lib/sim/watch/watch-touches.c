@@ -1,4 +1,4 @@
-/* watch-touches.c -- extrema at which a watched function touches 0. */
+/* watch-touches.c -- extrema at which a function touches 0, and roots from which on it stays 0. */
 #include "sim/watch/watch-parts.h"
 
 #include <float.h>
@@ -99,5 +99,48 @@ qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, do
                         .blur = fmax(flat_width(p, d, x), apart),
                         .within = within,
                         .bend = within > 0 ? bend : 0};
+    return QDOT_OK;
+}
+
+/* How long before t |g_i| was 4 times `least`, within rounding of which it is 0 at t; at most since the start of the
+ * step: *by. Where g is flat it is 0 at a time known to that. */
+static qdot_status
+time_to_zero(qdot_watch *w, size_t i, double t, double least, double *by)
+{
+    const double whole = t - w->t;
+    double part = DBL_EPSILON;
+
+    for (; part < 1; part *= 2) {
+        QDOT_TRY(qdot_watch_value_at(w, t - part * whole, w->g));
+        if (fabs(w->g[i]) > 4 * least)
+            break;
+    }
+    *by = part * fabs(whole);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
+{
+    double blur = 0;
+
+    for (;;) {
+        const double middle = from + 0.5 * (to - from);
+
+        if (middle == from || middle == to)
+            break;
+        QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
+        *(fabs(w->g[i]) <= least ? &to : &from) = middle;
+    }
+    if (least > 0)
+        QDOT_TRY(time_to_zero(w, i, to, least, &blur));
+    QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                            .t = to,
+                                            .way = -w->now.sign[i],
+                                            .residual = least,
+                                            .exact = least == 0,
+                                            .blur = blur,
+                                            .stays = true}));
+    w->now.sign[i] = 0;
     return QDOT_OK;
 }
