@@ -57,3 +57,12 @@ s/order [0-9][0-9]*, \(.* an order; CODE\)/order P, \1/
 # What rounding leaves depends on the processor.
 s/steps were held to .*/steps were held to N/
 s/\( rows.*\), in [0-9.e+-]* s$/\1, in TIME/
+
+# A section prints all digits of its points; eleven of them are the same on every processor.
+/^poincare: [0-9]/,/^[^- 0-9]/{
+/^[- 0-9]/{
+s/\([0-9]*\.[0-9]\{10\}\)[0-9]*/\1/g
+s/^  *//
+s/   */  /g
+}
+}
