@@ -165,7 +165,6 @@ tasks_carry_out(qdot_session *session, const options *o)
     if (qdot_terminal_is(stdin)) {
         qdot_prompt_run(session, !o->quiet, !o->no_init);
     } else if (o->interactive && o->json) {
-        qdot_signals_computing();
         qdot_stream_run(session);
     } else {
         int last;

@@ -1,6 +1,7 @@
 /* stream.c -- statements from a pipe, one after the other. */
 #include "stream.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -8,26 +9,57 @@
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
 #include "lang/session/typed.h"
+#include "signals.h"
 
-/* Lines are read until they are a statement or several: brackets closed, no line continued. Appended to `text`; *lines
- * grows by their number. false: there are no more. */
+/* A line, appended to `text`; false: there are no more. Ctrl-C interrupts the reading, not the line. */
+static bool
+read_line(qdot_text *text)
+{
+    char *part = NULL;
+    size_t room = 0;
+    bool any = false, interrupted;
+
+    do {
+        const ssize_t n = getline(&part, &room, stdin);
+
+        interrupted = ferror(stdin) && errno == EINTR;
+        if (interrupted)
+            clearerr(stdin);
+        if (n > 0)
+            qdot_text_add_n(text, part, (size_t)n);
+        any = any || n > 0;
+    } while (interrupted);
+    free(part);
+    return any;
+}
+
+/* Lines are read until they are a statement or several: brackets closed, no line continued. Into `text`, behind as many
+ * empty lines as were read before, so that lines have their numbers in all of the input; *lines grows by their number.
+ * Lines before a Ctrl-C are dropped. false: there are no more. */
 static bool
 read_statements(qdot_text *text, size_t *lines)
 {
-    char *line = NULL;
-    size_t room = 0;
-    bool any = false;
-    ssize_t n;
+    qdot_text line = {0};
+    bool any = false, more;
 
+    qdot_signals_waiting();
     do {
-        n = getline(&line, &room, stdin);
-        if (n < 0)
+        qdot_text_truncate(&line, 0);
+        more = read_line(&line);
+        if (qdot_signals_take() || !any) {
+            qdot_text_truncate(text, 0);
+            for (size_t k = 0; k < *lines; k++)
+                qdot_text_char(text, '\n');
+            any = false;
+        }
+        if (!more)
             break;
-        qdot_text_add_n(text, line, (size_t)n);
+        qdot_text_add_n(text, line.at, line.n);
+        text->failed = text->failed || line.failed;
         any = true;
         ++*lines;
     } while (!text->failed && qdot_script_is_incomplete(text->at, text->n));
-    free(line);
+    qdot_text_clear(&line);
     return any;
 }
 
@@ -39,15 +71,13 @@ qdot_stream_run(qdot_session *session)
 
     session->typed->told = true;
     while (!session->outcome->quit) {
-        qdot_text_truncate(&text, 0);
-        for (size_t k = 0; k < lines; k++)
-            qdot_text_char(&text, '\n'); /* so that lines have their numbers in all of the input */
         if (!read_statements(&text, &lines))
             break;
         if (text.failed) {
             fprintf(stderr, "qdot: out of memory\n");
             break;
         }
+        qdot_signals_computing();
         (void)qdot_script_run_text(session, "standard input", text.at, text.n);
         fflush(session->output->out);
         fflush(session->output->err);

@@ -42,3 +42,32 @@ read -r one <&4; read -r two <&4
 echo "$one"; echo "$two"
 exec 3>&-
 wait
+echo "--- Ctrl-C while it waits, within a statement, within a line, during one"
+qdot --json -i <to >from 2>err &
+pid=$!
+exec 3>to 4<from
+answers() { while read -r line <&4; do echo "$line"; case $line in *'"done"'*) break ;; esac; done; }
+press() { sleep 0.3; kill -INT $pid; kill -INT $pid; sleep 0.1; } # with time to begin to wait
+echo 'print 1' >&3
+answers
+press
+echo 'print 2' >&3
+answers
+echo '(1 +' >&3
+press
+echo 'print 3' >&3
+answers
+printf 'print (4' >&3
+press
+echo ' + 1)' >&3
+answers
+echo 'x = k for k = 1..9*10^6' >&3
+sleep 0.5
+kill -INT $pid
+answers
+echo 'print 6' >&3
+answers
+exec 3>&-
+wait $pid
+echo "exit $?"
+cat err
