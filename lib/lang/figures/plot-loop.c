@@ -39,7 +39,7 @@ clause_end(const qdot_plot_said *said, const qdot_filled *first)
 }
 
 qdot_status
-qdot_plot_loop_carry_out(const qdot_plot_said *said, qdot_plot_pass pass, void *user)
+qdot_plot_loop_carry_out(const qdot_plot_said *said, const qdot_token *from, qdot_plot_pass pass, void *user)
 {
     const qdot_filled *word = qdot_plot_find_word(said, "for");
     const qdot_token *end = clause_end(said, word);
@@ -49,7 +49,7 @@ qdot_plot_loop_carry_out(const qdot_plot_said *said, qdot_plot_pass pass, void *
     bool more;
 
     clause.at = word->to;
-    status = qdot_loop_index_check(&clause, said->from->from - 1, word->from, end, false);
+    status = qdot_loop_index_check(&clause, from, word->from, end, false);
     if (status != QDOT_OK) {
         c->error_at = clause.error_at;
         return status;

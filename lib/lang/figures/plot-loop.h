@@ -23,8 +23,10 @@ QDOT_MUST_CHECK qdot_status qdot_plot_indices(qdot_session *session, const qdot_
                                               qdot_text *label);
 
 /* Carry out each pass of the clause `for` with the indices bound. Each of these must occur in what stands before the
- * clause. The place of an error is in the record's cursor. */
+ * clause, from `from` on: the word `plot` where each pass makes a run, which may read them in the scene. The place of an
+ * error is in the record's cursor. */
 typedef qdot_status (*qdot_plot_pass)(const qdot_plot_said *said, const qdot_loop *loop, void *user);
-QDOT_MUST_CHECK qdot_status qdot_plot_loop_carry_out(const qdot_plot_said *said, qdot_plot_pass pass, void *user);
+QDOT_MUST_CHECK qdot_status qdot_plot_loop_carry_out(const qdot_plot_said *said, const qdot_token *from,
+                                                     qdot_plot_pass pass, void *user);
 
 #endif

@@ -146,8 +146,9 @@ qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *p, qdot_figure_choic
     bound = qdot_names_find(names, v.name) == NULL;
     if (bound)
         QDOT_TRY(qdot_names_push(names, v.name, v.symbol));
-    status = qdot_plot_find_word(said, "for") != NULL ? qdot_plot_loop_carry_out(said, curves_over, &x)
-                                                      : curves_over(said, NULL, &x);
+    status = qdot_plot_find_word(said, "for") != NULL
+                 ? qdot_plot_loop_carry_out(said, said->from->from, curves_over, &x)
+                 : curves_over(said, NULL, &x);
     if (bound)
         qdot_names_pop(names);
     return status == QDOT_OK && p->curves.n == 0 ? qdot_fail(QDOT_EINVAL, "there is no curve to plot") : status;

@@ -102,14 +102,20 @@ go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
     return QDOT_OK;
 }
 
+static bool
+stands_in_usage(const matcher *m, const qdot_token *t)
+{
+    for (int i = 0; i < m->u->n; i++)
+        if (m->u->node[i].kind == QDOT_USAGE_WORD && qdot_token_is_word(t, m->u->node[i].text))
+            return true;
+    return false;
+}
+
 /* Whether the token is a word of the usage and not a name of the session. */
 static bool
 is_usage_word(const matcher *m, const qdot_token *t)
 {
-    for (int i = 0; i < m->u->n; i++)
-        if (m->u->node[i].kind == QDOT_USAGE_WORD && qdot_token_is_word(t, m->u->node[i].text))
-            return !qdot_cursor_knows(m->c->session, t->text);
-    return false;
+    return stands_in_usage(m, t) && !qdot_cursor_knows(m->c->session, t->text);
 }
 
 /* Whether the token may be a factor whose `*` is missing: a value precedes it, and neither is a
@@ -181,12 +187,25 @@ has_operand(const matcher *m, const qdot_token *word)
             qdot_token_is(t, "(") || qdot_token_is(t, "-") || qdot_token_is(t, "sqrt"));
 }
 
+/* Whether the word is a value, where one may stand: a function before its argument, as in `plot log(x)`, or a name of
+ * the session before an operator, a word of the usage or the end, as in `plot range vs range = 0..1`. */
+static bool
+is_value(const matcher *m, const qdot_token *word)
+{
+    const qdot_token *next = word + 1;
+
+    if (next->glued && qdot_token_is(next, "("))
+        return qdot_cursor_knows(m->c->session, word->text);
+    return qdot_names_find(m->c->session->names, word->text) != NULL &&
+           (next->kind == QDOT_TOKEN_OPERATOR || next->kind == QDOT_TOKEN_END || stands_in_usage(m, next));
+}
+
 /* Whether the token is a word or sign that may come, and no name that the usage goes on behind: a
  * spring may be called `rest`. */
 static bool
 token_fits(const matcher *m)
 {
-    bool fits = false, named = false;
+    bool fits = false, named = false, value = false;
 
     for (size_t i = m->first; i < m->places.n; i++) {
         const qdot_usage_node *node = place_node(m, i);
@@ -195,9 +214,12 @@ token_fits(const matcher *m)
             return false;
         named = named || (node->kind == QDOT_USAGE_HOLE && (node_class(node) == QDOT_HOLE_COMPARISON ||
                                                             node_class(node) == QDOT_HOLE_TOPIC));
+        value = value || (node->kind == QDOT_USAGE_HOLE && qdot_hole_is_expression(node));
         fits = fits || qdot_usage_node_is(node, m->c->at);
     }
-    return fits && (!named || has_operand(m, m->c->at));
+    if (named)
+        return fits && has_operand(m, m->c->at);
+    return fits && !(value && m->c->at->kind == QDOT_TOKEN_NAME && is_value(m, m->c->at));
 }
 
 static bool
