@@ -116,13 +116,12 @@ json_is_one_object_a_line(void **state)
     say(k, "check T == 0");
     assert_non_null(strstr(heard(k), "\"verdict\":\"refuted\""));
     say(k, "print \"a\\\"b\"");
-    assert_string_equal(heard(k),
-                        "{\"kind\":\"text\",\"name\":\"print\",\"text\":\"a\\\"b\"}\n");
+    assert_non_null(strstr(heard(k), "{\"kind\":\"text\",\"name\":\"print\",\"text\":\"a\\\"b\",\"statement\":"));
     say(k, "thing");
-    assert_string_equal(heard(k),
-                        "{\"kind\":\"error\",\"file\":\"test\",\"line\":1,\"column\":1,"
-                        "\"message\":\"unknown name `thing`\",\"hint\":"
-                        "\"`param thing` declares a parameter, `coord thing` a coordinate\"}\n");
+    assert_non_null(strstr(heard(k),
+                           "{\"kind\":\"error\",\"file\":\"test\",\"line\":1,\"column\":1,"
+                           "\"message\":\"unknown name `thing`\",\"hint\":"
+                           "\"`param thing` declares a parameter, `coord thing` a coordinate\",\"statement\":"));
     assert_non_null(strstr(complaint(k), "unknown name `thing`"));
 }
 
