@@ -196,7 +196,7 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t r
                    bool ascii, qdot_text *out)
 {
     const qdot_panel *panel = &figure->panels[i];
-    grid g = {.columns = columns > 40 ? columns - 14 : 26, .rows = rows > 5 ? rows - 2 : 3,
+    grid g = {.columns = columns > 30 ? columns - 14 : 16, .rows = rows > 5 ? rows - 2 : 3,
               .solid = ascii};
     qdot_figure_view view;
 
