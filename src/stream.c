@@ -13,7 +13,7 @@
 
 /* A line, appended to `text`; false: there are no more. Ctrl-C interrupts the reading, not the line. */
 static bool
-read_line(qdot_text *text)
+stream_read_line(qdot_text *text)
 {
     char *part = NULL;
     size_t room = 0;
@@ -45,7 +45,7 @@ read_statements(qdot_text *text, size_t *lines)
     qdot_signals_waiting();
     do {
         qdot_text_truncate(&line, 0);
-        more = read_line(&line);
+        more = stream_read_line(&line);
         if (qdot_signals_take() || !any) {
             qdot_text_truncate(text, 0);
             for (size_t k = 0; k < *lines; k++)

@@ -190,7 +190,7 @@ has_operand(const matcher *m, const qdot_token *word)
 /* Whether the word is a value, where one may stand: a function before its argument, as in `plot log(x)`, or a name of
  * the session before an operator, a word of the usage or the end, as in `plot range vs range = 0..1`. */
 static bool
-is_value(const matcher *m, const qdot_token *word)
+token_is_value(const matcher *m, const qdot_token *word)
 {
     const qdot_token *next = word + 1;
 
@@ -219,7 +219,7 @@ token_fits(const matcher *m)
     }
     if (named)
         return fits && has_operand(m, m->c->at);
-    return fits && !(value && m->c->at->kind == QDOT_TOKEN_NAME && is_value(m, m->c->at));
+    return fits && !(value && m->c->at->kind == QDOT_TOKEN_NAME && token_is_value(m, m->c->at));
 }
 
 static bool
