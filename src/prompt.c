@@ -238,7 +238,6 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
     qdot_history_begin();
     if (banner)
         greet();
-    session->output->interactive = true;
     qdot_signals_patient(true);
     if (startup)
         qdot_startup_read(session);
@@ -251,7 +250,6 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
         fputc('\n', rl_outstream);
     fflush(rl_outstream);
     qdot_signals_patient(false);
-    session->output->interactive = false;
     qdot_text_clear(&text);
     qdot_history_end();
 }

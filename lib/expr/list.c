@@ -1,4 +1,4 @@
-/* list.c -- appends members to a list. */
+/* list.c -- appends members to a list, and finds whether it has one. */
 #include "expr/list.h"
 
 #include "base/memory.h"
@@ -20,4 +20,13 @@ qdot_list_appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *m
     list = qdot_list(pool, (uint32_t)(old + n), all);
     qdot_free(all);
     return list;
+}
+
+bool
+qdot_list_has(const qdot_pool *pool, qdot_expr list, qdot_expr e)
+{
+    for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++)
+        if (qdot_expr_arg(pool, list, i) == e)
+            return true;
+    return false;
 }

@@ -17,11 +17,25 @@ members_stand_in_their_order(void **state)
     assert_int_equal(qdot_list_appended(p.pool, QDOT_NIL, 0, NULL), qdot_list(p.pool, 0, NULL));
 }
 
+static void
+only_members_are_had(void **state)
+{
+    qdot_expr a = p.symbol[0], b = p.symbol[1], sum = qdot_add(p.pool, a, b);
+    qdot_expr list = qdot_list(p.pool, 2, (qdot_expr[]){b, sum});
+
+    (void)state;
+    assert_true(qdot_list_has(p.pool, list, b));
+    assert_true(qdot_list_has(p.pool, list, sum));
+    assert_false(qdot_list_has(p.pool, list, a)); /* only within a member */
+    assert_false(qdot_list_has(p.pool, QDOT_NIL, a));
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(members_stand_in_their_order),
+        TEST(only_members_are_had),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

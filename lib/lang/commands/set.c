@@ -37,20 +37,6 @@ qdot_set_unknown(const qdot_session *session, const char *what, const char *name
 
 /* --- set ---------------------------------------------------------------------------- */
 
-/* p[NAME] with NAME a coordinate: the independent momentum. */
-static qdot_status
-read_momentum(qdot_cursor *c, qdot_expr *symbol)
-{
-    qdot_expr q;
-
-    c->at++;
-    QDOT_TRY(qdot_cursor_expect_op(c, "["));
-    QDOT_TRY(qdot_read_coordinate(c, &q));
-    QDOT_TRY(qdot_cursor_expect_op(c, "]"));
-    *symbol = qdot_symbol_of(c->session->pool, QDOT_MOMENTUM, q);
-    return qdot_pool_check(c->session->pool);
-}
-
 bool
 qdot_set_is_momentum(const qdot_session *session, const qdot_token *p)
 {
@@ -75,19 +61,6 @@ parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_exp
     return known->kind == QDOT_NAME_COORD  ? qdot_hint("start %s = ...", name)
            : known->kind == QDOT_NAME_UFUN ? qdot_hint("set %s(...) = ...", name)
                                            : qdot_hint("%s = ... names it anew", name);
-}
-
-/* Read the left side of `NAME = VALUE`: a parameter or a momentum. */
-qdot_status
-qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol)
-{
-    const qdot_token *start = c->at;
-    const char *name;
-
-    if (qdot_set_is_momentum(c->session, start))
-        return read_momentum(c, symbol);
-    QDOT_TRY(qdot_read_name(c, &name));
-    return parameter_of(c, start, name, symbol);
 }
 
 /* p[q] */
@@ -225,18 +198,6 @@ check_constant(qdot_cursor *c, const qdot_token *start, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* `= VALUE` */
-qdot_status
-qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
-{
-    const qdot_token *start;
-
-    QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    start = c->at;
-    QDOT_TRY(qdot_read_scalar(c, value));
-    return check_constant(c, start, value);
-}
-
 qdot_status
 qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr *value)
 {
@@ -295,16 +256,6 @@ check_jet(qdot_cursor *c, const qdot_token *start, qdot_expr jet)
         return QDOT_OK;
     c->error_at = start->start;
     return qdot_fail(QDOT_EINVAL, "a start names coordinates and velocities");
-}
-
-/* q or q' on the left of `start` */
-qdot_status
-qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet)
-{
-    const qdot_token *start = c->at;
-
-    QDOT_TRY(qdot_read_coordinate(c, jet));
-    return check_jet(c, start, *jet);
 }
 
 qdot_status

@@ -4,12 +4,8 @@
 
 #include "lang/syntax/record.h"
 
-/* The left side of `NAME = VALUE`: a parameter, or p[NAME]; q or q' of `start`; `=
- * VALUE`, an expression of parameters. */
-QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol);
-QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
-QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
-/* The same operands within a filled statement: a parameter or p[NAME]; q or q'; a value. */
+/* What `NAME = VALUE` holds in a filled statement: a parameter or p[NAME]; q or q' of `start`; a value, an
+ * expression of parameters. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_filled *name,
                                                     qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);

@@ -299,12 +299,3 @@ qdot_cursor_expect_end(qdot_cursor *c)
         return QDOT_OK;
     return qdot_cursor_expected(c, "the end of the statement");
 }
-
-qdot_status
-qdot_cursor_once(qdot_cursor *c, const char *word, bool given)
-{
-    if (!given)
-        return QDOT_OK;
-    c->error_at = c->at > c->source->tokens.at ? c->at[-1].start : c->at->start;
-    return qdot_fail(QDOT_EINVAL, "`%s` is given twice", word);
-}

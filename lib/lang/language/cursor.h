@@ -29,8 +29,5 @@ const qdot_token *qdot_cursor_find_word(const qdot_cursor *c, const char *word);
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
 /* Whether the name is known: declared, or of the language or the scene. */
 bool qdot_cursor_knows(const qdot_session *session, const char *name);
-/* Check that an option is given only once: QDOT_EINVAL at its word if `given`. */
-QDOT_MUST_CHECK qdot_status qdot_cursor_once(qdot_cursor *c, const char *word,
-                                             bool given);
 
 #endif

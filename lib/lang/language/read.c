@@ -198,12 +198,6 @@ qdot_read_side(qdot_cursor *c, qdot_expr *value)
 }
 
 qdot_status
-qdot_read_motion(qdot_cursor *c, qdot_expr *value)
-{
-    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_motion, value);
-}
-
-qdot_status
 qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
 {
     qdot_compiled program;
@@ -220,18 +214,6 @@ qdot_status
 qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 {
     return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_scalar, value);
-}
-
-qdot_status
-qdot_read_number(qdot_cursor *c, double *value)
-{
-    qdot_compiled program;
-    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
-
-    if (status == QDOT_OK)
-        status = qdot_compiled_number(c, &program, value);
-    qdot_compiled_free(&program);
-    return status;
 }
 
 qdot_status

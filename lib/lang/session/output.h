@@ -20,7 +20,7 @@ typedef struct qdot_output {
     bool flat; /* formulas stand in one line on a terminal too */
     struct qdot_formula_page *page;  /* what answers become a page of, for a file; NULL: none */
     struct qdot_formula_page *block; /* of the present statement: its equations (lang/answer/sheet); NULL: none yet */
-    bool json, timing, interactive;
+    bool json, timing;
     FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;
     FILE *pages, *screen; /* out is `pages` while answers for the terminal `screen` are collected */

@@ -5,6 +5,7 @@
  * Parameters are generic: a place has no condition a != 0 of log(a^2) or 1/a. Such values are told with the list. */
 #include "expr/build.h"
 #include "expr/elementary.h"
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -83,19 +84,10 @@ single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
     return u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
 }
 
-static bool
-has(const qdot_pool *pool, qdot_expr list, qdot_expr e)
-{
-    for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++)
-        if (qdot_expr_arg(pool, list, i) == e)
-            return true;
-    return false;
-}
-
 static void
 append_once(qdot_pool *pool, qdot_expr *list, qdot_expr e)
 {
-    if (!has(pool, *list, e) && (*list == QDOT_NIL || qdot_expr_count(pool, *list) < MOST_TOLD))
+    if (!qdot_list_has(pool, *list, e) && (*list == QDOT_NIL || qdot_expr_count(pool, *list) < MOST_TOLD))
         *list = qdot_list_appended(pool, *list, 1, &e);
 }
 
@@ -144,7 +136,7 @@ qdot_rest_undefined(const qdot_rest *r, qdot_expr *everywhere, qdot_expr *specia
                 append_once(pool, qdot_is_generic(pool, condition) ? everywhere : &others, u);
         }
     for (uint32_t i = 0; others != QDOT_NIL && i < qdot_expr_count(pool, others); i++)
-        if (!has(pool, *everywhere, qdot_expr_arg(pool, others, i)))
+        if (!qdot_list_has(pool, *everywhere, qdot_expr_arg(pool, others, i)))
             append_once(pool, special, qdot_expr_arg(pool, others, i));
     return qdot_pool_check(pool);
 }

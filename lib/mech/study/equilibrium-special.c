@@ -6,6 +6,7 @@
  * 0 < theta < pi leaves out the poles of a sphere, where a rest may be: such an end of a chart is told too. */
 #include "expr/calculus.h"
 #include "expr/exact.h"
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "mech/coordinates/chart.h"
@@ -61,11 +62,10 @@ add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
             const fmpq *exponent = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
             uint32_t had = *special == QDOT_NIL ? 0 : qdot_expr_count(pool, *special);
             bool out = exponent == NULL || fmpq_sgn(exponent) >= 0 || had == MOST_SPECIAL ||
+                       qdot_list_has(pool, *special, base) ||
                        (qdot_expr_node(pool, base)->sign & QDOT_NE0) != 0 ||
                        !qdot_is_generic(pool, base) || qdot_is_constant(pool, base);
 
-            for (uint32_t m = 0; m < had && !out; m++)
-                out = qdot_expr_arg(pool, *special, m) == base;
             if (!out)
                 status = qdot_rest_is_excluded(r, e->exists, base, &out);
             if (!out && status == QDOT_OK)

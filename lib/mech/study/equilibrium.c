@@ -480,10 +480,7 @@ none_but_where(qdot_rest *r, qdot_expr *special)
         if (qdot_expr_kind(r->pool, e) == QDOT_PROD) /* without the number in front */
             e = qdot_div(r->pool, e, qdot_expr_arg(r->pool, e, 0));
         QDOT_TRY(qdot_pool_check(r->pool));
-        if (*special == QDOT_NIL)
-            *special = qdot_list(r->pool, 1, &e);
-        else
-            *special = qdot_list_appended(r->pool, *special, 1, &e);
+        *special = qdot_list_appended(r->pool, *special, 1, &e);
     }
     return qdot_pool_check(r->pool);
 }

@@ -9,6 +9,7 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -26,15 +27,6 @@ enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, SMALLEST_PART = 128,
 
 /* --- what is known ---------------------------------------------------------------------- */
 
-static bool
-is_member(const qdot_pool *pool, qdot_expr list, qdot_expr e)
-{
-    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++)
-        if (qdot_expr_arg(pool, list, i) == e)
-            return true;
-    return false;
-}
-
 /* Add the declared bounds of all symbols, including symbols in those bounds. */
 static void
 declared_bounds(qdot_pool *pool, qdot_question *q)
@@ -51,7 +43,7 @@ declared_bounds(qdot_pool *pool, qdot_question *q)
             qdot_expr x = qdot_expr_arg(pool, atoms, i);
             qdot_symbol s = *qdot_expr_symbol(pool, x);
 
-            if (is_member(pool, seen, x))
+            if (qdot_list_has(pool, seen, x))
                 continue;
             if (s.lo != QDOT_NIL)
                 qdot_question_demand(q, qdot_sub(pool, x, s.lo), !s.lo_open);

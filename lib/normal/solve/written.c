@@ -6,6 +6,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
@@ -22,12 +23,6 @@ place_in(qdot_pool *pool, qdot_expr set, qdot_expr relation)
     return UINT32_MAX;
 }
 
-static bool
-is_in(qdot_pool *pool, qdot_expr set, qdot_expr relation)
-{
-    return place_in(pool, set, relation) != UINT32_MAX;
-}
-
 qdot_expr
 qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some)
 {
@@ -36,7 +31,7 @@ qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some)
     if (some == QDOT_NIL || set == QDOT_FALSE)
         return set;
     for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++)
-        if (!is_in(pool, some, qdot_expr_arg(pool, set, i)))
+        if (!qdot_list_has(pool, some, qdot_expr_arg(pool, set, i)))
             left = qdot_conditions_and(pool, left, qdot_expr_arg(pool, set, i));
     return left;
 }
@@ -57,7 +52,7 @@ qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_writt
     parts = qdot_conditions_less(pool, parts, qdot_conditions_of_domain(pool, base, QDOT_NIL));
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_expr_kind(pool, base) != QDOT_PROD || qdot_expr_count(pool, base) < 5 || parts == QDOT_NIL ||
-        !is_root_exponent(qdot_expr_rational(pool, exponent)) || is_in(pool, parts, whole)) {
+        !is_root_exponent(qdot_expr_rational(pool, exponent)) || qdot_list_has(pool, parts, whole)) {
         *asked = qdot_conditions_all(pool, *asked, parts);
     } else {
         w->domain = qdot_conditions_and(pool, w->domain, whole);

@@ -417,12 +417,9 @@ tell_gaps(qdot_branch_search *s, const qdot_equilibrium_set *set)
 
     for (size_t i = 0; i < set->gap.n; i++) {
         const qdot_equilibrium_gap *one = &set->gap.at[i];
-        const qdot_expr told = s->all->undefined;
-        const uint32_t n = told == QDOT_NIL ? 0 : qdot_expr_count(pool, told);
 
-        if (is_passed(s, one->at) &&
-            (n == 0 || qdot_expr_place(n, qdot_expr_args(pool, told), one->what) == n))
-            s->all->undefined = qdot_list_appended(pool, told, 1, &one->what);
+        if (is_passed(s, one->at) && !qdot_list_has(pool, s->all->undefined, one->what))
+            s->all->undefined = qdot_list_appended(pool, s->all->undefined, 1, &one->what);
     }
     return qdot_pool_check(pool);
 }

@@ -4,6 +4,7 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "num/cholesky.h"
@@ -240,15 +241,6 @@ slide(search *s, double *at)
 
 /* --- second derivatives ------------------------------------------------------------- */
 
-static bool
-holds_symbol(const qdot_pool *pool, qdot_expr atoms, qdot_expr x)
-{
-    for (uint32_t k = 0; k < qdot_expr_count(pool, atoms); k++)
-        if (qdot_expr_arg(pool, atoms, k) == x)
-            return true;
-    return false;
-}
-
 static qdot_status
 find_curves(qdot_nearest *p)
 {
@@ -263,7 +255,7 @@ find_curves(qdot_nearest *p)
         for (size_t j = 0; j <= i && status == QDOT_OK; j++) {
             qdot_expr x = p->symbol[p->first + j], c;
 
-            if (!holds_symbol(p->pool, atoms, x))
+            if (!qdot_list_has(p->pool, atoms, x))
                 continue;
             p->bent = true;
             c = qdot_diff(p->pool, p->A[e], x);
