@@ -14,8 +14,6 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
-enum { MOST_TOLD = 8 };
-
 static qdot_expr
 choice_symbol(qdot_pool *pool)
 {
@@ -87,7 +85,7 @@ single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
 static void
 append_once(qdot_pool *pool, qdot_expr *list, qdot_expr e)
 {
-    if (!qdot_list_has(pool, *list, e) && (*list == QDOT_NIL || qdot_expr_count(pool, *list) < MOST_TOLD))
+    if (!qdot_list_has(pool, *list, e))
         *list = qdot_list_appended(pool, *list, 1, &e);
 }
 
