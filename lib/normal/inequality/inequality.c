@@ -221,7 +221,7 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
 {
     qdot_cells result = QDOT_CELLS_UNKNOWN;
     qdot_expr point = QDOT_NIL;
-    bool linear;
+    bool by_rows; /* decided by elimination, which tells > from >= */
 
     *proved = false;
     if (!q->too_much && q->e != QDOT_NIL && qdot_is_constant(pool, q->e)) {
@@ -243,18 +243,17 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
     if (q->too_much || qdot_pool_failed(pool))
         return qdot_grave(qdot_pool_check(pool));
     QDOT_TRY(qdot_linear_decide(pool, q->e, q->n, q->condition, &result));
-    linear = result != QDOT_CELLS_UNKNOWN;
-    if (!linear || (q->exact && result >= QDOT_CELLS_NOT_NEGATIVE)) { /* a point may refute it */
-        linear = false;
+    /* cells find the point that refutes it */
+    by_rows = result != QDOT_CELLS_UNKNOWN && !(q->exact && result >= QDOT_CELLS_NOT_NEGATIVE);
+    if (!by_rows)
         QDOT_TRY(qdot_cells_decide(pool, q->e, q->n, q->condition, q->work, &result, &point));
-    }
     *any |= result > QDOT_CELLS_EMPTY;
     switch (result) {
     case QDOT_CELLS_EMPTY: *proved = !q->chosen; break;
     case QDOT_CELLS_POSITIVE: *proved = true; break;
     case QDOT_CELLS_NOT_NEGATIVE:
         *proved = !strict;
-        if (strict && !linear)
+        if (strict && !by_rows)
             QDOT_TRY(with_margin(pool, q, proved));
         break;
     case QDOT_CELLS_ZERO:

@@ -68,6 +68,16 @@ rows_add(rows *s, fmpz *c, bool weak)
         _fmpz_vec_clear(c, s->width);
 }
 
+/* Add a copy of a row. */
+static void
+rows_add_copy(rows *s, const fmpz *from, bool weak)
+{
+    fmpz *c = _fmpz_vec_init(s->width);
+
+    _fmpz_vec_set(c, from, s->width);
+    rows_add(s, c, weak);
+}
+
 /* The sum of two rows in which the symbol v drops out; up has a positive coefficient of it, down a negative one. */
 static void
 rows_add_without(rows *s, const row *up, const row *down, slong v)
@@ -117,12 +127,8 @@ rows_eliminate(rows *s, slong v)
         const row *up = &from.row.at[i];
         const int sign = fmpz_sgn(up->c + v);
 
-        if (sign == 0) {
-            fmpz *c = _fmpz_vec_init(s->width);
-
-            _fmpz_vec_set(c, up->c, s->width);
-            rows_add(s, c, up->weak);
-        }
+        if (sign == 0)
+            rows_add_copy(s, up->c, up->weak);
         for (size_t j = 0; j < from.row.n && sign > 0 && !s->wrong && !s->too_much; j++)
             if (fmpz_sgn(from.row.at[j].c + v) < 0)
                 rows_add_without(s, up, &from.row.at[j], v);
@@ -153,66 +159,79 @@ coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbo
     return true;
 }
 
-/* Add the row sign e > 0 (or >= 0), sign 1 or -1. False: e is not linear. */
-static bool
-rows_add_expression(rows *s, qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, int sign, bool weak)
+/* The row [width] of sign e, sign 1 or -1, with whole coefficients; the caller clears it. NULL: e is not linear. */
+static fmpz *
+row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width, int sign)
 {
     fmpq q[MOST_SYMBOLS + 1];
-    bool linear;
+    fmpz *c = NULL;
 
-    for (slong v = 0; v < s->width; v++)
+    for (slong v = 0; v < width; v++)
         fmpq_init(q + v);
-    linear = coefficients_of(pool, e, (uint32_t)s->width - 1, symbol, q);
-    if (linear) {
-        fmpz *c = _fmpz_vec_init(s->width);
+    if (coefficients_of(pool, e, (uint32_t)width - 1, symbol, q)) {
         fmpz_t common;
 
+        c = _fmpz_vec_init(width);
         fmpz_init_set_si(common, 1);
-        for (slong v = 0; v < s->width; v++)
+        for (slong v = 0; v < width; v++)
             fmpz_lcm(common, common, fmpq_denref(q + v));
-        for (slong v = 0; v < s->width; v++) {
+        for (slong v = 0; v < width; v++) {
             fmpz_divexact(c + v, common, fmpq_denref(q + v));
             fmpz_mul(c + v, c + v, fmpq_numref(q + v));
             fmpz_mul_si(c + v, c + v, sign);
         }
         fmpz_clear(common);
-        rows_add(s, c, weak);
     }
-    for (slong v = 0; v < s->width; v++)
+    for (slong v = 0; v < width; v++)
         fmpq_clear(q + v);
-    return linear;
+    return c;
 }
 
 /* --- the function ------------------------------------------------------------------------ */
 
 typedef enum { NOT_KNOWN, CONTRADICTION, POSSIBLE } rows_verdict;
 
-/* Whether the conditions and, unless e is nil, -e > 0 (or >= 0) contradict each other. */
+/* Whether the rows and, unless c is NULL, the row c contradict each other. */
 static rows_verdict
-rows_decide(qdot_pool *pool, qdot_expr e, bool weak, size_t n, const qdot_cells_condition *condition, qdot_expr atoms)
+rows_decide(const rows *given, const fmpz *c, bool weak)
 {
-    rows s = {.width = (slong)qdot_expr_count(pool, atoms) + 1};
-    qdot_expr symbol[MOST_SYMBOLS];
-    bool linear = true;
+    rows s = {.width = given->width, .wrong = given->wrong, .too_much = given->too_much};
     slong v;
 
-    for (slong k = 0; k + 1 < s.width; k++)
-        symbol[k] = qdot_expr_arg(pool, atoms, (uint32_t)k);
-    for (size_t i = 0; i < n && linear; i++)
-        linear = rows_add_expression(&s, pool, condition[i].gap, symbol, 1, condition[i].weak);
-    if (e != QDOT_NIL && linear)
-        linear = rows_add_expression(&s, pool, e, symbol, -1, weak);
-    while (linear && !s.wrong && !s.too_much && !qdot_interrupt_flag && (v = rows_next_symbol(&s)) >= 0)
+    for (size_t i = 0; i < given->row.n; i++)
+        rows_add_copy(&s, given->row.at[i].c, given->row.at[i].weak);
+    if (c != NULL)
+        rows_add_copy(&s, c, weak);
+    while (!s.wrong && !s.too_much && !qdot_interrupt_flag && (v = rows_next_symbol(&s)) >= 0)
         rows_eliminate(&s, v);
     rows_clear(&s);
-    return !linear || s.too_much || qdot_interrupt_flag ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
+    return s.too_much || qdot_interrupt_flag ? NOT_KNOWN : s.wrong ? CONTRADICTION : POSSIBLE;
+}
+
+/* Decide e by the rows of the conditions and that of -e. */
+static qdot_cells
+rows_result(const rows *given, const fmpz *minus_e)
+{
+    rows_verdict verdict = rows_decide(given, NULL, false);
+
+    if (verdict != POSSIBLE)
+        return verdict == CONTRADICTION ? QDOT_CELLS_EMPTY : QDOT_CELLS_UNKNOWN;
+    verdict = rows_decide(given, minus_e, true);
+    if (verdict != POSSIBLE)
+        return verdict == CONTRADICTION ? QDOT_CELLS_POSITIVE : QDOT_CELLS_UNKNOWN;
+    verdict = rows_decide(given, minus_e, false);
+    if (verdict == NOT_KNOWN)
+        return QDOT_CELLS_UNKNOWN;
+    return verdict == CONTRADICTION ? QDOT_CELLS_NOT_NEGATIVE : QDOT_CELLS_NEGATIVE;
 }
 
 qdot_status
 qdot_linear_decide(qdot_pool *pool, qdot_expr e, size_t n, const qdot_cells_condition *condition, qdot_cells *result)
 {
-    qdot_expr all = e, atoms;
-    rows_verdict conditions, not_above, below;
+    qdot_expr all = e, atoms, symbol[MOST_SYMBOLS];
+    rows given = {0};
+    fmpz *minus_e;
+    bool linear;
 
     *result = QDOT_CELLS_UNKNOWN;
     for (size_t i = 0; i < n; i++)
@@ -222,15 +241,23 @@ qdot_linear_decide(qdot_pool *pool, qdot_expr e, size_t n, const qdot_cells_cond
         return qdot_grave(qdot_pool_check(pool));
     if (qdot_expr_count(pool, atoms) > MOST_SYMBOLS)
         return QDOT_OK;
-    conditions = rows_decide(pool, QDOT_NIL, false, n, condition, atoms);
-    not_above = conditions == POSSIBLE ? rows_decide(pool, e, true, n, condition, atoms) : NOT_KNOWN;
-    below = not_above == POSSIBLE ? rows_decide(pool, e, false, n, condition, atoms) : NOT_KNOWN;
-    if (conditions == CONTRADICTION)
-        *result = QDOT_CELLS_EMPTY;
-    else if (not_above == CONTRADICTION)
-        *result = QDOT_CELLS_POSITIVE;
-    else if (below != NOT_KNOWN)
-        *result = below == CONTRADICTION ? QDOT_CELLS_NOT_NEGATIVE : QDOT_CELLS_NEGATIVE;
+    for (; given.width < (slong)qdot_expr_count(pool, atoms); given.width++)
+        symbol[given.width] = qdot_expr_arg(pool, atoms, (uint32_t)given.width);
+    given.width++;
+    minus_e = row_of(pool, e, symbol, given.width, -1);
+    linear = minus_e != NULL;
+    for (size_t i = 0; i < n && linear; i++) {
+        fmpz *c = row_of(pool, condition[i].gap, symbol, given.width, 1);
+
+        linear = c != NULL;
+        if (linear)
+            rows_add(&given, c, condition[i].weak);
+    }
+    if (linear)
+        *result = rows_result(&given, minus_e);
+    if (minus_e != NULL)
+        _fmpz_vec_clear(minus_e, given.width);
+    rows_clear(&given);
     if (qdot_interrupt_flag)
         return qdot_interrupt_check();
     return qdot_grave(qdot_pool_check(pool));
