@@ -35,7 +35,7 @@ simple_of_rows(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation 
     simple(g, name, x, qdot_asm_in(zero(g, s->y)), s->to);
 }
 
-/* to <- x y and z, by an instruction that overwrites z */
+/* Store x y + z, x y - z or z - x y, as `name` says; it is formed in a copy of z, which the instruction overwrites. */
 static void
 with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
 {

@@ -99,6 +99,19 @@ push_frozen(description *d, expressions *to, qdot_expr e)
     return qdot_vec_push(to, frozen);
 }
 
+/* Keep text for as long as the description lives. On failure it is cleared. */
+static qdot_status
+keep_text(description *d, qdot_text *text)
+{
+    qdot_status status = qdot_text_status(text);
+
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&d->texts, text->at);
+    if (status != QDOT_OK)
+        qdot_text_clear(text);
+    return status;
+}
+
 static const char *
 symbol_name(const qdot_session *s, qdot_expr symbol)
 {
@@ -133,8 +146,7 @@ description_switches(description *d)
         QDOT_TRY(qdot_print(pool, from->u, QDOT_PLAIN, &text));
         qdot_text_truncate(&text, text.n < LONGEST ? text.n : LONGEST);
         qdot_text_add(&text, from->steps ? " is an integer" : " = 0");
-        QDOT_TRY(qdot_text_status(&text));
-        QDOT_TRY(qdot_vec_push(&d->texts, text.at));
+        QDOT_TRY(keep_text(d, &text));
         QDOT_TRY(qdot_vec_push(
             &d->surface,
             ((qdot_export_surface){text.at, from->steps,
@@ -314,8 +326,7 @@ add_end(description *d, const char *name, qdot_expr distance)
 
     QDOT_TRY(exprs_push(d, &d->events, distance));
     qdot_text_format(&text, "%s leaves its domain", name);
-    QDOT_TRY(qdot_text_status(&text));
-    QDOT_TRY(qdot_vec_push(&d->texts, text.at));
+    QDOT_TRY(keep_text(d, &text));
     return qdot_vec_push(&d->event,
                          ((qdot_export_event){
                              .name = text.at, .way = d->x.t1 < d->x.t0 ? 1 : -1, .stop = true}));

@@ -41,6 +41,7 @@ qdot_resolve_label(qdot_session *s, const char *name, uint32_t n, const qdot_exp
     const qdot_particle *particle;
     const qdot_body *body;
     qdot_text spelled = {0};
+    qdot_status status;
 
     *label = NULL;
     if (s->scene->particles.n + s->scene->bodies.n == 0)
@@ -53,12 +54,14 @@ qdot_resolve_label(qdot_session *s, const char *name, uint32_t n, const qdot_exp
     for (uint32_t i = 0; i < n; i++)
         if (qdot_expr_kind(s->pool, index[i]) != QDOT_NUM)
             return QDOT_OK;
-    QDOT_TRY(qdot_entry_name(s, name, n, index, &spelled));
-    particle = qdot_scene_find_particle(s->scene, spelled.at);
-    body = qdot_scene_find_body(s->scene, spelled.at);
+    status = qdot_entry_name(s, name, n, index, &spelled);
+    if (status == QDOT_OK) {
+        particle = qdot_scene_find_particle(s->scene, spelled.at);
+        body = qdot_scene_find_body(s->scene, spelled.at);
+        *label = particle != NULL ? particle->name : body != NULL ? body->name : NULL;
+    }
     qdot_text_clear(&spelled);
-    *label = particle != NULL ? particle->name : body != NULL ? body->name : NULL;
-    return QDOT_OK;
+    return status;
 }
 
 /* --- primes ------------------------------------------------------------------------- */

@@ -161,7 +161,7 @@ coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbo
 
 /* The row [width] of sign e, sign 1 or -1, with whole coefficients; the caller clears it. NULL: e is not linear. */
 static fmpz *
-row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width, int sign)
+linear_row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width, int sign)
 {
     fmpq q[MOST_SYMBOLS + 1];
     fmpz *c = NULL;
@@ -244,10 +244,10 @@ qdot_linear_decide(qdot_pool *pool, qdot_expr e, size_t n, const qdot_cells_cond
     for (; given.width < (slong)qdot_expr_count(pool, atoms); given.width++)
         symbol[given.width] = qdot_expr_arg(pool, atoms, (uint32_t)given.width);
     given.width++;
-    minus_e = row_of(pool, e, symbol, given.width, -1);
+    minus_e = linear_row_of(pool, e, symbol, given.width, -1);
     linear = minus_e != NULL;
     for (size_t i = 0; i < n && linear; i++) {
-        fmpz *c = row_of(pool, condition[i].gap, symbol, given.width, 1);
+        fmpz *c = linear_row_of(pool, condition[i].gap, symbol, given.width, 1);
 
         linear = c != NULL;
         if (linear)

@@ -44,7 +44,7 @@ guarded_prepare(int p, void *user)
     return g->own->prepare ? g->own->prepare(p, g->own->user) : QDOT_OK;
 }
 
-/* Test the first state in any case: if it is not for the fast series no machine code is written. */
+/* Begin with a test of the first state: where the fast series may not be used, no machine code is written for it. */
 static qdot_status
 guarded_begin(double t, const double *y, double unit, void *user)
 {

@@ -11,7 +11,7 @@
 
 #include "expr/id.h"
 
-/* Rewrite all such quotients of powers in e. Nil: the pool keeps the failure. */
+/* e with each (c + k b^p)/b^p written as k + c b^-p. Nil: the pool keeps the failure. */
 qdot_expr qdot_power_quotient(qdot_pool *pool, qdot_expr e);
 
 #endif
