@@ -11,11 +11,11 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/declare/export-given.h"
 #include "lang/declare/export-massless.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
 #include "lang/session/values.h"
-#include "sim/model/substitute.h"
 #include "sim/model/switch.h"
 
 enum {
@@ -36,7 +36,7 @@ typedef struct {
     qdot_export_system x;
     expressions inputs, parameters;
     qdot_switches switches;
-    expressions heads, bodies; /* functions and their values */
+    qdot_given_functions given; /* functions that have a value */
     expressions held;          /* [m] left - right of the constraints, on the sides of the switches */
     expressions equations, slopes, energy, positions, events, u;
     qdot_vec(qdot_event) acts;     /* of each event: what it sets, and to which values */
@@ -52,32 +52,6 @@ typedef struct {
 } description;
 
 /* --- expressions ------------------------------------------------------------------------ */
-
-/* Collect the functions that have a value. */
-static qdot_status
-find_functions(qdot_session *s, expressions *heads, expressions *bodies)
-{
-    for (size_t i = 0; i < s->values->set_symbols.n; i++)
-        if (qdot_expr_kind(s->pool, s->values->set_symbols.at[i]) == QDOT_UFUN) {
-            QDOT_TRY(qdot_vec_push(heads, s->values->set_symbols.at[i]));
-            QDOT_TRY(qdot_vec_push(bodies, s->values->set_values.at[i]));
-        }
-    return QDOT_OK;
-}
-
-qdot_expr
-qdot_export_bound(qdot_session *s, qdot_expr e)
-{
-    expressions heads = {0}, bodies = {0};
-
-    if (find_functions(s, &heads, &bodies) != QDOT_OK)
-        e = qdot_pool_fail(s->pool);
-    if (heads.n > 0 && e != QDOT_NIL)
-        e = qdot_substitute(s->pool, e, heads.n, heads.at, bodies.at);
-    qdot_free(heads.at);
-    qdot_free(bodies.at);
-    return e;
-}
 
 static qdot_status
 exprs_push(description *d, expressions *to, qdot_expr e)
@@ -129,7 +103,9 @@ static qdot_status
 description_switches(description *d)
 {
     const qdot_run_request request = {
-        .n_values = d->heads.n, .symbols = d->heads.at, .values = d->bodies.at};
+        .n_values = d->given.heads.n,
+        .symbols = d->given.heads.at,
+        .values = d->given.bodies.at};
     qdot_pool *pool = d->session->pool;
 
     QDOT_TRY(qdot_switches_find(d->scene, &request, &d->switches));
@@ -381,16 +357,6 @@ events(description *d)
 
 /* --- names and numbers -------------------------------------------------------------------- */
 
-qdot_status
-qdot_export_value_of(qdot_session *s, qdot_expr parameter, double *value)
-{
-    *value = NAN;
-    for (size_t i = 0; i < s->values->set_symbols.n; i++)
-        if (s->values->set_symbols.at[i] == parameter)
-            return qdot_session_number(s, parameter, value, NULL);
-    return QDOT_OK;
-}
-
 static qdot_status
 add_parameter(description *d, qdot_expr symbol)
 {
@@ -627,14 +593,14 @@ static void
 description_clear(description *d)
 {
     expressions *const lists[] = {&d->inputs, &d->parameters, &d->equations, &d->slopes,
-                                  &d->energy, &d->positions, &d->events, &d->u, &d->heads,
-                                  &d->bodies, &d->held};
+                                  &d->energy, &d->positions, &d->events, &d->u, &d->held};
     const qdot_export_function *const functions[] = {&d->x.equations, &d->x.slopes, &d->x.energy,
                                                      &d->x.positions, &d->x.switches,
                                                      &d->x.events};
 
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         qdot_free(lists[i]->at);
+    qdot_given_functions_clear(&d->given);
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         qdot_tape_free((qdot_tape *)functions[i]->tape);
     for (size_t i = 0; i < d->effects.n; i++)
@@ -664,7 +630,7 @@ description_clear(description *d)
 static qdot_status
 describe(description *d)
 {
-    QDOT_TRY(find_functions(d->session, &d->heads, &d->bodies));
+    QDOT_TRY(qdot_given_functions_find(d->session, &d->given));
     QDOT_TRY(description_switches(d));
     QDOT_TRY(constraints(d));
     QDOT_TRY(equations(d));

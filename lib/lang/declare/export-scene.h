@@ -17,10 +17,4 @@ QDOT_MUST_CHECK qdot_status qdot_export_value(qdot_session *session, const char 
                                               const char *file, const qdot_export_language *language,
                                               qdot_text *out);
 
-/* For both kinds of export: e with functions that have a value replaced by it; parameters stay. */
-qdot_expr qdot_export_bound(qdot_session *session, qdot_expr e);
-/* The number that `set` gave a parameter; NaN if none. */
-QDOT_MUST_CHECK qdot_status qdot_export_value_of(qdot_session *session, qdot_expr parameter,
-                                                 double *value);
-
 #endif

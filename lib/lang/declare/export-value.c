@@ -6,6 +6,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "lang/declare/export-given.h"
 #include "lang/declare/export-scene.h"
 #include "lang/session/measured.h"
 
