@@ -1,5 +1,5 @@
 """answer.py -- what the program said to one script: its list, the conditions of each entry, and if it is all."""
-import json, re, subprocess, tempfile
+import json, re, resource, signal, subprocess, tempfile
 
 from formula import Unreadable, names
 
@@ -89,11 +89,15 @@ def _special(where, sets, unknown):
 
 
 def run_script(program, script, *options, timeout=20):
-    """The finished process; its status is 124 where it took longer than `timeout` seconds."""
+    """The finished process; its status is 124 where it needed more than `timeout` seconds of the processor, whatever
+    else the machine does, or did not end in twenty times as many."""
     with tempfile.NamedTemporaryFile("w", suffix=".lag") as f:
         f.write(script)
         f.flush()
-        return subprocess.run(["timeout", str(timeout), program, *options, f.name], text=True, capture_output=True)
+        p = subprocess.run(["timeout", str(20 * timeout), program, *options, f.name], text=True, capture_output=True,
+                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (timeout, timeout + 5)))
+    p.returncode = 124 if p.returncode == -signal.SIGXCPU else p.returncode
+    return p
 
 
 def ask(program, script, unknown=None, timeout=20):

@@ -121,8 +121,8 @@ def sink_scene(rng):
     c, q, F = rng.choice([0.5, 1, 2]), rng.choice([0, 1, 3]), rng.choice([5, 10, 20])
     u, v = num(rng, 0.3, 1, 2), num(rng, -0.5, 0.5, 2)
     way = 1 if R(v) + R(c)*R(u) > 0 else -1
-    roots = mp.polyroots([-R(c)*way*R(F)/2, -way*R(F) + R(c)*R(v), R(v) + R(c)*R(u)])
-    ts = min(mp.re(z) for z in roots if abs(mp.im(z)) < 1e-30 and mp.re(z) > 0)
+    b = way*R(c)*R(v) - R(F)  # how far from the surface: |v + c u| + b t - c F t^2/2, 0 from the start on or once later
+    ts = (b + mp.sqrt(b*b + 2*R(c)*R(F)*abs(R(v) + R(c)*R(u))))/(R(c)*R(F))
     there = R(u) + R(v)*ts - way*R(F)*ts*ts/2
     T = mp.nstr(ts + R(num(rng, 0.5, 4, 2)), 6)
     left = there*mp.exp(-R(c)*(R(T) - ts))
