@@ -231,107 +231,6 @@ qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr wh
     return status;
 }
 
-/* --- polynomials in one thing ------------------------------------------------------ */
-
-typedef struct {
-    qdot_expr value, when;
-} argument; /* a value of a function of x */
-
-typedef qdot_vec(argument) arguments;
-
-/* Add the y with y^k = v: v^(1/k), and its negative if k is even. */
-static qdot_status
-arguments_add_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, arguments *out)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr y, exponent = qdot_expr_ratio(pool, 1, k);
-    uint8_t sign;
-
-    QDOT_TRY(qdot_pool_check(pool));
-    if (v == QDOT_ZERO || k == 1)
-        return qdot_vec_push(out, ((argument){v, when}));
-    if (k % 2 == 0) {
-        when = qdot_conditions_and(pool, when, qdot_solver_positive(s, v));
-        if (when == QDOT_FALSE)
-            return QDOT_OK;
-    }
-    sign = qdot_expr_node(pool, v)->sign;
-    if (k % 2 == 0 || (sign & QDOT_GE0) != 0)
-        y = qdot_pow(pool, v, exponent);
-    else if ((sign & QDOT_LE0) != 0)
-        y = qdot_neg(pool, qdot_pow(pool, qdot_neg(pool, v), exponent));
-    else
-        y = qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, v),
-                     qdot_pow(pool, qdot_fun1(pool, QDOT_ABS, v), exponent));
-    QDOT_TRY(qdot_pool_check(pool));
-    if (k % 2 == 0)
-        QDOT_TRY(qdot_vec_push(out, ((argument){qdot_neg(pool, y), when})));
-    return qdot_vec_push(out, ((argument){y, when}));
-}
-
-/* The largest k such that sum c_i y^i, c [degree + 1], is a polynomial in y^k; 0 for a constant. */
-static long
-common_step(const qdot_expr *c, long degree)
-{
-    long step = 0;
-
-    for (long k = 1; k <= degree; k++)
-        for (long rest = k; c[k] != QDOT_ZERO && rest > 0;) {
-            long swap = step % rest;
-
-            if (step == 0) {
-                step = rest;
-                break;
-            }
-            step = rest;
-            rest = swap;
-        }
-    return step;
-}
-
-/* Real y with sum c_k y^k = 0, c [degree + 1]. */
-static qdot_status
-polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, arguments *out)
-{
-    qdot_pool *pool = s->pool;
-    long step = common_step(c, degree);
-    qdot_expr a, b, discriminant, root, two_a;
-
-    if (step == 0)
-        return QDOT_OK;
-    if (degree / step > 2) {
-        s->out->complete = false;
-        return QDOT_OK;
-    }
-    a = c[degree];
-    QDOT_TRY(qdot_solver_divide(s, a));
-    if (degree == step)
-        return arguments_add_roots(s, qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, c[0], a))), step,
-                       when, out);
-    b = c[step];
-    discriminant = qdot_solver_tidy(
-        s,
-        qdot_sub(pool, qdot_mul(pool, b, b),
-                 qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, 4), a, c[0]})));
-    QDOT_TRY(qdot_pool_check(pool));
-    if (discriminant != QDOT_ZERO)
-        when = qdot_conditions_and(pool, when, qdot_solver_positive(s, discriminant));
-    if (when == QDOT_FALSE)
-        return QDOT_OK;
-    root = qdot_sqrt(pool, discriminant);
-    two_a = qdot_mul(pool, qdot_expr_int(pool, 2), a);
-    for (int sign = -1; sign <= 1; sign += 2) {
-        qdot_expr y = sign < 0 ? qdot_add(pool, b, root) : qdot_sub(pool, b, root);
-
-        y = qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, y, two_a)));
-        QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(arguments_add_roots(s, y, step, when, out));
-        if (discriminant == QDOT_ZERO)
-            break;
-    }
-    return QDOT_OK;
-}
-
 /* --- one factor -------------------------------------------------------------------- */
 
 /* The generators of one factor that contain x, and the factor as a polynomial in them. */
@@ -535,13 +434,13 @@ one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
 {
     const qdot_gen gen = f->gen[sh->var[0]];
     qdot_expr *c = qdot_calloc((size_t)sh->degree[0] + 1, sizeof *c);
-    arguments values = {0};
+    qdot_arguments values = {0};
     qdot_status status = c == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     for (long k = 0; k <= sh->degree[0] && status == QDOT_OK; k++)
         c[k] = coefficient(f, sh, (ulong)k, 0);
     if (status == QDOT_OK)
-        status = polynomial(s, c, sh->degree[0], when, &values);
+        status = qdot_solver_polynomial(s, c, sh->degree[0], when, &values);
     for (size_t i = 0; i < values.n && status == QDOT_OK; i++)
         if (values.at[i].when != QDOT_FALSE)
             status = generator_is(s, &gen, values.at[i].value, values.at[i].when);
@@ -634,22 +533,25 @@ by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
-/* Whether e is a product of integer powers of several factors with x, without a denominator that contains x. */
-static bool
-is_product(const qdot_solver *s, qdot_expr e)
+/* How many factors with x a product of their integer powers has, one whose denominators do not contain x; else 0.
+ * *repeated: one of them has a power above 1. */
+static uint32_t
+factors_with_x(const qdot_solver *s, qdot_expr e, bool *repeated)
 {
     uint32_t n = qdot_expr_kind(s->pool, e) == QDOT_PROD ? qdot_expr_count(s->pool, e) : 0, with = 0;
 
+    *repeated = false;
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         long power;
 
         if (!qdot_expr_contains(s->pool, qdot_expr_arg(s->pool, e, i), s->x))
             continue;
         if (!qdot_expr_to_int(s->pool, qdot_expr_arg(s->pool, e, i + 1), &power) || power < 0)
-            return false;
+            return *repeated = false;
+        *repeated |= power > 1;
         with++;
     }
-    return with > 1;
+    return with;
 }
 
 /* Find the zeros of each factor of a product; factors with switches come last, so that they do not
@@ -677,6 +579,8 @@ by_product(qdot_solver *s, qdot_expr e, qdot_expr when)
 qdot_status
 qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
 {
+    uint32_t factors;
+    bool repeated;
     qdot_expr choice;
     qdot_status status = qdot_pool_check(s->pool);
 
@@ -689,10 +593,11 @@ qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
     }
     s->depth++;
     choice = qdot_sides_choice(s->pool, e, s->x);
-    if (choice == QDOT_NIL)
-        status = by_factors(s, e, when);
+    factors = factors_with_x(s, e, &repeated);
+    if (repeated || (choice != QDOT_NIL && factors > 1)) /* as it stands: a power multiplied out may not come apart again */
+        status = by_product(s, e, when);
     else
-        status = is_product(s, e) ? by_product(s, e, when) : qdot_solver_cases(s, e, choice, when);
+        status = choice == QDOT_NIL ? by_factors(s, e, when) : qdot_solver_cases(s, e, choice, when);
     s->depth--;
     return status;
 }

@@ -36,6 +36,16 @@ qdot_expr qdot_solver_tidy(const qdot_solver *s, qdot_expr e);
 /* 0 <= gap as a condition (solver.c); 0 < gap of generic parameters. */
 qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
 
+typedef struct {
+    qdot_expr value, when;
+} qdot_argument; /* a value of a function of x */
+
+typedef qdot_vec(qdot_argument) qdot_arguments;
+
+/* Add the real y with sum c_k y^k = 0, c [degree + 1], to *out (solve-polynomial.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when,
+                                                   qdot_arguments *out);
+
 /* Solve g(x) = v for an elementary function g of one argument (solve-inverse.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v,
                                                qdot_expr when);
