@@ -155,7 +155,9 @@ append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
     QDOT_TRY(narrow(r, &values, &conditions));
     if (conditions == QDOT_FALSE)
         return QDOT_OK;
-    e.exists = without_implied_roots(r, qdot_conditions_generic(pool, conditions));
+    if (!r->facts.exact)
+        conditions = qdot_conditions_generic(pool, conditions);
+    e.exists = without_implied_roots(r, conditions);
     for (uint32_t i = 0; i < qdot_expr_count(pool, values); i++) {
         qdot_expr one = qdot_expr_arg(pool, values, i);
 

@@ -27,6 +27,7 @@ typedef struct {
     qdot_binder bind; /* values of parameters for numbers; may be NULL */
     void *user;
     qdot_expr meeting; /* a LIST of LISTs of what is 0 where two kinks of one coordinate meet, and the place; nil: none */
+    bool formulas;   /* these alone give all places, whatever the parameters are */
     bool unresolved; /* there may be rests at kinks that were not searched: the list is not complete */
 } qdot_rest;
 
@@ -35,6 +36,8 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_rest_begin(qdot_rest *r, qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user,
                                            qdot_equilibria *out);
+/* The places that formulas give alone; r->system.complete: these are all. (equilibrium.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_find_exactly(qdot_rest *r);
 void qdot_rest_end(qdot_rest *r);
 
 /* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike.
@@ -98,6 +101,10 @@ QDOT_MUST_CHECK qdot_status qdot_rest_meetings(qdot_rest *r, qdot_expr *left);
  * (equilibrium-special.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places,
                                               qdot_expr *special);
+
+/* Of a scene in which no place is found, to the LIST *special what of parameters alone is 0 where there may be one; where
+ * that is not known r->system.complete becomes false. (equilibrium-special.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_none(qdot_rest *r, qdot_expr *special);
 
 /* Whether the conditions, a LIST, cannot hold where d = 0: put in for the first symbol that d gives.
  * (equilibrium-special.c) */

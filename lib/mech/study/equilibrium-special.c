@@ -4,6 +4,7 @@
  * declared and no condition of the place excludes its zero, is told with the list.
  *
  * 0 < theta < pi leaves out the poles of a sphere, where a rest may be: such an end of a chart is told too. */
+#include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/list.h"
@@ -12,6 +13,7 @@
 #include "mech/coordinates/chart.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/refute/constant.h"
+#include "normal/simplify/positive.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
@@ -84,6 +86,86 @@ qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places, 
         if (!places[i].numeric)
             QDOT_TRY(add_divisors(r, &places[i], special));
     return qdot_pool_check(r->pool);
+}
+
+/* --- no place at all ------------------------------------------------------------------------------ */
+
+/* Add the factors of e that may be 0 to the LIST, sqrt(a) as a. */
+static qdot_status
+add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list)
+{
+    qdot_expr factors = e == QDOT_NIL ? QDOT_NIL : qdot_solve_factors(pool, e);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, factors); i++) {
+        const qdot_expr one = qdot_expr_arg(pool, factors, i);
+
+        if (qdot_expr_kind(pool, one) == QDOT_PROD && qdot_expr_count(pool, one) == 3)
+            QDOT_TRY(add_factors(pool, qdot_expr_arg(pool, one, 1), list));
+        else if (!qdot_list_has(pool, *list, one) && (qdot_expr_node(pool, one)->sign & QDOT_NE0) == 0)
+            *list = qdot_list_appended(pool, *list, 1, &one);
+    }
+    return qdot_pool_check(pool);
+}
+
+/* What of parameters is 0 where conditions hold that generic parameters do not fulfil, one alone as -a^2 >= 0, or two as
+ * a >= 1 and a <= 1; nil: this is not known. */
+static qdot_expr
+thin_set(const qdot_rest *r, qdot_expr set)
+{
+    qdot_pool *pool = r->pool;
+    const uint32_t n = set == QDOT_NIL ? 0 : qdot_expr_count(pool, set);
+    qdot_expr zero = QDOT_NIL;
+
+    for (uint32_t i = 0; i < n && zero == QDOT_NIL; i++) {
+        const qdot_expr one = qdot_expr_arg(pool, set, i),
+                        gap = qdot_expr_kind(pool, one) == QDOT_REL ? qdot_positive_of(pool, one) : QDOT_NIL;
+
+        if (gap == QDOT_NIL || !qdot_is_generic(pool, gap))
+            continue;
+        zero = qdot_condition(pool, gap, false, &r->facts) == QDOT_FALSE ? gap : QDOT_NIL;
+        for (uint32_t k = i + 1; k < n && zero == QDOT_NIL; k++) {
+            const qdot_expr other = qdot_expr_arg(pool, set, k);
+
+            if (qdot_expr_kind(pool, other) == QDOT_REL &&
+                qdot_expand(pool, qdot_add(pool, gap, qdot_positive_of(pool, other))) == QDOT_ZERO)
+                zero = gap;
+        }
+    }
+    return zero;
+}
+
+/* Search once more, for single values of parameters too: of x^3/3 + a^2 x they have a rest at a = 0, of
+ * x^2/2 + sqrt(a - 1) + sqrt(1 - a) an energy at a = 1. */
+static qdot_status
+add_single_values(qdot_rest *r, qdot_expr *special)
+{
+    qdot_rest exact;
+    qdot_status status = qdot_rest_begin(&exact, r->s);
+
+    exact.facts.exact = exact.system.facts.exact = true;
+    if (status == QDOT_OK)
+        status = qdot_rest_find_exactly(&exact);
+    r->system.complete = r->system.complete && exact.system.complete && !exact.unresolved;
+    for (size_t i = 0; i < exact.found.n && status == QDOT_OK; i++) {
+        const qdot_expr zero = thin_set(r, exact.found.at[i].exists);
+
+        status = qdot_pool_check(r->pool);
+        if (zero == QDOT_NIL)
+            r->system.complete = false;
+        else if (status == QDOT_OK)
+            status = add_factors(r->pool, zero, special);
+    }
+    qdot_rest_end(&exact);
+    return status;
+}
+
+qdot_status
+qdot_rest_none(qdot_rest *r, qdot_expr *special)
+{
+    for (size_t i = 0; i < r->system.special.n; i++)
+        QDOT_TRY(add_factors(r->pool, r->system.special.at[i], special));
+    return r->formulas ? add_single_values(r, special) : QDOT_OK; /* numbers have values of parameters */
 }
 
 /* --- poles --------------------------------------------------------------------------------------- */

@@ -402,20 +402,26 @@ qdot_rest_end(qdot_rest *r)
 }
 
 qdot_status
-qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+qdot_rest_find_exactly(qdot_rest *r)
 {
     qdot_expr equations = r->system.equations;
     bool lasting = rest_holds_time(r, r->system.equations);
 
-    r->bind = bind;
-    r->user = user;
     if (lasting)
         QDOT_TRY(qdot_rest_at_all_times(r, r->system.equations, &equations));
     QDOT_TRY(begin_branch(r, equations));
     QDOT_TRY(qdot_rest_solve(r));
-    if (lasting)
-        QDOT_TRY(keep_lasting(r));
-    else if (!r->system.complete)
+    return lasting ? keep_lasting(r) : QDOT_OK;
+}
+
+qdot_status
+qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    r->bind = bind;
+    r->user = user;
+    QDOT_TRY(qdot_rest_find_exactly(r));
+    r->formulas = r->system.complete;
+    if (!r->system.complete && !rest_holds_time(r, r->system.equations))
         QDOT_TRY(rest_search(r, bind, user, out));
     QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_ranges(r));
@@ -470,21 +476,6 @@ keep_assumed(qdot_rest *r)
     return qdot_pool_check(r->pool);
 }
 
-/* What of parameters alone must not be 0 for there to be none, a LIST: the forces 2 (a - 1) x exp(x) at x > 0. */
-static qdot_status
-none_but_where(qdot_rest *r, qdot_expr *special)
-{
-    for (size_t i = 0; i < r->system.special.n; i++) {
-        qdot_expr e = r->system.special.at[i];
-
-        if (qdot_expr_kind(r->pool, e) == QDOT_PROD) /* without the number in front */
-            e = qdot_div(r->pool, e, qdot_expr_arg(r->pool, e, 0));
-        QDOT_TRY(qdot_pool_check(r->pool));
-        *special = qdot_list_appended(r->pool, *special, 1, &e);
-    }
-    return qdot_pool_check(r->pool);
-}
-
 static qdot_status
 equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
 {
@@ -499,7 +490,7 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, r.found.n, r.found.at, &out->special);
     if (status == QDOT_OK && !first_only && r.found.n == 0 && r.system.complete)
-        status = none_but_where(&r, &out->special);
+        status = qdot_rest_none(&r, &out->special);
     if (status == QDOT_OK)
         status = rest_judge(&r, out->special, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
