@@ -13,9 +13,14 @@
 /* Relative error of evaluating u, in units of the sum of the magnitudes of its terms. */
 static const double rounding = 4 * DBL_EPSILON;
 
-/* Relative to max(1, |y|), the two changes of a state that test whether u is constant: arbitrary
- * numbers that occur in no scene. */
-static const double aside[] = {0x1.3a6e4p-9, -0x1.d19b2p-8};
+/* Relative to max(1, |y_i|), the change `which` (0 or 1) of component i of a state, to test whether u is constant. The
+ * sines of whole numbers are linearly independent over the rationals: a change by c/(i + 1) would leave 3 y_2 - 4 y_3
+ * as it is. */
+static double
+aside(size_t which, size_t i)
+{
+    return ldexp(sin((double)(2 * i + which + 1)), -8);
+}
 
 /* The largest value of a floor: beyond it all doubles are integers. */
 static const double most_steps = 0x1p53;
@@ -142,7 +147,7 @@ measure(decision *d, const long *side)
     for (size_t k = 0; k < 2; k++) {
         for (size_t i = 0; i <= d->n; i++)
             if (!is_parameter(d, i))
-                d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
+                d->in[i] += aside(k, i) * fmax(1, fabs(d->in[i]));
         decision_evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->flat[i] = d->flat[i] && fabs(d->out[i] - d->u[i]) <=

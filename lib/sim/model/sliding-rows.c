@@ -1,4 +1,5 @@
 /* sliding-rows.c -- moves states back onto the surfaces along which the motion slides. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -121,6 +122,8 @@ keep_row(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, d
         const double before = x[i];
 
         x[i] -= out[r] / square * slope[i];
+        if (fabs(x[i]) < DBL_MIN) /* sweep after sweep comes nearer to 0, and each subnormal number has fewer digits */
+            x[i] = 0;
         moves = moves || x[i] != before;
     }
     return moves;
