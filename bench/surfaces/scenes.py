@@ -2,7 +2,7 @@
 
 Closed forms, or collisions one by one. A kind draws its numbers from rng and gives a script, which ends with the
 values that are asked for, these values in 50 digits, and the error of these where they are less exact, relative to
-max(1, |value|). A further kind is a further function NAME_scene; relays.py and nested.py have more.
+max(1, |value|). A further kind is a further function NAME_scene; relays.py, nested.py and contacts.py have more.
 """
 import re
 
