@@ -200,16 +200,28 @@ qdot_companion_moved(double y, double scale, size_t i, size_t number)
     return y + doubles_away(number) * (nextafter(y, up ? INFINITY : -INFINITY) - y);
 }
 
+/* The first coordinate, or velocity, of the size of component i. */
+static size_t
+first_of_size(size_t n, const double *y, size_t i)
+{
+    size_t k = i < n / 2 ? 0 : n / 2;
+
+    while (fabs(y[k]) != fabs(y[i]))
+        k++;
+    return k;
+}
+
 void
-qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double tol,
+qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, bool alike, double tol,
                       double *start, double *low)
 {
     for (size_t i = 0; i < n; i++) {
-        const double in = qdot_companion_unit(scales, n, y, i);
+        const size_t as = alike ? first_of_size(n, y, i) : i;
+        const double in = qdot_companion_unit(scales, n, y, i), way = y[i] == y[as] ? 1 : -1;
 
-        start[i] = low ? y[i] : qdot_companion_moved(y[i], in, i, number);
+        start[i] = low ? y[i] : way * qdot_companion_moved(way * y[i], in, as, number);
         if (low)
-            low[i] += aside(tol, fmax(in, fabs(y[i])), i, number);
+            low[i] += way * aside(tol, fmax(in, fabs(y[i])), as, number);
     }
 }
 

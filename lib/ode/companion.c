@@ -357,7 +357,7 @@ follower_prepare(qdot_companion *c, const qdot_companion_request *request, size_
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
-    qdot_companion_beside(request->units ? request->units : c->scales, c->n, request->y0, number,
+    qdot_companion_beside(request->units ? request->units : c->scales, c->n, request->y0, number, false,
                           request->tol, f->start,
                           c->leading ? f->low : NULL);
     if (f->system.project) { /* only along what solutions may do */

@@ -254,9 +254,10 @@ double qdot_companion_moved(double y, double scale, size_t i, size_t number);
 
 /* The start [n] of companion `number` beside that of its run, y [n]: moved by that; or, for a run whose first orders are
  * sums of two doubles, y itself, and low [n], what is known of it beyond, is moved by the distance
- * above. low NULL: it is no such run, and tol does not count. */
+ * above. low NULL: it is no such run, and tol does not count. `alike`: coordinates of the same size are moved alike, opposite
+ * ones oppositely, and so are velocities: bodies that meet something together do so in the companion. */
 #define QDOT_COMPANION_AIMS 0.125
-void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double tol,
+void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, bool alike, double tol,
                            double *start, double *low);
 
 #endif

@@ -151,7 +151,7 @@ static void
 member_put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
 {
     if (companion)
-        qdot_companion_beside(NULL, n, y, companion - 1, 0, to, NULL);
+        qdot_companion_beside(NULL, n, y, companion - 1, false, 0, to, NULL);
     else
         memcpy(to, y, n * sizeof *to);
     for (size_t i = 0; i < varied; i++)

@@ -183,17 +183,31 @@ keep_contacts(const qdot_run *run, double t0, double *y, double *low)
     return QDOT_OK;
 }
 
+/* How the start of a companion is moved. */
+typedef enum {
+    EACH,  /* every component by itself */
+    ALIKE, /* those of one size alike, so that what they meet together stays together */
+    NOT,
+    MOVES
+} move;
+
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
  * the start is on is kept. */
 static qdot_status
-begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, double t0,
+begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, move how, double t0,
              double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
 
+    if (how == NOT) {
+        memcpy(y, run->start, n * sizeof *y);
+        memcpy(low, run->start_low, n * sizeof *low);
+        move_by_error(run, number, 1, y, low);
+        return QDOT_OK;
+    }
     QDOT_TRY(qdot_still_find(run->plan, system, t0, run->start, run->start_low, run->units));
     memcpy(low, run->start_low, n * sizeof *low);
-    qdot_companion_beside(run->units, n, run->start, number, run->report.tol, y,
+    qdot_companion_beside(run->units, n, run->start, number, how == ALIKE, run->report.tol, y,
                           run->leading ? low : NULL);
     if (!run->leading)
         QDOT_TRY(keep_contacts(run, t0, y, low));
@@ -279,20 +293,20 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
     y = qdot_malloc(2 * n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
-    status = begin_beside(run, &system, number, t0, y, y + n);
     if (run->leading) {
         options.leading = true;
         options.carry = y + n;
         options.t0_low = run->t0_low;
     }
-    if (status != QDOT_OK) {
-        qdot_free(y);
-        return status == QDOT_ENOMEM ? status : QDOT_OK;
-    }
     /* a start on a surface, moved to its other side, meets it once more: the second time
      * it stays on it; so may what touches. Where what is only seen differs the first one is as good for states. A
      * switch that is crossed here and not there is doubt of the run. */
-    for (int tries = 0; tries < 2; tries++) {
+    for (move how = EACH; how < MOVES; how++) {
+        status = begin_beside(run, &system, number, how, t0, y, y + n);
+        if (status != QDOT_OK) {
+            status = status == QDOT_ENOMEM ? status : QDOT_OK;
+            break;
+        }
         qdot_progress_begin(t0, goal(run), "error of the run");
         qdot_ode_meter_begin(meter, t0, goal(run));
         status = qdot_course_run(c, by->method, &options, t0, goal(run), y);
@@ -301,21 +315,18 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         *has = c->tr.count > 0;
         if (!*has || met_the_same(run, c, false) || (!run->course.began_on && run->stage.events.n == 0))
             break;
-        if (tries == 0) {
-            if (met_the_same(run, c, true)) {
-                first = *c;
-                *c = course_like(c);
-            } else {
-                begin_anew(c);
-            }
-            *spent += meter->work;
-            meter->spent = *spent;
+        if (how + 1 == MOVES)
+            break;
+        if (first.tr.count == 0 && met_the_same(run, c, true)) {
+            first = *c;
+            *c = course_like(c);
+        } else {
+            begin_anew(c);
         }
-        memcpy(y, run->start, n * sizeof *y);
-        memcpy(y + n, run->start_low, n * sizeof *y);
-        move_by_error(run, number, 1, y, y + n);
+        *spent += meter->work;
+        meter->spent = *spent;
         options.carry = y + n;
-        c->exact = run->course.exact;
+        c->exact = how + 1 == NOT && run->course.exact;
     }
     qdot_free(y);
     if (first.tr.count > 0 && qdot_grave(status) == QDOT_OK

@@ -115,6 +115,55 @@ balls_rest_on_tables(void **state)
     }
 }
 
+/* y = 0 falling then y' = -e y'. */
+static void
+bounce(fixture *f, const char *name, qdot_expr y, qdot_expr e)
+{
+    qdot_event floor = {.name = (char *)name, .way = -1, .left = y, .right = QDOT_ZERO};
+    const qdot_expr v = velocity(f, y);
+
+    must(qdot_vec_push(&floor.targets, v));
+    must(qdot_vec_push(&floor.values, qdot_neg(f->pool, times(f, e, v))));
+    must(qdot_scene_event(f->scene, &floor));
+    qdot_free(floor.targets.at);
+    qdot_free(floor.values.at);
+}
+
+/* Two balls of one height land at the same instants: moved alike they still do, and the error covers what rounding did. */
+static void
+balls_land_together(void **state)
+{
+    uint32_t random = 48;
+
+    (void)state;
+    for (int seed = 0; seed < 24; seed++) {
+        const double drop = 0.5 + round(100 * draw(&random)) / 100, fall = 0.7 + 0.05 * (seed % 5);
+        long double truth, rest;
+        double value, error, t;
+        qdot_expr y, z, e;
+        fixture f;
+
+        begin(&f);
+        y = coordinate(&f, "y");
+        z = coordinate(&f, "z");
+        must(qdot_scene_particle(f.scene, "p", QDOT_ONE, y));
+        must(qdot_scene_particle(f.scene, "q", qdot_expr_int(f.pool, 2), z));
+        must(qdot_scene_potential(
+            f.scene, times(&f, qdot_expr_int(f.pool, 4), qdot_add(f.pool, y, times(&f, qdot_expr_int(f.pool, 2), z)))));
+        e = decimal(&f, "%.2f", fall);
+        bounce(&f, "a", y, e);
+        bounce(&f, "b", z, e);
+        f.q0[0] = f.q0[1] = decimal(&f, "%.2f", drop);
+        (void)height(written("%.2f", drop), 4, written("%.2f", fall), 0, &rest);
+        t = floor(100 * 0.8 * (double)rest) / 100;
+        truth = height(written("%.2f", drop), 4, written("%.2f", fall), written("%.2f", t), &rest);
+        value = value_at(&f, y, t, t, &error);
+        if (!(fabsl(value - truth) <= 1.5L * error) || !(error < 1e-11))
+            fail_msg("drop %g, e = %g: %.17g at %g, truth %.17Lg, stated %g", drop, fall, value, t, truth, error);
+        end(&f);
+    }
+}
+
 /* A block of mass m is pushed by a force of 1 against another of mass M ahead of it. */
 static void
 pushed_blocks_go_on_as_one(void **state)
@@ -217,6 +266,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls_rest_on_tables),
+        cmocka_unit_test(balls_land_together),
         cmocka_unit_test(pushed_blocks_go_on_as_one),
         cmocka_unit_test(balls_ride_on_driven_plates),
     };
