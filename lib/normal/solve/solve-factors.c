@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -134,6 +135,28 @@ common_order(const qdot_pool *pool, const qdot_walk *w, qdot_expr base)
     return n <= MOST_ORDER ? n : 1;
 }
 
+/* Whether p stands under roots of base alone, among the nodes of w, and in no magnitude: sqrt(1 - a) or |a| would be longer
+ * by v than by a. */
+static bool
+is_under_one_root(const qdot_pool *pool, const qdot_walk *w, qdot_expr base, qdot_expr p)
+{
+    bool one = true;
+
+    for (size_t i = 0; i < w->n && one; i++) {
+        const uint32_t count = qdot_expr_kind(pool, w->at[i]) == QDOT_PROD ? qdot_expr_count(pool, w->at[i]) : 0;
+
+        one = !(qdot_expr_is_function(pool, w->at[i], QDOT_ABS) || qdot_expr_is_function(pool, w->at[i], QDOT_SIGN)) ||
+              !qdot_expr_contains(pool, w->at[i], p);
+        for (uint32_t k = 1; k + 1 < count && one; k += 2) {
+            const qdot_expr of = qdot_expr_arg(pool, w->at[i], k);
+            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, w->at[i], k + 1));
+
+            one = of == base || (q != NULL && fmpz_is_one(fmpq_denref(q))) || !qdot_expr_contains(pool, of, p);
+        }
+    }
+    return one;
+}
+
 /* e with the first root of a linear function of a parameter written by v; e itself where there is none. */
 static qdot_expr
 without_root(qdot_pool *pool, qdot_expr e, struct roots *r)
@@ -155,7 +178,7 @@ without_root(qdot_pool *pool, qdot_expr e, struct roots *r)
             if (q == NULL || fmpz_is_one(fmpq_denref(q)))
                 continue;
             p = linear_parameter(pool, base, &slope);
-            order = p == QDOT_NIL ? 1 : common_order(pool, &w, base);
+            order = p == QDOT_NIL || !is_under_one_root(pool, &w, base, p) ? 1 : common_order(pool, &w, base);
         }
     }
     qdot_walk_end(&w);
