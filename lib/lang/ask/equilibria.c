@@ -17,6 +17,7 @@
 #include "lang/session/history.h"
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"
+#include "normal/solve/conditions.h"
 
 static qdot_status equilibria_list(qdot_record *r);
 
@@ -133,6 +134,16 @@ print_conditions(qdot_sheet *sheet, qdot_expr list)
 
             i += magnitude != QDOT_NIL;
             one = magnitude != QDOT_NIL ? magnitude : one;
+        }
+        if (qdot_conditions_nonzero(pool, one) != QDOT_NIL) {
+            const qdot_expr sides = qdot_conditions_unequal(pool, qdot_conditions_nonzero(pool, one));
+
+            qdot_sheet_open(sheet);
+            QDOT_TRY(qdot_sheet_expr(sheet, qdot_expr_arg(pool, sides, 0)));
+            qdot_sheet_sign(sheet, QDOT_SIGN_UNEQUAL);
+            QDOT_TRY(qdot_sheet_expr(sheet, qdot_expr_arg(pool, sides, 1)));
+            qdot_sheet_close(sheet);
+            continue;
         }
         if (!is_bound(pool, one) ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {

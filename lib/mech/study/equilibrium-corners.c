@@ -427,13 +427,13 @@ force_beside(const qdot_rest *r, qdot_expr force, qdot_expr q, qdot_expr at, boo
 }
 
 qdot_status
-qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value, const qdot_facts *facts, bool *yes)
+qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value, const qdot_facts *facts, qdot_held *held)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr forces, q, at, upper, lower;
+    qdot_expr forces, q, at, upper, lower, there;
     qdot_status status;
 
-    *yes = false;
+    *held = QDOT_HELD_UNKNOWN;
     if (r->s->coordinates.n != 1 || r->s->constraints.n > 0 || r->friction != QDOT_NIL ||
         qdot_expr_count(pool, values) != 1)
         return QDOT_OK;
@@ -443,10 +443,19 @@ qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value, 
     forces = qdot_subs(pool, qdot_expr_arg(pool, forces, 0), 1, &p, &value);
     upper = forces == QDOT_NIL ? QDOT_NIL : force_beside(r, forces, q, at, true, facts);
     lower = upper == QDOT_NIL ? QDOT_NIL : force_beside(r, forces, q, at, false, facts);
-    if (lower != QDOT_NIL)
-        *yes = qdot_condition(pool, qdot_neg(pool, upper), false, facts) == QDOT_TRUE &&
-               qdot_condition(pool, lower, false, facts) == QDOT_TRUE;
+    there = lower == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, forces, 1, &q, &at);
+    if (there != QDOT_NIL) {
+        const qdot_expr down = qdot_condition(pool, qdot_neg(pool, upper), false, facts),
+                        up = qdot_condition(pool, lower, false, facts);
+
+        if (down == QDOT_TRUE && up == QDOT_TRUE)
+            *held = QDOT_HELD;
+        else if ((down == QDOT_FALSE || up == QDOT_FALSE) &&
+                 qdot_condition(pool, qdot_fun1(pool, QDOT_ABS, there), true, facts) == QDOT_TRUE)
+            *held = QDOT_NOT_HELD;
+    }
     status = qdot_pool_check(pool);
-    *yes = *yes && status == QDOT_OK;
+    if (status != QDOT_OK)
+        *held = QDOT_HELD_UNKNOWN;
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }

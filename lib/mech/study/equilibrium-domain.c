@@ -63,6 +63,19 @@ with_divisors(const qdot_rest *r, qdot_expr set)
     return add_conditions(r, set, r->forces, qdot_conditions_of_divisors, true);
 }
 
+/* The set and that the coordinates are inside their declared domains. */
+static qdot_expr
+with_domains(const qdot_rest *r, qdot_expr set)
+{
+    for (size_t i = 0; i < r->s->coordinates.n && set != QDOT_FALSE; i++) {
+        const qdot_expr q = r->s->coordinates.at[i];
+        const qdot_window w = qdot_solve_window(r->pool, q, false);
+
+        set = qdot_conditions_all(r->pool, set, qdot_window_relations(r->pool, &w, q));
+    }
+    return set;
+}
+
 /* What is 0 where a condition fails that generic parameters fulfil; nil: they do not, or it never fails. */
 static qdot_expr
 single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
@@ -82,35 +95,33 @@ single_failure(qdot_pool *pool, qdot_expr condition, const qdot_facts *facts)
     return u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
 }
 
-static void
-append_once(qdot_pool *pool, qdot_expr *list, qdot_expr e)
-{
-    if (!qdot_list_has(pool, *list, e))
-        *list = qdot_list_appended(pool, *list, 1, &e);
-}
-
-/* What is 0 where the k-th place exists but for this condition; nil: there is no such value. */
+/* Add to the LIST what is 0 where the k-th place exists but for this condition. */
 static qdot_status
-failure_at(const qdot_rest *r, size_t k, qdot_expr condition, qdot_expr *u)
+add_failures_at(const qdot_rest *r, size_t k, qdot_expr condition, qdot_expr *list)
 {
     qdot_pool *pool = r->pool;
     const qdot_equilibrium *e = &r->found.at[k];
-    qdot_expr room[QDOT_CONDITIONS_MOST];
+    qdot_expr room[QDOT_CONDITIONS_MOST], u = QDOT_NIL, all = QDOT_NIL;
     const qdot_facts facts = qdot_facts_and(pool, &r->facts, e->exists, room);
     qdot_status status;
-    bool excluded = false;
 
-    *u = QDOT_NIL;
     condition = qdot_simultaneous_put(pool, condition, e->equations);
     if (condition != QDOT_NIL)
         condition = qdot_solve_without_turns(pool, condition);
     if (condition != QDOT_NIL && qdot_expr_kind(pool, condition) == QDOT_REL && qdot_is_generic(pool, condition))
-        *u = single_failure(pool, condition, &facts);
+        u = single_failure(pool, condition, &facts);
     status = qdot_pool_check(pool);
-    if (status == QDOT_OK && *u != QDOT_NIL)
-        status = qdot_rest_is_excluded(r, e->exists, *u, &excluded);
-    if (excluded)
-        *u = QDOT_NIL;
+    if (status == QDOT_OK && u != QDOT_NIL)
+        status = qdot_rest_add_factors(pool, u, &all);
+    for (uint32_t i = 0; status == QDOT_OK && all != QDOT_NIL && i < qdot_expr_count(pool, all); i++) {
+        const qdot_expr one = qdot_expr_arg(pool, all, i);
+        bool out = qdot_list_has(pool, *list, one);
+
+        if (!out)
+            status = qdot_rest_is_excluded(r, e->exists, one, &out);
+        if (!out)
+            *list = qdot_list_appended(pool, *list, 1, &one);
+    }
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
@@ -118,23 +129,22 @@ qdot_status
 qdot_rest_undefined(const qdot_rest *r, qdot_expr *everywhere, qdot_expr *special)
 {
     qdot_pool *pool = r->pool;
-    const qdot_expr set = with_divisors(r, r->system.domain);
+    const qdot_expr set = with_domains(r, with_divisors(r, r->system.domain));
     qdot_expr others = *special;
 
     *everywhere = *special = QDOT_NIL;
     for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++)
         for (size_t k = 0; k < r->found.n; k++) {
             const qdot_expr condition = qdot_expr_arg(pool, set, i);
-            qdot_expr u;
 
-            if (r->found.at[k].numeric)
-                continue;
-            QDOT_TRY(failure_at(r, k, condition, &u));
-            if (u != QDOT_NIL)
-                append_once(pool, qdot_is_generic(pool, condition) ? everywhere : &others, u);
+            if (!r->found.at[k].numeric)
+                QDOT_TRY(add_failures_at(r, k, condition, qdot_is_generic(pool, condition) ? everywhere : &others));
         }
-    for (uint32_t i = 0; others != QDOT_NIL && i < qdot_expr_count(pool, others); i++)
-        if (!qdot_list_has(pool, *everywhere, qdot_expr_arg(pool, others, i)))
-            append_once(pool, special, qdot_expr_arg(pool, others, i));
+    for (uint32_t i = 0; others != QDOT_NIL && i < qdot_expr_count(pool, others); i++) {
+        const qdot_expr one = qdot_expr_arg(pool, others, i);
+
+        if (!qdot_list_has(pool, *everywhere, one))
+            *special = qdot_list_appended(pool, *special, 1, &one);
+    }
     return qdot_pool_check(pool);
 }

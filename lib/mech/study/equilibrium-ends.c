@@ -6,6 +6,7 @@
  * a > 0. */
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -99,25 +100,32 @@ are_inside(const end *e, qdot_expr values)
     return inside;
 }
 
+/* Whether the j-th equilibrium has these values; `always`: and is proved to exist. */
+static bool
+is_place(const end *e, size_t j, qdot_expr values, bool always)
+{
+    const qdot_rest *r = e->r;
+    const qdot_simultaneous_solution one = {values, e->others};
+    qdot_simultaneous_solution all = {.conditions = QDOT_NIL};
+    qdot_expr exists;
+
+    if (j == e->place || r->found.at[j].numeric || r->found.at[j].range != QDOT_NIL)
+        return false;
+    all.values = at_end(e, r->found.at[j].equations);
+    if (is_undefined(r->pool) || !qdot_simultaneous_lies_in(&r->system, &one, &all))
+        return false;
+    exists = qdot_conditions_at(r->pool, r->found.at[j].exists, 1, &e->p, &e->value, &e->facts);
+    return !is_undefined(r->pool) && (always ? exists == QDOT_NIL : exists != QDOT_FALSE);
+}
+
 /* Whether another equilibrium that is proved to exist has these values. */
 static bool
 is_listed(const end *e, qdot_expr values)
 {
-    const qdot_rest *r = e->r;
-    const qdot_simultaneous_solution one = {values, e->others};
     bool listed = false;
 
-    for (size_t j = 0; j < r->found.n && !listed; j++) {
-        qdot_simultaneous_solution all = {.conditions = QDOT_NIL};
-
-        if (j == e->place || r->found.at[j].numeric || r->found.at[j].range != QDOT_NIL)
-            continue;
-        all.values = at_end(e, r->found.at[j].equations);
-        if (is_undefined(r->pool) || !qdot_simultaneous_lies_in(&r->system, &one, &all))
-            continue;
-        listed = qdot_conditions_at(r->pool, r->found.at[j].exists, 1, &e->p, &e->value, &e->facts) == QDOT_NIL;
-        listed = !is_undefined(r->pool) && listed;
-    }
+    for (size_t j = 0; j < e->r->found.n && !listed; j++)
+        listed = is_place(e, j, values, true);
     return listed;
 }
 
@@ -155,11 +163,11 @@ judge_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr p, con
     if (is_undefined(pool))
         return IS_NONE;
     if (!are_zero(&e, there)) { /* at a kink the equations have another value than beside it */
-        bool held;
+        qdot_held held;
 
         if (qdot_rest_is_held(r, values, p, value, &e.facts, &held) != QDOT_OK)
             (void)qdot_pool_fail(pool);
-        return !held ? IS_NONE : is_listed(&e, values) ? IS_LISTED : IS_NEW;
+        return held != QDOT_HELD ? IS_NONE : is_listed(&e, values) ? IS_LISTED : IS_NEW;
     }
     (void)qdot_simultaneous_put(pool, at_end(&e, r->system.defined), values);
     if (is_undefined(pool))
@@ -318,9 +326,10 @@ qdot_rest_ends(qdot_rest *r, qdot_expr *special)
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
-/* Whether the equilibrium at which kinks meet, where `gap` = 0, is listed. */
+/* Whether it is known that the point at which kinks meet, where `gap` = 0, is listed if it is an equilibrium; if it is
+ * proved to be none, the places that are this point exist where gap != 0 alone. */
 static qdot_status
-meeting_is_listed(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *yes)
+settle_meeting(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *known)
 {
     qdot_pool *pool = r->pool;
     qdot_expr atoms = qdot_expr_atoms(pool, gap, false);
@@ -328,7 +337,7 @@ meeting_is_listed(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *yes)
     qdot_solutions zero = {0};
     qdot_status status = qdot_pool_check(pool);
 
-    *yes = false;
+    *known = false;
     for (uint32_t i = 0; status == QDOT_OK && i < qdot_expr_count(pool, atoms) && e.p == QDOT_NIL; i++)
         if (qdot_expr_is_class(pool, qdot_expr_arg(pool, atoms, i), QDOT_PARAM))
             e.p = qdot_expr_arg(pool, atoms, i);
@@ -337,11 +346,20 @@ meeting_is_listed(qdot_rest *r, qdot_expr gap, qdot_expr at, bool *yes)
     e.facts.exact = true;
     status = qdot_solve(pool, gap, e.p, &r->facts, &zero);
     if (status == QDOT_OK && zero.complete && zero.root.n == 1 && zero.root.at[0].period == QDOT_NIL) {
-        qdot_expr equation;
+        qdot_expr equation, values;
+        qdot_held held = QDOT_HELD_UNKNOWN;
 
         e.value = zero.root.at[0].value;
         equation = qdot_rel(pool, QDOT_EQ, r->s->coordinates.at[0], at_end(&e, at));
-        *yes = !is_undefined(pool) && is_listed(&e, qdot_list(pool, 1, &equation));
+        values = qdot_list(pool, 1, &equation);
+        if (!is_undefined(pool))
+            status = qdot_rest_is_held(r, values, e.p, e.value, &e.facts, &held);
+        *known = held != QDOT_NOT_HELD && is_listed(&e, values);
+        for (size_t j = 0; j < r->found.n && status == QDOT_OK && held == QDOT_NOT_HELD; j++)
+            if (is_place(&e, j, values, false))
+                r->found.at[j].exists = qdot_conditions_and(
+                    pool, r->found.at[j].exists,
+                    qdot_condition(pool, qdot_fun1(pool, QDOT_ABS, gap), true, &e.facts));
     }
     qdot_solutions_clear(&zero);
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
@@ -355,10 +373,10 @@ qdot_rest_meetings(qdot_rest *r, qdot_expr *left)
     *left = QDOT_NIL;
     for (uint32_t i = 0; r->meeting != QDOT_NIL && i < qdot_expr_count(pool, r->meeting); i++) {
         qdot_expr one = qdot_expr_arg(pool, r->meeting, i), gap = qdot_expr_arg(pool, one, 0);
-        bool listed;
+        bool known;
 
-        QDOT_TRY(meeting_is_listed(r, gap, qdot_expr_arg(pool, one, 1), &listed));
-        if (!listed)
+        QDOT_TRY(settle_meeting(r, gap, qdot_expr_arg(pool, one, 1), &known));
+        if (!known)
             append_new(pool, left, qdot_list(pool, 1, &gap));
     }
     return qdot_pool_check(pool);

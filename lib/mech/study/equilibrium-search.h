@@ -61,10 +61,15 @@ QDOT_MUST_CHECK qdot_status qdot_rest_is_corner(qdot_rest *r, qdot_expr place, b
 /* Add branches of the search for points at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
 
-/* Whether the only coordinate, at its value in `values`, a LIST, is proved to be held there with p = value put in: the
- * force beside it does not push away. (equilibrium-corners.c) */
+typedef enum {
+    QDOT_HELD_UNKNOWN,
+    QDOT_HELD,    /* the force beside it does not push away */
+    QDOT_NOT_HELD /* it does on one side at least, and there is a force at the place itself */
+} qdot_held;
+
+/* What is proved of the only coordinate at its value in `values`, a LIST, with p = value put in. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_is_held(qdot_rest *r, qdot_expr values, qdot_expr p, qdot_expr value,
-                                              const qdot_facts *facts, bool *yes);
+                                              const qdot_facts *facts, qdot_held *held);
 
 /* The members of a LIST with jumps of coordinates written as signs, where that is possible: else r->unresolved.
  * (equilibrium-kinks.c) */
@@ -94,13 +99,17 @@ QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
  * too, and no other place is the same one there. Where that holds of some factors of b - a alone, these are added to
  * the LIST *special (nil: none). (equilibrium-ends.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r, qdot_expr *special);
-/* After that: a LIST of expressions that vanish where two kinks meet at an unlisted point; nil: none. */
+/* After that: a LIST of expressions that vanish where two kinks meet at a point of which it is not known whether it is
+ * listed rightly; nil: none. Places that are none there get the condition that the expression is not 0. */
 QDOT_MUST_CHECK qdot_status qdot_rest_meetings(qdot_rest *r, qdot_expr *left);
 
 /* A LIST of what the places [n] divide by that may be 0 at some values of parameters; nil: none.
  * (equilibrium-special.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places,
                                               qdot_expr *special);
+
+/* Append those factors of e that may be 0 to the LIST, sqrt(a) and |a| as a. (equilibrium-special.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list);
 
 /* Of a scene in which no place is found, to the LIST *special what of parameters alone is 0 where there may be one; where
  * that is not known r->system.complete becomes false. (equilibrium-special.c) */

@@ -6,6 +6,7 @@
  * 0 < theta < pi leaves out the poles of a sphere, where a rest may be: such an end of a chart is told too. */
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/list.h"
 #include "expr/node.h"
@@ -45,6 +46,24 @@ qdot_rest_is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *y
     }
     qdot_solutions_clear(&zero);
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+qdot_status
+qdot_rest_add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list)
+{
+    qdot_expr factors = e == QDOT_NIL ? QDOT_NIL : qdot_solve_factors(pool, e);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, factors); i++) {
+        const qdot_expr one = qdot_expr_arg(pool, factors, i);
+        const bool root = qdot_expr_kind(pool, one) == QDOT_PROD && qdot_expr_count(pool, one) == 3;
+
+        if (root || qdot_expr_is_function(pool, one, QDOT_ABS))
+            QDOT_TRY(qdot_rest_add_factors(pool, qdot_expr_arg(pool, one, root ? 1 : 0), list));
+        else if (!qdot_list_has(pool, *list, one) && (qdot_expr_node(pool, one)->sign & QDOT_NE0) == 0)
+            *list = qdot_list_appended(pool, *list, 1, &one);
+    }
+    return qdot_pool_check(pool);
 }
 
 /* Append the divisors of an equilibrium that may vanish to *special. */
@@ -89,24 +108,6 @@ qdot_rest_special(const qdot_rest *r, size_t n, const qdot_equilibrium *places, 
 }
 
 /* --- no place at all ------------------------------------------------------------------------------ */
-
-/* Add the factors of e that may be 0 to the LIST, sqrt(a) as a. */
-static qdot_status
-add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list)
-{
-    qdot_expr factors = e == QDOT_NIL ? QDOT_NIL : qdot_solve_factors(pool, e);
-
-    QDOT_TRY(qdot_pool_check(pool));
-    for (uint32_t i = 0; i < qdot_expr_count(pool, factors); i++) {
-        const qdot_expr one = qdot_expr_arg(pool, factors, i);
-
-        if (qdot_expr_kind(pool, one) == QDOT_PROD && qdot_expr_count(pool, one) == 3)
-            QDOT_TRY(add_factors(pool, qdot_expr_arg(pool, one, 1), list));
-        else if (!qdot_list_has(pool, *list, one) && (qdot_expr_node(pool, one)->sign & QDOT_NE0) == 0)
-            *list = qdot_list_appended(pool, *list, 1, &one);
-    }
-    return qdot_pool_check(pool);
-}
 
 /* What of parameters is 0 where conditions hold that generic parameters do not fulfil, one alone as -a^2 >= 0, or two as
  * a >= 1 and a <= 1; nil: this is not known. */
@@ -154,7 +155,7 @@ add_single_values(qdot_rest *r, qdot_expr *special)
         if (zero == QDOT_NIL)
             r->system.complete = false;
         else if (status == QDOT_OK)
-            status = add_factors(r->pool, zero, special);
+            status = qdot_rest_add_factors(r->pool, zero, special);
     }
     qdot_rest_end(&exact);
     return status;
@@ -164,7 +165,7 @@ qdot_status
 qdot_rest_none(qdot_rest *r, qdot_expr *special)
 {
     for (size_t i = 0; i < r->system.special.n; i++)
-        QDOT_TRY(add_factors(r->pool, r->system.special.at[i], special));
+        QDOT_TRY(qdot_rest_add_factors(r->pool, r->system.special.at[i], special));
     return r->formulas ? add_single_values(r, special) : QDOT_OK; /* numbers have values of parameters */
 }
 
