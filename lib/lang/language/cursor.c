@@ -8,6 +8,7 @@
 #include "base/spelling.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/language/evaluator.h"
 #include "lang/session/names.h"
 #include "mech/scene/scene.h"
 
@@ -62,7 +63,7 @@ qdot_cursor_find_word(const qdot_cursor *c, const char *word)
     }
 }
 
-/* --- errors ------------------------------------------------------------------------- */
+/* --- tokens ------------------------------------------------------------------------- */
 
 static bool
 is_one_of(const qdot_token *t, const char *const *list)
@@ -101,6 +102,43 @@ qdot_cursor_knows(const qdot_session *s, const char *name)
            strcmp(name, "pi") == 0 || strcmp(name, "t") == 0;
 }
 
+/* --- products as the screen shows them ------------------------------------------------ */
+
+/* Whether the word joins parts of a statement, as in `2 on bob`, and is no missing factor. */
+static bool
+joins_parts(const qdot_session *s, const qdot_token *t)
+{
+    static const char *const words[] = {"on", "at", "from", "to", "between", "of", "with", "when", "then", "in", NULL};
+
+    return t->kind == QDOT_TOKEN_NAME && !t->glued && is_one_of(t, words) && !qdot_cursor_knows(s, t->text);
+}
+
+/* Whether the name has a meaning, also as a differential, du or δs, or as the member that a subscript denotes, l₃. */
+static bool
+knows_factor(const qdot_session *s, const char *name)
+{
+    qdot_text member = {0};
+    bool known = qdot_cursor_knows(s, name) || (name[0] == 'd' && qdot_cursor_knows(s, name + 1)) ||
+                 (strncmp(name, "delta", 5) == 0 && qdot_cursor_knows(s, name + 5));
+
+    for (unsigned form = 0; !known && qdot_resolve_small(name, form, &member); form++)
+        known = qdot_cursor_knows(s, qdot_text_str(&member));
+    qdot_text_clear(&member);
+    return known;
+}
+
+bool
+qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside)
+{
+    if (!t->shown || t->glued || !token_ends_operand(t - 1))
+        return false;
+    if (t->kind != QDOT_TOKEN_NAME)
+        return t->kind != QDOT_TOKEN_NUMBER && begins_operand(t);
+    return token_ends_operand(t) && (inside || (knows_factor(s, t->text) && !joins_parts(s, t)));
+}
+
+/* --- errors ------------------------------------------------------------------------- */
+
 /* A hint for the syntax of other systems at this place. */
 static qdot_status
 hint_foreign(const qdot_token *t)
@@ -133,6 +171,8 @@ operand_start(const qdot_cursor *c, const qdot_token *last)
     const qdot_token *t = last, *first = c->source->tokens.at;
     long depth = 0;
 
+    while (t > first + 1 && t->kind == QDOT_TOKEN_NUMBER && qdot_token_is(t - 1, "^") && t->start == t[-1].start)
+        t -= 2; /* x² */
     while (t > first && qdot_token_is(t, "'"))
         t--;
     for (; t > first; t--) {
@@ -180,15 +220,6 @@ missing_times(qdot_cursor *c, const qdot_token *before)
     left = (int)(before->start + before->length - from->start);
     return qdot_hint("write %.*s*%.*s", left, c->source->text + from->start,
                      (int)(to - t->start), c->source->text + t->start);
-}
-
-/* Whether the word joins parts of a statement, as in `2 on bob`, and is no missing factor. */
-static bool
-joins_parts(const qdot_cursor *c, const qdot_token *t)
-{
-    static const char *const words[] = {"on", "at", "from", "to", "between", "of", "with", "when", "then", "in", NULL};
-
-    return t->kind == QDOT_TOKEN_NAME && !t->glued && is_one_of(t, words) && !qdot_cursor_knows(c->session, t->text);
 }
 
 static qdot_status
@@ -268,7 +299,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         found(what, t); /* `2 tol` among words is no product */
         return hint_word(what, t->text);
     }
-    if (joins_parts(c, t)) {
+    if (joins_parts(c->session, t)) {
         found(what, t);
         return hint_foreign(t);
     }

@@ -301,6 +301,16 @@ is_function(const parser *p, const char *name)
                : qdot_resolve_is_function(s, name);
 }
 
+/* Whether the name before ` (` may be a function: as the screen shows products, only one that is declared as such. */
+static bool
+may_be_called(const parser *p, const qdot_token *name)
+{
+    if (name->shown)
+        return is_function(p, name->text);
+    return qdot_names_find(p->c->session->names, name->text) == NULL ||
+           qdot_resolve_is_function(p->c->session, name->text);
+}
+
 static qdot_status
 parse_name(parser *p)
 {
@@ -324,9 +334,7 @@ parse_name(parser *p)
     }
     n = primes(p);
     next = p->c->at;
-    if (qdot_token_is(next, "(") && (n == 0 || next->glued) &&
-        (next->glued || qdot_names_find(p->c->session->names, t->text) == NULL ||
-         qdot_resolve_is_function(p->c->session, t->text)))
+    if (qdot_token_is(next, "(") && (n == 0 || next->glued) && (next->glued || may_be_called(p, t)))
         return call(p, t, n, 0);
     if (n == 0 && is_raised(p, next) && is_function(p, t->text) &&
         (qdot_token_is(next + 1, "-") || qdot_token_is(next + 2, "(")))
@@ -630,6 +638,8 @@ after(parser *p)
             p->c->at++;
             return binary(p, kind, t);
         }
+    if (qdot_cursor_is_shown_product(p->c->session, t, p->depth > 0))
+        return binary(p, OP_PRODUCT, t);
     if (p->depth == 0) {
         p->done = true;
         return reduce_all(p);

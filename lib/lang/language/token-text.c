@@ -116,7 +116,10 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
 
         if (words && qdot_token_is(k - 1, "%"))
             words = false;
-        qdot_text_add(out, binary || words ? " " : "");
+        if (k > from && qdot_cursor_is_shown_product(session, k, depth > 0))
+            qdot_text_char(out, '*');
+        else
+            qdot_text_add(out, binary || words ? " " : "");
         if (k->kind == QDOT_TOKEN_STRING)
             qdot_text_format(out, "\"%s\"", k->text);
         else if (add_sign(k, to, out, &used))

@@ -83,8 +83,11 @@ char_is_digit(char c)
 static qdot_status
 token_push(lexer *x, qdot_token_kind kind, const char *text, size_t start, size_t end)
 {
-    qdot_token token = {kind, !x->blank && x->tokens.n > 0, text, (uint32_t)start,
-                        (uint32_t)(end - start)};
+    qdot_token token = {.kind = (uint8_t)kind,
+                        .glued = !x->blank && x->tokens.n > 0,
+                        .text = text,
+                        .start = (uint32_t)start,
+                        .length = (uint32_t)(end - start)};
 
     if (x->tokens.n >= QDOT_LEX_TOKENS)
         return qdot_fail(QDOT_ELIMIT, "the script has more than %u words and signs",
@@ -107,13 +110,30 @@ last_is_kind(const lexer *x, qdot_token_kind kind)
     return x->tokens.n > 0 && x->tokens.at[x->tokens.n - 1].kind == kind;
 }
 
+/* Whether a sign or a number is written with characters beyond ASCII. */
+static bool
+is_beyond_ascii(const lexer *x, const qdot_token *t)
+{
+    for (uint32_t i = 0; i < t->length && (t->kind == QDOT_TOKEN_OPERATOR || t->kind == QDOT_TOKEN_NUMBER); i++)
+        if ((x->source->text[t->start + i] & 0x80) != 0)
+            return true;
+    return false;
+}
+
 /* Push the end of a statement; empty statements leave no token. */
 static qdot_status
 push_end(lexer *x, size_t start, size_t end)
 {
+    size_t first = x->tokens.n;
+    bool shown = false;
+
     if (x->tokens.n == 0 || last_is_kind(x, QDOT_TOKEN_END) ||
         (last_is_kind(x, QDOT_TOKEN_OPERATOR) && strcmp(last_text(x), "{") == 0))
         return QDOT_OK;
+    for (; first > 0 && x->tokens.at[first - 1].kind != QDOT_TOKEN_END; first--)
+        shown = shown || is_beyond_ascii(x, &x->tokens.at[first - 1]);
+    for (; shown && first < x->tokens.n; first++)
+        x->tokens.at[first].shown = true;
     return token_push(x, QDOT_TOKEN_END, "", start, end);
 }
 
@@ -537,6 +557,7 @@ lex_all(lexer *x, qdot_text *buffer)
         x->i = opened->start;
         return qdot_refuse_open(x->source->text, x->i);
     }
+    QDOT_TRY(push_end(x, x->source->length, x->source->length));
     /* in any case the last token is an END */
     if (!last_is_kind(x, QDOT_TOKEN_END))
         return token_push(x, QDOT_TOKEN_END, "", x->source->length, x->source->length);

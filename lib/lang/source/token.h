@@ -19,6 +19,8 @@ typedef enum {
 typedef struct qdot_token {
     uint8_t kind;
     bool glued;             /* no blank before it */
+    bool shown;             /* its statement has signs or numbers beyond ASCII, as ½, ², √ and the dot of θ̇: it is
+                             * written as the screen shows formulas */
     const char *text;       /* NUL-terminated, in the source's arena */
     uint32_t start, length; /* bytes in the source */
 } qdot_token;
