@@ -17,12 +17,4 @@ void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, 
  * others of the same digits, and is not printed. */
 bool qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e);
 
-/* Whether x is printed as a decimal number, 9.81: its denominator has a factor 5 and no other
- * prime factors except 2; at most 40 digits if that is longer than the fraction. */
-bool qdot_print_is_decimal(const fmpq_t x);
-
-/* Whether x is an integer, a decimal number or a single character such as ½: a root may directly
- * follow it. */
-bool qdot_print_is_compact(const fmpq_t x);
-
 #endif

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "expr/print-parts.h"
 #include "expr/rational.h"
+#include "expr/walk.h"
 
 static const struct {
     int p, q;
@@ -96,8 +97,8 @@ as_decimal(const fmpq_t x, struct decimal *d)
            more <= count_digits(fmpq_denref(x));
 }
 
-bool
-qdot_print_is_decimal(const fmpq_t x)
+static bool
+is_decimal(const fmpq_t x)
 {
     struct decimal d;
 
@@ -105,9 +106,68 @@ qdot_print_is_decimal(const fmpq_t x)
 }
 
 bool
-qdot_print_is_compact(const fmpq_t x)
+qdot_print_says_decimal(const printer *p, const fmpq_t x)
 {
-    return fmpz_is_one(fmpq_denref(x)) || glyph(x) != NULL || qdot_print_is_decimal(x);
+    return !p->fractions && is_decimal(x);
+}
+
+/* The numbers of an expression: fractions without a decimal form, as 5/3; decimals; of these the ones whose fraction is
+ * long. Fractions with a denominator 2, 4, 8 ... go with both. */
+struct numbers {
+    bool fraction, decimal, long_decimal;
+};
+
+enum { SHORT_DENOMINATOR = 10000 };
+
+static void
+note_number(const fmpq_t x, struct numbers *seen)
+{
+    ulong fives, twos;
+
+    if (fmpz_is_one(fmpq_denref(x)))
+        return;
+    if (is_decimal(x)) {
+        seen->decimal = true;
+        seen->long_decimal |= COEFF_IS_MPZ(*fmpq_denref(x)) || *fmpq_denref(x) > SHORT_DENOMINATOR;
+    } else {
+        seen->fraction |= !fives_and_twos(fmpq_denref(x), &fives, &twos);
+    }
+}
+
+/* Look at the numbers among the arguments of a node; a number that is an exponent says nothing of the others. */
+static void
+note_arguments(const qdot_pool *pool, qdot_expr e, struct numbers *seen)
+{
+    const qdot_node *node = NODE(pool, e);
+    const uint32_t step = node->kind == QDOT_PROD ? 2 : 1;
+
+    for (uint32_t i = 0; i < node->n; i += i == 0 ? 1 : step) {
+        const qdot_expr k = ARGS(pool, e)[i];
+
+        if (NODE(pool, k)->kind == QDOT_NUM)
+            note_number(RATIONAL(pool, k), seen);
+    }
+}
+
+qdot_status
+qdot_print_wants_fractions(const qdot_pool *pool, qdot_expr e, bool *wants)
+{
+    struct numbers seen = {0};
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n; i++)
+        if (NODE(pool, w.at[i])->kind != QDOT_NUM && NODE(pool, w.at[i])->kind != QDOT_SYM)
+            note_arguments(pool, w.at[i], &seen);
+    qdot_walk_end(&w);
+    *wants = seen.fraction && seen.decimal && !seen.long_decimal;
+    return QDOT_OK;
+}
+
+bool
+qdot_print_is_compact(const printer *p, const fmpq_t x)
+{
+    return fmpz_is_one(fmpq_denref(x)) || glyph(x) != NULL || qdot_print_says_decimal(p, x);
 }
 
 static void
@@ -289,7 +349,7 @@ qdot_print_number(printer *p, const fmpq_t x, int bracket)
     const qdot_formula_id outer = p->at;
     struct decimal d;
 
-    if (as_decimal(x, &d)) {
+    if (!p->fractions && as_decimal(x, &d)) {
         print_decimal(p, x, &d, bracket);
         return;
     }

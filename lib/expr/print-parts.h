@@ -24,6 +24,7 @@ typedef struct {
     qdot_notation_kind notation;
     qdot_expr ascending; /* a LIST: order terms by their degree in these; nil: canonical order */
     qdot_expr below; /* a difference in denominators of several matrix entries: keeps its sign */
+    bool fractions; /* decimals are written as fractions, too: 1/5 beside 5/3 */
     bool below_turned, turning; /* it is negated; such an entry is being opened */
     qdot_formula *out;
     qdot_formula_id at;     /* the node to which children are appended */
@@ -121,6 +122,14 @@ children(printer *p, qdot_expr e, uint32_t from, uint32_t to)
 /* Print a name that belongs to no symbol, such as a function's. (print-symbol.c) */
 void qdot_print_spelled(printer *p, const char *name);
 void qdot_print_symbol_parts(printer *p, qdot_expr e);
+/* Whether x is written as a decimal number here, 9.81: its denominator has a factor 5 and no other prime factors except
+ * 2; at most 40 digits if that is longer than the fraction. (print-number.c) */
+bool qdot_print_says_decimal(const printer *p, const fmpq_t x);
+/* Whether x is an integer, a decimal number or a single character such as ½: a root may directly follow it. */
+bool qdot_print_is_compact(const printer *p, const fmpq_t x);
+/* Whether e holds a fraction that has no decimal form beside decimals that are short fractions. Errors: QDOT_ENOMEM,
+ * QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_print_wants_fractions(const qdot_pool *pool, qdot_expr e, bool *wants);
 /* p/q; bracket 1: a negative number in brackets, 2: a fraction too. (print-number.c) */
 void qdot_print_number(printer *p, const fmpq_t x, int bracket);
 void qdot_print_integer(printer *p, uint32_t n);

@@ -54,7 +54,7 @@ number_exponent(printer *p, const fmpq *x, bool size)
     qdot_rational_set(c, x);
     if (size)
         fmpq_abs(c, c);
-    if (!fmpz_is_one(fmpq_denref(c)) && !qdot_print_is_decimal(c)) {
+    if (!fmpz_is_one(fmpq_denref(c)) && !qdot_print_says_decimal(p, c)) {
         const bool minus = qdot_rational_sgn(c) < 0;
         qdot_formula_id outer = p->at;
 
@@ -119,7 +119,7 @@ print_exponent(printer *p, qdot_expr e, bool turned)
         return;
     }
     if (x != NULL)
-        bare = integer || ((qdot_rational_sgn(x) > 0 || turned) && qdot_print_is_decimal(x));
+        bare = integer || ((qdot_rational_sgn(x) > 0 || turned) && qdot_print_says_decimal(p, x));
     else if (turned) /* -n as n: the coefficient's sign is left out */
         bare = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
                ARGS(pool, e)[2] == QDOT_ONE &&
@@ -253,8 +253,9 @@ is_under(const qdot_pool *pool, const struct root *r, qdot_expr b, qdot_expr x)
 /* The factors of c e that go under one root, at least two of them. c sqrt(n), c = a/b, is
  * a/(b/g) sqrt((n/g)/g) with g = gcd(n, b): 1/3 sqrt(6) is sqrt(2/3). */
 static void
-find_common_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root *r)
+find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
 {
+    const qdot_pool *pool = p->pool;
     uint32_t n = NODE(pool, e)->kind == QDOT_PROD ? NODE(pool, e)->n : 0, out = 0, in = 0;
     const fmpq *number = NULL;
 
@@ -293,7 +294,7 @@ find_common_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root 
         fmpz_set(fmpq_denref(r->number), g);
         fmpz_clear(g);
     }
-    r->decimal = qdot_print_is_decimal(r->number);
+    r->decimal = qdot_print_says_decimal(p, r->number);
 }
 
 static void
@@ -407,7 +408,7 @@ joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
     if (NODE(p->pool, b)->kind != QDOT_NUM)
         return QDOT_SIGN_TIMES;
-    return is_sqrt(p->pool, e) && qdot_print_is_compact(number) ? QDOT_SIGN_TIMES /* 2 √3 */
+    return is_sqrt(p->pool, e) && qdot_print_is_compact(p, number) ? QDOT_SIGN_TIMES /* 2 √3 */
                                                                 : QDOT_SIGN_DOT;
 }
 
@@ -480,11 +481,11 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     qdot_expr turned = flip || negative ? turnable(p, e) : QDOT_NIL;
     bool minus = negative && turned == QDOT_NIL;
 
-    find_common_root(pool, x, e, &r);
+    find_common_root(p, x, e, &r);
     if (r.any)
         x = r.c;
 
-    bool decimal = qdot_print_is_decimal(x);
+    bool decimal = qdot_print_says_decimal(p, x);
     bool fraction = !decimal && !fmpz_is_one(fmpq_denref(x));
     uint32_t up = count_factors(pool, e, &r, false),
              down = count_factors(pool, e, &r, true);

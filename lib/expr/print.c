@@ -403,7 +403,7 @@ qdot_print_text(printer *p, const char *text)
 static uint32_t
 how(const printer *p, const struct part *x)
 {
-    return (uint32_t)(x->context - NUMERATOR) << 3 | (uint32_t)p->notation << 1 | x->turned;
+    return (uint32_t)(x->context - NUMERATOR) << 4 | (uint32_t)p->fractions << 3 | (uint32_t)p->notation << 1 | x->turned;
 }
 
 /* Print x; a sum, function or name that was printed before shares the children of its node. */
@@ -508,6 +508,7 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
         return qdot_pool_failed(pool) ? qdot_fail_again(&pool->error) /* why there is none */
                                       : qdot_fail(QDOT_EINVAL, "nothing to print");
     qdot_printed_begin(pool->printed, out);
+    QDOT_TRY(qdot_print_wants_fractions(pool, e, &p.fractions));
     find_below(&p, e);
     child(&p, e, TOP);
     while (p.status == QDOT_OK && p.todo.n > 0) {
