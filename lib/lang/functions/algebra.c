@@ -17,6 +17,7 @@
 #include "lang/session/evaluation.h"
 #include "lang/session/momenta.h"
 #include "mech/scene/things.h"
+#include "normal/simplify/circle.h"
 #include "normal/simplify/kinks.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
@@ -249,7 +250,7 @@ qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
             e = qdot_momenta_for(s, e, r.from.at[i]);
     if (status == QDOT_OK)
         status = qdot_value_kind_give(
-            s->pool, qdot_subs(s->pool, e, r.from.n, r.from.at, r.to.at), value);
+            s->pool, qdot_circle_join(s->pool, qdot_subs(s->pool, e, r.from.n, r.from.at, r.to.at)), value);
     qdot_algebra_drop(&r);
     return status;
 }

@@ -25,6 +25,7 @@
 #include "expr/walk.h"
 #include "normal/calculus/switch.h"
 #include "normal/prove/decide.h"
+#include "normal/simplify/circle.h"
 #include "normal/simplify/simplify.h"
 
 /* MOST_LEADING: orders searched for a leading coefficient. MOST_DEPTH: nesting that is expanded. */
@@ -518,7 +519,7 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
     const degree *d = user;
     course *x = d->x;
     laurent s = {0};
-    qdot_expr f = qdot_subs(pool, scalar, x->n, x->symbols, x->places.at), sum = QDOT_ZERO;
+    qdot_expr f = qdot_circle_join(pool, qdot_subs(pool, scalar, x->n, x->symbols, x->places.at)), sum = QDOT_ZERO;
     qdot_status status = qdot_value_kind_check(pool, f);
 
     if (status == QDOT_OK)
@@ -530,7 +531,7 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
             if (!qdot_is_zero(pool, coefficient(&s, k), &x->facts))
                 status = no_series(x, f, "it grows without bound at the point");
     for (long k = 0; k <= d->most && status == QDOT_OK; k++) {
-        qdot_expr c = coefficient(&s, k);
+        qdot_expr c = qdot_circle_join(pool, coefficient(&s, k));
 
         if (!is_polynomial(x, c)) {
             status = coefficient_shorten(x, &c);
