@@ -4,43 +4,26 @@
  * each part as it stands, with the values of a place put in. What only if(...) chooses need not be defined.
  * Parameters are generic: a place has no condition a != 0 of log(a^2) or 1/a. Such values are told with the list. */
 #include "expr/build.h"
-#include "expr/elementary.h"
 #include "expr/list.h"
 #include "expr/node.h"
-#include "expr/symbol.h"
-#include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
-static qdot_expr
-choice_symbol(qdot_pool *pool)
-{
-    return qdot_symbol_get(pool, QDOT_FORMAL, "(choice)");
-}
-
-static qdot_expr
-choice_as_symbol(qdot_pool *pool, qdot_expr e, void *user)
-{
-    (void)user;
-    return qdot_expr_is_function(pool, e, QDOT_IF) ? choice_symbol(pool) : e;
-}
-
 typedef qdot_expr conditions_of(qdot_pool *pool, qdot_expr f, qdot_expr x);
 
-/* The set, and the conditions of e outside of if(...); `generic`: those of parameters alone. */
+/* The set, and the conditions of e; `generic`: those of parameters alone. */
 static qdot_expr
 add_conditions(const qdot_rest *r, qdot_expr set, qdot_expr e, conditions_of *of, bool generic)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr all = qdot_walk_replace(pool, e, QDOT_FUN, choice_as_symbol, NULL);
+    const qdot_expr all = e == QDOT_NIL ? QDOT_NIL : of(pool, e, QDOT_NIL);
 
-    all = all == QDOT_NIL ? QDOT_NIL : of(pool, all, QDOT_NIL);
     for (uint32_t i = 0; all != QDOT_NIL && all != QDOT_FALSE && i < qdot_expr_count(pool, all); i++) {
-        qdot_expr one = qdot_expr_arg(pool, all, i);
+        const qdot_expr one = qdot_expr_arg(pool, all, i);
 
-        if (!qdot_expr_contains(pool, one, choice_symbol(pool)) && (!generic || qdot_is_generic(pool, one)))
+        if (!generic || qdot_is_generic(pool, one))
             set = qdot_conditions_and(pool, set, one);
     }
     return set;

@@ -417,6 +417,7 @@ qdot_conditions_generic(qdot_pool *pool, qdot_expr set)
         qdot_expr one = qdot_expr_arg(pool, set, i);
 
         if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op == QDOT_LE &&
+            !qdot_expr_is_function(pool, qdot_positive_of(pool, one), QDOT_IF) && /* where only a part may be 0 */
             qdot_is_taken_generic(pool, qdot_positive_of(pool, one), NULL))
             one = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0),
                            qdot_expr_arg(pool, one, 1));

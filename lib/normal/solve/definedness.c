@@ -2,8 +2,10 @@
 #include "expr/build.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
+#include "expr/function.h"
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "normal/inequality/less.h"
 #include "normal/solve/conditions.h"
 
 /* --- where a function is defined ------------------------------------------------------ */
@@ -63,6 +65,83 @@ conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_exp
  * contain x (nil: all). */
 typedef qdot_expr conditions_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x);
 
+/* --- what if(...) chooses --------------------------------------------------------------------------- */
+
+/* That c, a relation, does not hold; nil: c is none of < and <=. */
+static qdot_expr
+opposite_of(qdot_pool *pool, qdot_expr c)
+{
+    const qdot_rel_op op = qdot_expr_kind(pool, c) == QDOT_REL ? qdot_expr_node(pool, c)->op : QDOT_EQ;
+
+    if (op != QDOT_LT && op != QDOT_LE)
+        return QDOT_NIL;
+    return qdot_rel(pool, op == QDOT_LT ? QDOT_LE : QDOT_LT, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0));
+}
+
+/* Whether a < b or a <= b is proved where c holds. */
+static bool
+follows_from(qdot_pool *pool, qdot_expr relation, qdot_expr c)
+{
+    const qdot_facts facts = {.n_conditions = 1, .conditions = &c};
+    qdot_decision d;
+
+    if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_kind(pool, c) != QDOT_REL)
+        return false;
+    if (qdot_decide_less(pool, qdot_expr_arg(pool, relation, 0), qdot_expr_arg(pool, relation, 1),
+                         qdot_expr_node(pool, relation)->op == QDOT_LT, &facts, &d) != QDOT_OK) {
+        (void)qdot_pool_fail(pool);
+        return false;
+    }
+    return d.verdict == QDOT_PROVED;
+}
+
+/* if(c, gap, 1), or if(c, 1, gap) for what is not chosen by c. */
+static qdot_expr
+gap_where_chosen(qdot_pool *pool, qdot_expr gap, qdot_expr c, bool chosen)
+{
+    const qdot_expr args[3] = {c, chosen ? gap : QDOT_ONE, chosen ? QDOT_ONE : gap};
+
+    return gap == QDOT_NIL ? QDOT_NIL : qdot_fun(pool, QDOT_IF, 3, args);
+}
+
+/* The relation where c holds (`chosen`) or does not, and nothing elsewhere: a - 1 > 0 becomes if(c, a - 1, 1) > 0. */
+static qdot_expr
+where_chosen(qdot_pool *pool, qdot_expr relation, qdot_expr c, bool chosen)
+{
+    const qdot_expr u = qdot_conditions_nonzero(pool, relation), opposite = opposite_of(pool, c),
+                    here = chosen ? c : opposite;
+    qdot_expr gap = u != QDOT_NIL ? u : qdot_sub(pool, qdot_expr_arg(pool, relation, 1), qdot_expr_arg(pool, relation, 0));
+
+    if (opposite != QDOT_NIL && follows_from(pool, relation, here))
+        return QDOT_TRUE;
+    if (opposite != QDOT_NIL && u == QDOT_NIL && follows_from(pool, opposite_of(pool, relation), here))
+        return chosen ? opposite : c;
+    gap = gap_where_chosen(pool, gap, c, chosen);
+    gap = gap == QDOT_NIL || u == QDOT_NIL ? gap : qdot_fun1(pool, QDOT_ABS, gap);
+    return gap == QDOT_NIL ? QDOT_NIL : qdot_rel(pool, qdot_expr_node(pool, relation)->op, QDOT_ZERO, gap);
+}
+
+static qdot_expr conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part);
+
+/* The set with the conditions of both values that `choice`, if(...), may take. */
+static qdot_expr
+conditions_of_choice(qdot_pool *pool, qdot_expr set, qdot_expr choice, qdot_expr x, conditions_of_part *of_part)
+{
+    const qdot_expr c = qdot_expr_arg(pool, choice, 0);
+
+    for (uint32_t k = 1; k <= 2; k++) {
+        const qdot_expr inner = conditions_of_parts(pool, qdot_expr_arg(pool, choice, k), x, of_part);
+
+        if (inner == QDOT_FALSE)
+            set = qdot_conditions_and(
+                pool, set, qdot_rel(pool, QDOT_LT, QDOT_ZERO, gap_where_chosen(pool, QDOT_MINUS_ONE, c, k == 1)));
+        for (uint32_t i = 0; inner != QDOT_NIL && inner != QDOT_FALSE && i < qdot_expr_count(pool, inner); i++)
+            set = qdot_conditions_and(pool, set, where_chosen(pool, qdot_expr_arg(pool, inner, i), c, k == 1));
+    }
+    return set;
+}
+
+/* The conditions of all nodes of f that contain x (nil: all), of what if(...) chooses where it does. */
 static qdot_expr
 conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part)
 {
@@ -71,9 +150,21 @@ conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
 
     if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n; i++)
-        if (x == QDOT_NIL || qdot_expr_contains(pool, w.at[i], x))
-            set = of_part(pool, set, w.at[i], x);
+    if (w.n > 0)
+        qdot_walk_set(&w, f, true); /* it has a value only if this node has one */
+    for (size_t i = w.n; i-- > 0;) {
+        const bool choice = qdot_expr_is_function(pool, w.at[i], QDOT_IF);
+
+        for (uint32_t k = 0; qdot_walk_get(&w, w.at[i]) && k < (choice ? 1 : qdot_expr_count(pool, w.at[i])); k++)
+            qdot_walk_set(&w, qdot_expr_arg(pool, w.at[i], k), true);
+    }
+    for (size_t i = 0; i < w.n; i++) {
+        if (!qdot_walk_get(&w, w.at[i]) || (x != QDOT_NIL && !qdot_expr_contains(pool, w.at[i], x)))
+            continue;
+        set = of_part(pool, set, w.at[i], x);
+        if (qdot_expr_is_function(pool, w.at[i], QDOT_IF))
+            set = conditions_of_choice(pool, set, w.at[i], x, of_part);
+    }
     qdot_walk_end(&w);
     return set;
 }
