@@ -357,10 +357,14 @@ class Rests:
                 slack[i] += abs(Real.of(mu, at))
         return total, slack
 
+    def has_energy(self, at):
+        """Is the potential real there? The slope of a*log(x) is a number where the potential is none."""
+        return not mpmath.isnan(Real.of(self.potential, at))
+
     def is_rest(self, place):
         """place(): the values of everything, computed anew in the precision in force."""
         total, slack = self.pulls(place())
-        if any(mpmath.isnan(g) for g in total):
+        if any(mpmath.isnan(g) for g in total) or not self.has_energy(place()):
             return False
         for i in range(len(self.q)):
             held = slack[i] > 0 and abs(total[i]) <= slack[i] * (1 + mpmath.mpf(10) ** -25)
@@ -393,7 +397,8 @@ class Rests:
         scene, box = self.scene, ends(self.scene, at)
         angle = [c[3] for c in scene.coords]
         box = [(-mpmath.pi, +mpmath.pi) if a else b for a, b in zip(angle, box)]
-        within = lambda p: all(a or inside(v, lo, hi) for v, (lo, hi), a in zip(p, box, angle))
+        within = lambda p: (all(a or inside(v, lo, hi) for v, (lo, hi), a in zip(p, box, angle))
+                            and self.has_energy(dict(at, **dict(zip(self.q, p)))))
         if scene.constraint:
             s = sympy.Symbol("s", real=True)
             on = {sympy.Symbol(n, real=True): symbolic(c) for n, c in zip(self.q, scene.curve)}
@@ -411,7 +416,8 @@ class Rests:
             flat = [(float(lo), float(hi), a) for (lo, hi), a in zip(box, angle)]
             waves = re.search(r"\b(sin|cos|tan)\(", scene.potential)
             found = stationary(self.forces, at, flat, seed)
-            return [(p, regular) for p, regular in found if not waves or max(abs(v) for v in p) < 12]
+            return [(p, regular) for p, regular in found if (not waves or max(abs(v) for v in p) < 12)
+                    and self.has_energy(dict(at, **dict(zip(self.q, p))))]
         return [(p, regular) for p, regular in self.truth_plane(at, box) if within(p)]
 
     def force(self):
