@@ -42,21 +42,32 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
     return i;
 }
 
+/* Record the pairs of the latest crossing, at bifurcation `at`, with earlier ones. */
+static qdot_status
+add_pairs(qdot_branch_search *s, size_t at)
+{
+    for (size_t k = 0; k + 1 < s->crossings.n; k++) {
+        const size_t other = s->crossings.at[k].at;
+        const double gap = qdot_path_distance(s->x, s->all->bifurcations.at[at].y, s->all->bifurcations.at[other].y);
+
+        if (gap < close_together && gap > 10 * together)
+            QDOT_TRY(qdot_vec_push(&s->pairs, ((qdot_branch_pair){at, other, gap})));
+    }
+    return QDOT_OK;
+}
+
 double
 qdot_branch_longest_near(const qdot_branch_search *s, const double *y)
 {
     double longest = INFINITY;
 
-    for (size_t i = 0; i < s->crossings.n; i++)
-        for (size_t k = 0; k < i; k++) {
-            const double *a = s->all->bifurcations.at[s->crossings.at[i].at].y;
-            const double *b = s->all->bifurcations.at[s->crossings.at[k].at].y;
-            const double gap = qdot_path_distance(s->x, a, b);
+    for (size_t i = 0; i < s->pairs.n; i++) {
+        const qdot_branch_pair *p = &s->pairs.at[i];
+        const double near = fmin(qdot_path_distance(s->x, s->all->bifurcations.at[p->a].y, y),
+                                 qdot_path_distance(s->x, s->all->bifurcations.at[p->b].y, y));
 
-            if (gap < close_together && gap > 10 * together)
-                longest = fmin(longest, fmax(gap / 4, fmin(qdot_path_distance(s->x, a, y),
-                                                           qdot_path_distance(s->x, b, y)) / 2));
-        }
+        longest = fmin(longest, fmax(p->gap / 4, near / 2));
+    }
     return longest;
 }
 
@@ -86,6 +97,8 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
     if (status == QDOT_OK && (b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL)) {
         status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
         other = status == QDOT_OK ? NULL : other;
+        if (status == QDOT_OK)
+            status = add_pairs(s, i);
     }
     qdot_free(other);
     return status;

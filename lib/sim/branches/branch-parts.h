@@ -48,12 +48,19 @@ typedef struct {
     double *other; /* [n + 1] the direction of the other branch, owned */
 } qdot_branch_crossing;
 
+/* Two crossings that lie close together. */
+typedef struct {
+    size_t a, b; /* the bifurcations */
+    double gap;
+} qdot_branch_pair;
+
 typedef struct {
     qdot_path *x;
     qdot_bifurcation_finder *find;
     void *user; /* of `find` */
     qdot_continuation *all;
     qdot_vec(qdot_branch_crossing) crossings;
+    qdot_vec(qdot_branch_pair) pairs; /* of crossings */
     bool leapt; /* the latest step went over to another curve, which does not cross this one, or over two
                    bifurcations: it is made again, shorter */
     size_t most_points; /* of a branch; 0: as many as any may have */

@@ -431,6 +431,7 @@ qdot_continuation_finish(qdot_branch_search *s, qdot_status status)
     for (size_t i = 0; i < s->crossings.n; i++)
         qdot_free(s->crossings.at[i].other);
     qdot_free(s->crossings.at);
+    qdot_free(s->pairs.at);
     if (status == QDOT_OK)
         status = s->x->failure;
     if (status != QDOT_EINTR)
