@@ -212,6 +212,10 @@ tell_doubts(const question *q, const qdot_zeros *z)
 {
     const char *name = qdot_expr_symbol(q->session->pool, q->name[0])->name;
 
+    if (z->single && q->n == 1)
+        QDOT_TRY(qdot_answer_notice(q->session,
+                                    "there may be others where the base of a power with %.100s in its exponent is negative",
+                                    name));
     for (size_t k = 0; k < z->count && q->n == 1; k++) {
         qdot_text text = {0};
         qdot_status status;

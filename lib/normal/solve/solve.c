@@ -62,15 +62,37 @@ solve_guarded(void *user)
         s->status = qdot_solve_sort(s->pool, s->out->root.n, s->out->root.at);
 }
 
+/* Find a power with x in its exponent and a negative base: it is real at single x, of which no formula tells. */
+static qdot_status
+find_negative_base(const qdot_pool *pool, qdot_expr f, qdot_expr x, bool *found)
+{
+    qdot_walk w;
+
+    *found = false;
+    QDOT_TRY(qdot_walk_begin(pool, f, &w));
+    for (size_t i = 0; i < w.n; i++) {
+        const uint32_t n = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < n; k += 2)
+            *found = *found || ((qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_NEG) == QDOT_NEG
+                                && qdot_expr_contains(pool, qdot_expr_arg(pool, w.at[i], k + 1), x));
+    }
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
 static qdot_status
 solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
             qdot_solutions *out)
 {
     qdot_solver s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .out = out};
     qdot_status status;
+    bool negative;
 
     *out = (qdot_solutions){.complete = true};
     QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(find_negative_base(pool, f, x, &negative));
+    out->complete = !negative;
     if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);

@@ -401,6 +401,52 @@ find_simple(qdot_zeros_task *t)
     return QDOT_OK;
 }
 
+/* Take note of a base that is negative somewhere, or everywhere, in the box. */
+static qdot_status
+look_at_base(qdot_zeros_task *t, qdot_expr base)
+{
+    qdot_enclosure *bounds;
+    const qdot_enclosure_value *v;
+
+    if ((qdot_expr_sign(t->pool, base) & QDOT_GE0) != 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_enclosure_new(t->pool, 1, &base, t->n, t->x, &bounds));
+    qdot_enclosure_eval(bounds, t->bounds, false);
+    v = qdot_enclosure_get(bounds, 0);
+    if (v->state != QDOT_ENCLOSURE_NOWHERE && v->y.lo < 0) {
+        t->single = true;
+        t->nowhere = t->nowhere || v->y.hi < 0;
+    }
+    qdot_enclosure_free(bounds);
+    return QDOT_OK;
+}
+
+/* Find the powers with an unknown in their exponent whose base may be negative. There they are real only where the
+ * exponent is an integer or has an odd denominator: at single places, of which boxes, and derivatives, know nothing. */
+static qdot_status
+find_single(qdot_zeros_task *t)
+{
+    qdot_status status = QDOT_OK;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin_n(t->pool, t->n, t->F, &w));
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        const uint32_t n = qdot_expr_kind(t->pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(t->pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < n && status == QDOT_OK; k += 2) {
+            const qdot_expr power = qdot_expr_arg(t->pool, w.at[i], k + 1);
+            bool varies = false;
+
+            for (size_t j = 0; j < t->n; j++)
+                varies = varies || qdot_expr_contains(t->pool, power, t->x[j]);
+            if (varies)
+                status = look_at_base(t, qdot_expr_arg(t->pool, w.at[i], k));
+        }
+    }
+    qdot_walk_end(&w);
+    return status;
+}
+
 static qdot_status
 give(qdot_zeros_task *t, qdot_zeros *out)
 {
@@ -411,7 +457,8 @@ give(qdot_zeros_task *t, qdot_zeros *out)
                         .doubts = doubts,
                         .beyond = t->beyond,
                         .exhausted = t->exhausted,
-                        .complete = !t->beyond && !t->exhausted && doubts == 0,
+                        .single = t->single,
+                        .complete = !t->beyond && !t->exhausted && !t->single && doubts == 0,
                         .evaluations = t->evaluations};
     out->at = qdot_calloc(2 * n * (count + doubts) + 1, sizeof *out->at);
     out->simple = qdot_calloc(count + 1, sizeof *out->simple);
@@ -466,6 +513,8 @@ qdot_zeros_find(qdot_pool *pool, size_t n, const qdot_expr *F, const qdot_expr *
     if (status == QDOT_OK)
         status = read_held(&t);
     if (status == QDOT_OK)
+        status = find_single(&t);
+    if (status == QDOT_OK && !t.nowhere)
         status = split(&t);
     for (size_t k = 0; k < t.systems && status == QDOT_OK; k++)
         status = search_system(&t, k);

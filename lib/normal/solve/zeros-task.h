@@ -28,6 +28,7 @@ typedef struct {
     qdot_vec(qdot_zero_box) doubt;
     uint64_t budget, spent, evaluations;
     bool exhausted, beyond;
+    bool single, nowhere; /* a power of F may be real at single places, which no box shows; and is so in all of the box */
 } qdot_zeros_task;
 
 /* (zeros-places.c) */

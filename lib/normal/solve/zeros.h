@@ -57,6 +57,7 @@ typedef struct {
     bool beyond;    /* far away, where x is unbounded, zeros are not excluded */
     bool complete;  /* proved: there are no others in the box */
     bool exhausted; /* the budget was spent */
+    bool single;    /* a power is real at single places of the box, which are not searched */
     uint64_t evaluations;
 } qdot_zeros;
 
