@@ -13,13 +13,18 @@
 
 /* Functions between QDOT_KIND_AVX2, or QDOT_KIND_AVX512, and QDOT_KIND_END are compiled for that
  * kind; no header may be included there. QDOT_UNROLL(n) before a loop unrolls it n times, or
- * completely if it has fewer turns; 1: not at all. */
+ * completely if it has fewer turns; 1: not at all. Under AddressSanitizer no loop is unrolled: with the tests of each
+ * access in every turn the compiler takes a minute for a file. */
 #define QDOT_PRAGMA(x) _Pragma(#x)
 #ifdef __clang__
 #define QDOT_KIND_FOR(target_)                                                           \
     QDOT_PRAGMA(clang attribute push(__attribute__((target(target_))), apply_to = function))
 #define QDOT_KIND_END QDOT_PRAGMA(clang attribute pop)
+#if __has_feature(address_sanitizer)
+#define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll(disable))
+#else
 #define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll_count(n))
+#endif
 #else
 #define QDOT_KIND_FOR(target_) QDOT_PRAGMA(GCC push_options) QDOT_PRAGMA(GCC target(target_))
 #define QDOT_KIND_END QDOT_PRAGMA(GCC pop_options)
