@@ -2,6 +2,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
@@ -380,27 +382,39 @@ tell_others(const hunt *h, const qdot_zero_result *r)
                               r->rank, h->trial.n);
 }
 
+/* Write a limit of the run, exactly. One that was found is a double: it is written in 17 digits at most and becomes
+ * the number that these are, so that the text makes the same run again. */
 static qdot_status
-write_time(qdot_session *session, qdot_expr time, qdot_text *out)
+write_time(qdot_session *session, qdot_expr *time, qdot_text *out)
 {
+    qdot_pool *pool = session->pool;
+    qdot_text number = {0};
     double t;
 
-    if (qdot_expr_kind(session->pool, time) != QDOT_NUM)
-        return qdot_print(session->pool, time, QDOT_PLAIN, out);
-    QDOT_TRY(qdot_session_number(session, time, &t, NULL));
-    qdot_text_double(out, t, 17);
-    return QDOT_OK;
+    if (qdot_expr_kind(pool, *time) == QDOT_NUM) {
+        QDOT_TRY(qdot_session_number(session, *time, &t, NULL));
+        if (qdot_expr_of_double(pool, t) == *time) {
+            qdot_text_double(&number, fabs(t), qdot_double_digits(t, 1));
+            *time = qdot_expr_decimal(pool, qdot_text_str(&number), number.n);
+            *time = t < 0 ? qdot_neg(pool, *time) : *time;
+            if (number.failed)
+                qdot_pool_fail(pool);
+            qdot_text_clear(&number);
+        }
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_print(pool, *time, QDOT_PLAIN, out);
 }
 
-/* Write the operands with which `run` would repeat the run. */
+/* Write the operands with which `run` would repeat the run; its limits become what is written. */
 static qdot_status
-write_run(const qdot_find *f, qdot_expr from, qdot_expr to, qdot_text *out)
+write_run(const qdot_find *f, qdot_expr *from, qdot_expr *to, qdot_text *out)
 {
     QDOT_TRY(write_time(f->c->session, from, out));
     qdot_text_add(out, "..");
     QDOT_TRY(write_time(f->c->session, to, out));
     qdot_text_add(out, " tol ");
-    qdot_text_double(out, f->run.tol, 17);
+    qdot_text_double(out, f->run.tol, qdot_double_digits(f->run.tol, 1));
     if (f->run.method != NULL)
         qdot_text_format(out, " method %s", f->run.method);
     return qdot_text_status(out);
@@ -417,12 +431,12 @@ keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
     qdot_run *run = NULL;
     qdot_text text = {0};
     char next[32];
-    qdot_status status = qdot_run_options_fill(session, &f->run, from, to, &request);
+    qdot_status status = write_run(f, &from, &to, &text);
 
     if (status == QDOT_OK)
-        status = qdot_run_new(session->scene, &request.request, &run);
+        status = qdot_run_options_fill(session, &f->run, from, to, &request);
     if (status == QDOT_OK)
-        status = write_run(f, from, to, &text);
+        status = qdot_run_new(session->scene, &request.request, &run);
     if (f->run.name == NULL)
         qdot_runs_next_name(session, next, sizeof next);
     if (status == QDOT_OK)
