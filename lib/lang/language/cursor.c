@@ -222,6 +222,12 @@ missing_times(qdot_cursor *c, const qdot_token *before)
                      (int)(to - t->start), c->source->text + t->start);
 }
 
+bool
+qdot_cursor_is_call(const qdot_cursor *c, const qdot_token *t)
+{
+    return t->kind == QDOT_TOKEN_NAME && t[1].glued && qdot_token_is(t + 1, "(") && qdot_cursor_knows(c->session, t->text);
+}
+
 static qdot_status
 found(const char *what, const qdot_token *t)
 {
@@ -303,7 +309,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         found(what, t);
         return hint_foreign(t);
     }
-    if (t->glued || before->kind == QDOT_TOKEN_NUMBER ||
+    if (t->glued || before->kind == QDOT_TOKEN_NUMBER || qdot_cursor_is_call(c, t) ||
         (!word && (t->kind != QDOT_TOKEN_NAME || qdot_cursor_knows(c->session, t->text))))
         return missing_times(c, before);
     found(what, t);

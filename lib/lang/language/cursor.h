@@ -32,5 +32,7 @@ const qdot_token *qdot_cursor_find_word(const qdot_cursor *c, const char *word);
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
 /* Whether the name is known: declared, or of the language or the scene. */
 bool qdot_cursor_knows(const qdot_session *session, const char *name);
+/* Whether a known function with its argument begins with `t`, as `cos(`. */
+bool qdot_cursor_is_call(const qdot_cursor *c, const qdot_token *t);
 
 #endif

@@ -168,7 +168,7 @@ fail_at_token(matcher *m)
         return qdot_last_error()->status;
     hint = qdot_expected_words(&list, what);
     status = qdot_cursor_expected(m->c, what);
-    if (tells_product() && (hint != NULL || !may_be_factor(m))) {
+    if (tells_product() && (!may_be_factor(m) || (hint != NULL && !qdot_cursor_is_call(m->c, m->c->at)))) {
         m->c->error_at = m->c->at->start;
         status = qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.100s`", what, m->c->at->text);
     }
@@ -195,7 +195,7 @@ token_is_value(const matcher *m, const qdot_token *word)
     const qdot_token *next = word + 1;
 
     if (next->glued && qdot_token_is(next, "("))
-        return qdot_cursor_knows(m->c->session, word->text);
+        return qdot_cursor_is_call(m->c, word);
     return qdot_names_find(m->c->session->names, word->text) != NULL &&
            (next->kind == QDOT_TOKEN_OPERATOR || next->kind == QDOT_TOKEN_END || stands_in_usage(m, next));
 }

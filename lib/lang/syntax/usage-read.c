@@ -33,6 +33,7 @@ qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answer
     if (!qdot_usage_compile(u, word, usage, answers ? "[to \"FILE\"] [for NAME = A..B, NAME = A..B, ...]"
                                                     : "[for NAME = A..B, NAME = A..B, ...]"))
         return false;
+    u->suits = NULL;
     add_state(u, 0, false, 0);
     return true;
 }
@@ -62,11 +63,13 @@ continues(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *to
             qdot_token_is(token - 1, "%"));
 }
 
+/* Whether the token may be the first of the hole. */
 static bool
-begins(const qdot_token *token)
+begins(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
     return token->kind != QDOT_TOKEN_END && !qdot_token_is(token, ",") &&
-           !qdot_token_is(token, ":") && !qdot_token_is(token, "=");
+           !qdot_token_is(token, ":") && !qdot_token_is(token, "=") &&
+           (u->suits == NULL || u->suits(u->user, hole, token));
 }
 
 /* Whether an operand ends with the token, or with the bracket that it opens. */
@@ -107,7 +110,7 @@ usage_take(qdot_usage *u, const qdot_token *token)
 
         u->operand = operand;
         if (at->kind == QDOT_USAGE_HOLE &&
-            (old[i].inside ? continues(u, at, token) : begins(token) && !word)) {
+            (old[i].inside ? continues(u, at, token) : begins(u, at, token) && !word)) {
             u->operand = after;
             add_state(u, old[i].node, true, old[i].taken);
         } else if (is_next(u, &old[i], token)) {

@@ -68,6 +68,8 @@ typedef struct {
     qdot_usage_state state[QDOT_USAGE_STATES]; /* what the tokens so far allow */
     int states;
     bool operand; /* the last token ends an operand */
+    bool (*suits)(const void *user, const qdot_usage_node *hole, const qdot_token *token); /* NULL: any token may begin it */
+    const void *user;
 } qdot_usage;
 
 /* Compile; `word` is the statement's, "" where the usage has none; more: a usage of what may follow, NULL: nothing. false:

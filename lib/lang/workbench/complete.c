@@ -49,6 +49,7 @@ enum {
     STATEMENTS = 1 << 15,
     KINDS = 1 << 16, /* what `remove` takes by its kind */
     TABLES = 1 << 17, /* of rows */
+    RETURNS = 1 << 18, /* the word `returns`, of `returns after T` */
     NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
     LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
     EXPRESSION =
@@ -162,6 +163,8 @@ offer_tables(completion *c, unsigned kinds)
     for (size_t i = 0; (kinds & KINDS) != 0 && i < sizeof removable / sizeof *removable;
          i++)
         offer(c, removable[i]);
+    if ((kinds & RETURNS) != 0)
+        offer(c, "returns");
     if ((kinds & CONSTANTS) != 0) {
         offer(c, "pi");
         offer(c, "t");
@@ -258,11 +261,27 @@ static const unsigned hole_kinds[] = {
 };
 #undef HOLE
 
-/* Offer what may come next according to the usage. */
+/* Whether the token may begin the hole: only the name of a run stands for a run, so that `start x` goes on with `=`. */
+static bool
+may_begin(const void *user, const qdot_usage_node *hole, const qdot_token *token)
+{
+    const qdot_session *session = user;
+
+    if (hole_kinds[hole->hole] != RUNS)
+        return true;
+    for (size_t i = 0; i < session->runs->n; i++)
+        if (strcmp(session->runs->at[i].name, token->text) == 0)
+            return true;
+    return false;
+}
+
+/* Offer what may come next according to the usage; `=` where nothing else may. */
 static void
 offer_usage(completion *c, const qdot_usage *u)
 {
     unsigned kinds = 0;
+    const size_t before = c->words.n;
+    bool equal = false;
 
     for (int i = 0; i < u->states; i++) {
         const qdot_usage_node *node = &u->node[u->state[i].node];
@@ -271,10 +290,14 @@ offer_usage(completion *c, const qdot_usage *u)
             offer(c, node->text);
         else if (node->kind == QDOT_USAGE_HOLE && !u->state[i].inside)
             kinds |= hole_kinds[node->hole];
+        else if (node->kind == QDOT_USAGE_SIGN && !u->state[i].inside)
+            equal = equal || strcmp(node->text, "=") == 0;
         else if (node->kind == QDOT_USAGE_HOLE && !u->operand)
             kinds |= EXPRESSION;
     }
     offer_kinds(c, kinds);
+    if (equal && kinds == 0 && c->words.n == before)
+        offer(c, "=");
 }
 
 /* Complete after the tokens [first, end) of a statement without open brackets. */
@@ -292,6 +315,8 @@ complete_statement(completion *c, const qdot_token *first, const qdot_token *end
     }
     if (row != NULL &&
         qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row))) {
+        u.suits = may_begin;
+        u.user = c->session;
         qdot_usage_read(&u, first, end);
         offer_usage(c, &u);
     }
