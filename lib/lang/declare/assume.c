@@ -24,24 +24,12 @@ QDOT_STATEMENT(assume) = {
 typedef qdot_vec(qdot_assumption) assumptions;
 typedef qdot_vec(qdot_expr) exprs;
 
-/* Whether the relation was typed with > or >=. */
-static bool
-says_greater(const qdot_token *from, const qdot_token *to)
-{
-    for (long depth = 0; from < to; from++) {
-        depth += qdot_token_bracket(from);
-        if (depth == 0 && from->kind == QDOT_TOKEN_OPERATOR && from->text[0] == '>')
-            return true;
-    }
-    return false;
-}
-
 /* Read one assumption; `0 < a < c` counts as two. */
 static qdot_status
 read_assumption(qdot_record *r, const qdot_filled *part, assumptions *said)
 {
     const qdot_pool *pool = r->cursor.session->pool;
-    const bool greater = says_greater(part->from, part->to);
+    const bool greater = qdot_filled_holds_sign(part, '>');
     qdot_expr e;
     bool several;
     uint32_t n;

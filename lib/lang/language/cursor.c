@@ -48,21 +48,6 @@ qdot_cursor_is_end(const qdot_cursor *c)
     return c->at->kind == QDOT_TOKEN_END;
 }
 
-const qdot_token *
-qdot_cursor_find_word(const qdot_cursor *c, const char *word)
-{
-    const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1;
-    long depth = 0;
-
-    for (const qdot_token *t = c->at;; t++) {
-        if (t->kind == QDOT_TOKEN_END && (depth == 0 || t == last))
-            return t;
-        depth += qdot_token_bracket(t);
-        if (depth < 0 || (depth == 0 && word != NULL && qdot_token_is_word(t, word)))
-            return t;
-    }
-}
-
 /* --- tokens ------------------------------------------------------------------------- */
 
 static bool

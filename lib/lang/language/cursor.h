@@ -26,8 +26,6 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
 /* Whether the blank before this token, which is not the first one, is a product, as in `½ m v²`: between two operands of
  * a statement that is written as the screen shows formulas. inside: within brackets, where no option word stands. */
 bool qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside);
-/* The next top-level `word`, or the end of the statement; NULL word: the end. The cursor does not move. */
-const qdot_token *qdot_cursor_find_word(const qdot_cursor *c, const char *word);
 /* The byte after the operand that begins with `t`, including its brackets and primes. */
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
 /* Whether the name is known: declared, or of the language or the scene. */

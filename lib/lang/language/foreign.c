@@ -38,7 +38,7 @@ static const struct {
 /* Whether what matched holds the byte `at`, or ends where it is. A single word must be the error
  * itself, as an unknown name, unless it begins the statement. */
 static bool
-match_holds(const qdot_match *m, extent extent, size_t at)
+match_holds(const qdot_pattern_match *m, extent extent, size_t at)
 {
     if (extent == PART && m->to == m->from + 1)
         return at == m->from->start && strncmp(qdot_last_error()->message, "unknown ", 8) == 0;
@@ -49,7 +49,7 @@ match_holds(const qdot_match *m, extent extent, size_t at)
 /* Find where the pattern matches in the statement so that it contains the position of the error. */
 static bool
 form_find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
-          qdot_match *m)
+          qdot_pattern_match *m)
 {
     if (f->extent != PART)
         return qdot_pattern_matches(c->session, f->pattern, from, to, f->extent == WHOLE,
@@ -64,7 +64,7 @@ form_find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdo
 
 /* A single unknown letter is often a typing error for a declared one: then that hint is kept. */
 static bool
-is_doubtful(const qdot_match *m)
+is_doubtful(const qdot_pattern_match *m)
 {
     return m->to == m->from + 1 && m->from->length == 1 &&
            strstr(qdot_last_error()->hint, "did you mean") != NULL;
@@ -72,7 +72,7 @@ is_doubtful(const qdot_match *m)
 
 /* Whether the suggested line is the same as the typed one. */
 static bool
-line_is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
+line_is_same(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text *line)
 {
     const qdot_token *last = m->to - 1;
 
@@ -82,7 +82,7 @@ line_is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
 
 /* Replace the error by that of the pattern; false if it has no better line to suggest. */
 static bool
-form_tell(qdot_cursor *c, const form *f, const qdot_match *m)
+form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
 {
     const qdot_error error = *qdot_last_error();
     qdot_text message = {0}, line = {0};
@@ -110,7 +110,7 @@ form_tell(qdot_cursor *c, const form *f, const qdot_match *m)
 
 /* Whether a matched name is really a word of the suggested line, as `between` in `spring between a, b`. */
 static bool
-holds_word(const form *f, const qdot_match *m)
+holds_word(const form *f, const qdot_pattern_match *m)
 {
     for (size_t i = 0; i < m->n && !f->say; i++) {
         const qdot_token *name = m->held[i].from;
@@ -126,7 +126,7 @@ qdot_status
 qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
 {
     const qdot_status status = qdot_last_error()->status;
-    qdot_match m;
+    qdot_pattern_match m;
 
     if (status != QDOT_ESYNTAX && status != QDOT_ENAME && status != QDOT_ETYPE &&
         status != QDOT_EINVAL && status != QDOT_EUNSET)
@@ -144,7 +144,7 @@ const char *
 qdot_foreign_notice(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
                     qdot_text *text)
 {
-    qdot_match m;
+    qdot_pattern_match m;
 
     for (size_t i = 0; i < sizeof notes / sizeof *notes && to - from <= LONGEST; i++)
         if (qdot_pattern_matches(c->session, notes[i].pattern, from, to, true, &m)) {

@@ -19,7 +19,7 @@ typedef struct {
     const qdot_session *session;
     const qdot_token *to; /* the end of the statement */
     bool whole;
-    qdot_match *m;
+    qdot_pattern_match *m;
 } matcher;
 
 /* --- what one placeholder may hold ---------------------------------------------------- */
@@ -294,12 +294,12 @@ match(matcher *x, const char *pattern, const qdot_token *t)
 bool
 qdot_pattern_matches(const qdot_session *session, const char *pattern,
                      const qdot_token *from, const qdot_token *to, bool whole,
-                     qdot_match *m)
+                     qdot_pattern_match *m)
 {
     matcher x = {.session = session, .to = to, .whole = whole, .m = m};
     bool word = pattern[0] != '$' && from->kind == QDOT_TOKEN_NAME;
 
-    *m = (qdot_match){.from = from, .to = from, .place = from};
+    *m = (qdot_pattern_match){.from = from, .to = from, .place = from};
     if (word && qdot_names_find(session->names, from->text) != NULL)
         return false;
     return match(&x, pattern, from);
@@ -322,7 +322,7 @@ is_sum(const qdot_token *from, const qdot_token *to)
 }
 
 static void
-add_held(const qdot_cursor *c, const qdot_match *m, size_t i, bool stripped,
+add_held(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, bool stripped,
          qdot_text *out)
 {
     const qdot_token *from = m->held[i].from, *to = m->held[i].to;
@@ -348,7 +348,7 @@ add_held(const qdot_cursor *c, const qdot_match *m, size_t i, bool stripped,
 
 /* (0, -9.81): a field along the last axis, as the positions at hand have components. */
 static void
-add_field(const qdot_cursor *c, const qdot_match *m, size_t i, qdot_text *out)
+add_field(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, qdot_text *out)
 {
     const qdot_scene *s = c->session->scene;
     qdot_expr at = s->particles.n > 0 ? s->particles.at[0].position
@@ -382,7 +382,7 @@ first_coordinate(const qdot_session *s)
 
 /* The first name of that kind among the matched tokens; NULL if there is none. */
 static const char *
-matched_name(const qdot_session *s, const qdot_match *m, qdot_name_kind kind)
+matched_name(const qdot_session *s, const qdot_pattern_match *m, qdot_name_kind kind)
 {
     for (const qdot_token *k = m->from; k < m->to; k++) {
         const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
@@ -395,7 +395,7 @@ matched_name(const qdot_session *s, const qdot_match *m, qdot_name_kind kind)
 
 /* A coordinate in the definition of a matched name; NULL if there is none. */
 static const char *
-coordinate_within(const qdot_session *s, const qdot_match *m)
+coordinate_within(const qdot_session *s, const qdot_pattern_match *m)
 {
     for (const qdot_token *k = m->from; k < m->to; k++) {
         const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
@@ -411,7 +411,7 @@ coordinate_within(const qdot_session *s, const qdot_match *m)
 
 /* The unknown of a matched equation: a coordinate in it, else a parameter, else the first coordinate. */
 static const char *
-unknown_of(const qdot_session *s, const qdot_match *m)
+unknown_of(const qdot_session *s, const qdot_pattern_match *m)
 {
     const char *name = matched_name(s, m, QDOT_NAME_COORD);
 
@@ -424,7 +424,7 @@ unknown_of(const qdot_session *s, const qdot_match *m)
 
 /* Append the text of the placeholder `$...` at `line`; returns the position after it. */
 static const char *
-add_placeholder(const qdot_cursor *c, const char *line, const qdot_match *m,
+add_placeholder(const qdot_cursor *c, const char *line, const qdot_pattern_match *m,
                 qdot_text *out)
 {
     bool factor = line[1] == '(', stripped = line[1] == '-', declared = line[1] == '$';
@@ -461,7 +461,7 @@ add_placeholder(const qdot_cursor *c, const char *line, const qdot_match *m,
 }
 
 void
-qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_match *m,
+qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_pattern_match *m,
                    qdot_text *out)
 {
     while (*line != '\0') {

@@ -19,16 +19,16 @@ typedef struct {
         char kind; /* its letter; '(' for one of several tokens */
         const qdot_token *from, *to;
     } held[QDOT_PATTERN_HELD];
-} qdot_match;
+} qdot_pattern_match;
 
 /* Whether the tokens from `from` on match; `whole`: all up to `to`, else those before it. A
  * pattern's first word must not be a declared name. */
 bool qdot_pattern_matches(const qdot_session *session, const char *pattern,
                           const qdot_token *from, const qdot_token *to, bool whole,
-                          qdot_match *m);
+                          qdot_pattern_match *m);
 
 /* Append a line with the matched texts, as they are in the source, for its placeholders. */
-void qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_match *m,
+void qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_pattern_match *m,
                         qdot_text *out);
 
 #endif

@@ -198,34 +198,9 @@ qdot_read_side(qdot_cursor *c, qdot_expr *value)
 }
 
 qdot_status
-qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
-{
-    qdot_compiled program;
-    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
-
-    *run = NULL;
-    if (status == QDOT_OK)
-        status = qdot_compiled_member(c, &program, value, run);
-    qdot_compiled_free(&program);
-    return status;
-}
-
-qdot_status
 qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 {
     return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_scalar, value);
-}
-
-qdot_status
-qdot_read_integer(qdot_cursor *c, long *value)
-{
-    qdot_compiled program;
-    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
-
-    if (status == QDOT_OK)
-        status = qdot_compiled_integer(c, &program, value);
-    qdot_compiled_free(&program);
-    return status;
 }
 
 qdot_status
@@ -235,6 +210,19 @@ qdot_read_range(qdot_cursor *c, qdot_expr *from, qdot_expr *to)
     if (!qdot_cursor_accept_op(c, ".."))
         return qdot_cursor_expected(c, "a range `a..b`");
     return qdot_read_scalar(c, to);
+}
+
+/* Read an index of a name and evaluate it with the values of parameters. */
+static qdot_status
+name_index_read(qdot_cursor *c, long *value)
+{
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
+
+    if (status == QDOT_OK)
+        status = qdot_compiled_integer(c, &program, value);
+    qdot_compiled_free(&program);
+    return status;
 }
 
 /* --- names -------------------------------------------------------------------------- */
@@ -248,7 +236,7 @@ read_indices(qdot_cursor *c, qdot_text *name)
     do {
         long k;
 
-        QDOT_TRY(qdot_read_integer(c, &k));
+        QDOT_TRY(name_index_read(c, &k));
         qdot_text_format(name, "%c%ld", separator, k);
         separator = ',';
     } while (qdot_cursor_accept_op(c, ","));
@@ -300,31 +288,6 @@ qdot_read_jet_of(qdot_cursor *c, const qdot_token *start, const char *name, uint
     }
     *jet = order > 0 ? qdot_symbol_jet(pool, entry->value, order) : entry->value;
     return qdot_value_kind_check(pool, *jet);
-}
-
-qdot_status
-qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
-{
-    const qdot_token *start = c->at;
-    const char *name;
-    uint32_t order = 0;
-
-    if (start->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "a coordinate");
-    QDOT_TRY(qdot_read_name(c, &name));
-    while (c->at->glued && qdot_cursor_accept_op(c, "'"))
-        order++;
-    return qdot_read_jet_of(c, start, name, order, jet);
-}
-
-qdot_status
-qdot_read_string(qdot_cursor *c, const char **text)
-{
-    if (c->at->kind != QDOT_TOKEN_STRING)
-        return qdot_cursor_expected(c, "a text in quotes");
-    *text = c->at->text;
-    c->at++;
-    return QDOT_OK;
 }
 
 qdot_status

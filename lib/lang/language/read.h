@@ -21,23 +21,14 @@ QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
 QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
 /* Read a sum without relations, which must be a scalar: QDOT_ETYPE otherwise. */
 QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
-/* Read an expression and evaluate it now, with the values of parameters, to a whole number. */
-QDOT_MUST_CHECK qdot_status qdot_read_integer(qdot_cursor *c, long *value);
 /* a..b, exact. */
 QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from,
                                             qdot_expr *to);
 /* A name to be declared or a label, with its indices evaluated: "theta[1]", "A[1,2]". The string is in
  * the source's arena. */
 QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);
-/* name or name[...] followed by primes, of a declared coordinate: the jet symbol. */
-QDOT_MUST_CHECK qdot_status qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet);
 /* The derivative of that order of the coordinate of that name; `start` is where an error is shown. */
 QDOT_MUST_CHECK qdot_status qdot_read_jet_of(qdot_cursor *c, const qdot_token *start,
                                              const char *name, uint32_t order, qdot_expr *jet);
-/* As qdot_read_value, but it may be along a run, `a.theta` or `a.(expr)`: *run its label, else NULL. */
-QDOT_MUST_CHECK qdot_status qdot_read_member(qdot_cursor *c, qdot_expr *value,
-                                             const char **run);
-/* Read a quoted string. */
-QDOT_MUST_CHECK qdot_status qdot_read_string(qdot_cursor *c, const char **text);
 
 #endif

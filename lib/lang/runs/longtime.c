@@ -8,6 +8,7 @@
 #include "lang/figures/figure-option.h"
 #include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
+#include "lang/runs/run-options.h"
 #include "lang/syntax/record.h"
 #include "sim/study/longtime.h"
 
@@ -235,8 +236,7 @@ longtime_measure(qdot_record *r)
     if (status == QDOT_OK && l.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu methods", l.n);
     status = qdot_request_explain(session, &order, status);
-    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && method != NULL)
-        qdot_record_blame(r, method);
+    qdot_run_options_place(&r->cursor, method != NULL ? method->from : NULL, status);
     qdot_longtime_clear(&l);
     qdot_request_free(&order);
     return status;

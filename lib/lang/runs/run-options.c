@@ -198,8 +198,8 @@ qdot_run_options_free(qdot_run_options *o)
 }
 
 void
-qdot_run_options_place(qdot_cursor *c, const qdot_run_options *o, qdot_status status)
+qdot_run_options_place(qdot_cursor *c, const qdot_token *method, qdot_status status)
 {
-    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && o->method_at != NULL)
-        c->error_at = o->method_at->start;
+    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && method != NULL)
+        c->error_at = method->start;
 }

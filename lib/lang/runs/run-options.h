@@ -37,7 +37,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session, const q
                                                   qdot_expr from, qdot_expr to,
                                                   qdot_request *request);
 void qdot_run_options_free(qdot_run_options *o);
-/* Set the place of an error with that status: at the method's name if it is unknown or not built. */
-void qdot_run_options_place(qdot_cursor *c, const qdot_run_options *o, qdot_status status);
+/* Set the place of an error with that status: at the method's name (NULL: none was given) if it is unknown or not built. */
+void qdot_run_options_place(qdot_cursor *c, const qdot_token *method, qdot_status status);
 
 #endif

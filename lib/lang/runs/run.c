@@ -78,7 +78,7 @@ qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_optio
     }
     if (status == QDOT_OK)
         status = qdot_request_explain(c->session, &request, run_integrate(c, o, &request));
-    qdot_run_options_place(c, o, status);
+    qdot_run_options_place(c, o->method_at, status);
     qdot_request_free(&request);
     return status;
 }
@@ -92,7 +92,7 @@ run_make(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_run_carry_out(&r->cursor, r->start, &o);
     else
-        qdot_run_options_place(&r->cursor, &o, status);
+        qdot_run_options_place(&r->cursor, o.method_at, status);
     qdot_run_options_free(&o);
     return status;
 }

@@ -146,13 +146,7 @@ name_find(qdot_record *r, poincare *p)
 
     while (part != NULL && strcmp(part->node->before, "as") != 0)
         part = qdot_record_next(r, part, "NAME");
-    if (part == NULL)
-        return QDOT_OK;
-    QDOT_TRY(qdot_record_name(r, part, &p->name));
-    if (qdot_names_find(r->cursor.session->names, p->name) == NULL)
-        return QDOT_OK;
-    qdot_record_blame(r, part);
-    return qdot_fail(QDOT_ENAME, "`%s` means something else already", p->name);
+    return part != NULL ? qdot_record_new_name(r, part, &p->name) : QDOT_OK;
 }
 
 static qdot_status

@@ -72,13 +72,7 @@ sweep_find_name(qdot_record *r, qdot_sweep *s)
 {
     const qdot_filled *part = qdot_record_hole(r, "as", "NAME");
 
-    if (part == NULL)
-        return QDOT_OK;
-    QDOT_TRY(qdot_record_name(r, part, &s->name));
-    if (qdot_names_find(s->c->session->names, s->name) == NULL)
-        return QDOT_OK;
-    qdot_record_blame(r, part);
-    return qdot_fail(QDOT_ENAME, "`%s` means something else already", s->name);
+    return part != NULL ? qdot_record_new_name(r, part, &s->name) : QDOT_OK;
 }
 
 static qdot_status
@@ -300,7 +294,7 @@ sweep_make(qdot_record *r)
         s.table->members = qdot_function_body_new(r->cursor.source, r->start, r->cursor.at);
         status = s.table->members ? sweep_carry_out(s.c, &s) : QDOT_ENOMEM;
     }
-    qdot_run_options_place(s.c, &s.members.run, status);
+    qdot_run_options_place(s.c, s.members.run.method_at, status);
     sweep_free(&s);
     return status;
 }
@@ -318,7 +312,7 @@ qdot_sweep_plan(qdot_record *r)
     }
     if (status == QDOT_OK)
         status = qdot_sweep_tell_plan(&s, &text);
-    qdot_run_options_place(s.c, &s.members.run, status);
+    qdot_run_options_place(s.c, s.members.run.method_at, status);
     status = qdot_answer_written(s.c->session, "plan", status, &text);
     sweep_free(&s);
     return status;

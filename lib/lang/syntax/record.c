@@ -6,6 +6,7 @@
 #include "expr/node.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/session/names.h"
 
 void
 qdot_record_free(qdot_record *r)
@@ -35,6 +36,19 @@ bool
 qdot_filled_is(const qdot_filled *part, const char *text)
 {
     return strcmp(part->node->text, text) == 0;
+}
+
+bool
+qdot_filled_holds_sign(const qdot_filled *part, char sign)
+{
+    long depth = 0;
+
+    for (const qdot_token *t = part->from; t < part->to; t++) {
+        depth += qdot_token_bracket(t);
+        if (depth == 0 && t->kind == QDOT_TOKEN_OPERATOR && t->text[0] == sign)
+            return true;
+    }
+    return false;
 }
 
 const qdot_filled *
@@ -185,6 +199,16 @@ qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name)
         status = spell_name(r, *name, index.n, index.at, name);
     qdot_free(index.at);
     return status;
+}
+
+qdot_status
+qdot_record_new_name(qdot_record *r, const qdot_filled *part, const char **name)
+{
+    QDOT_TRY(qdot_record_name(r, part, name));
+    if (qdot_names_find(r->cursor.session->names, *name) == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, part);
+    return qdot_fail(QDOT_ENAME, "`%s` means something else already", *name);
 }
 
 qdot_status

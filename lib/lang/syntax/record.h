@@ -63,6 +63,8 @@ const qdot_filled *qdot_record_hole(const qdot_record *r, const char *before, co
 const qdot_filled *qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text);
 /* Whether a part is the hole (or word) of that name in the usage. */
 bool qdot_filled_is(const qdot_filled *part, const char *text);
+/* Whether an operator outside brackets begins with the sign. */
+bool qdot_filled_holds_sign(const qdot_filled *part, char sign);
 
 /* --- values -------------------------------------------------------------------------- */
 
@@ -89,6 +91,8 @@ QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_fill
                                                  qdot_expr *left, qdot_expr *right);
 /* A name with its indices evaluated, stored in the arena of the source. */
 QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
+/* The same, of something new: QDOT_ENAME at the part if a declaration or definition has the name. */
+QDOT_MUST_CHECK qdot_status qdot_record_new_name(qdot_record *r, const qdot_filled *part, const char **name);
 /* Bound k of a name with bounds, in the order typed; *is: the name has a bound k. */
 QDOT_MUST_CHECK qdot_status qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k,
                                               qdot_bound *bound, bool *is);

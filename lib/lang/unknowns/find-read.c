@@ -411,7 +411,7 @@ find_make(qdot_record *r)
 
     if (status == QDOT_OK)
         status = qdot_find_carry_out(&f);
-    qdot_run_options_place(f.c, &f.run, status);
+    qdot_run_options_place(f.c, f.run.method_at, status);
     find_free(&f);
     return status;
 }

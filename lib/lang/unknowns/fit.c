@@ -9,6 +9,7 @@
 #include "lang/answer/answer.h"
 #include "lang/language/token-text.h"
 #include "lang/runs/error-time.h"
+#include "lang/runs/run-options.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
@@ -203,8 +204,7 @@ sigma_find(qdot_record *r, qdot_fit *f)
 static qdot_status
 options_find(qdot_record *r, qdot_fit *f)
 {
-    const qdot_filled *from = qdot_record_hole(r, "from", "EXPR"), *method = qdot_record_word(r, "method"),
-                      *name = qdot_record_hole(r, "as", "NAME");
+    const qdot_filled *from = qdot_record_hole(r, "from", "EXPR"), *method = qdot_record_word(r, "method");
 
     QDOT_TRY(sigma_find(r, f));
     if (from != NULL)
@@ -214,7 +214,7 @@ options_find(qdot_record *r, qdot_fit *f)
         f->method_at = method[1].from;
         f->method = method[1].from->text;
     }
-    return name != NULL ? qdot_record_name(r, name, &f->name) : QDOT_OK;
+    return QDOT_OK;
 }
 
 /* Refuse weights for only some of several fitted values. */
@@ -243,7 +243,7 @@ check_weights(qdot_cursor *c, qdot_fit *f)
 static qdot_status
 fit_find_all(qdot_record *r, qdot_fit *f)
 {
-    const qdot_filled *file = qdot_record_hole(r, "to", "\"FILE\"");
+    const qdot_filled *file = qdot_record_hole(r, "to", "\"FILE\""), *name = qdot_record_hole(r, "as", "NAME");
 
     QDOT_TRY(qdot_slopes_find(r, "fit", &f->unknowns));
     f->path_at = file->from;
@@ -251,10 +251,7 @@ fit_find_all(qdot_record *r, qdot_fit *f)
     QDOT_TRY(columns_find(r, f));
     QDOT_TRY(options_find(r, f));
     QDOT_TRY(check_weights(&r->cursor, f));
-    if (f->name == NULL || qdot_names_find(f->session->names, f->name) == NULL)
-        return QDOT_OK;
-    qdot_record_blame(r, qdot_record_hole(r, "as", "NAME"));
-    return qdot_fail(QDOT_ENAME, "`%s` means something else already", f->name);
+    return name != NULL ? qdot_record_new_name(r, name, &f->name) : QDOT_OK;
 }
 
 /* --- what is set ------------------------------------------------------------------------------------ */
@@ -341,8 +338,7 @@ fit_find(qdot_record *r)
         c->error_at = r->start->start;
         status = fit_carry_out(c, &f);
     }
-    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && f.method_at != NULL)
-        c->error_at = f.method_at->start;
+    qdot_run_options_place(c, f.method_at, status);
     fit_free(&f);
     return status;
 }

@@ -1,6 +1,7 @@
 /* test_evaluate.c -- what words mean: primes, functions, sums, values of a scene. */
 #include "expr/exact.h"
 #include "expr/symbol.h"
+#include "lang/language/compiled.h"
 #include "lang/reading.h"
 #include "lang/session/history.h"
 #include "lang/session/runs.h"
@@ -272,6 +273,29 @@ values_of_the_scene_are_words(void **state)
     reading_close(&r);
 }
 
+/* The next expression, and the run along which it is. */
+static qdot_status
+member_read(qdot_cursor *c, qdot_expr *value, const char **run)
+{
+    qdot_compiled program;
+    qdot_status status = qdot_compiled_parse(c, QDOT_PARSE_SIDE, &program);
+
+    *run = NULL;
+    if (status == QDOT_OK)
+        status = qdot_compiled_member(c, &program, value, run);
+    qdot_compiled_free(&program);
+    return status;
+}
+
+/* Step over the end of the statement. */
+static void
+statement_end_pass(qdot_cursor *c)
+{
+    while (!qdot_cursor_is_end(c))
+        c->at++;
+    c->at++;
+}
+
 static void
 members_of_runs_are_kept_apart(void **state)
 {
@@ -291,17 +315,17 @@ members_of_runs_are_kept_apart(void **state)
     assert_int_equal(qdot_vec_push(r.session->runs, a), QDOT_OK);
     assert_int_equal(qdot_source_new("a", text, sizeof text - 1, &source, &at), QDOT_OK);
     c = (qdot_cursor){.session = r.session, .source = source, .at = source->tokens.at};
-    assert_int_equal(qdot_read_member(&c, &e, &run), QDOT_OK);
+    assert_int_equal(member_read(&c, &e, &run), QDOT_OK);
     assert_string_equal(run, "a");
     assert_string_equal(qdot_expr_symbol(r.session->pool, e)->name, "theta'");
     c.at++;
-    assert_int_not_equal(qdot_read_member(&c, &e, &run), QDOT_OK);
-    c.at = qdot_cursor_find_word(&c, NULL) + 1;
+    assert_int_not_equal(member_read(&c, &e, &run), QDOT_OK);
+    statement_end_pass(&c);
     /* in a product it is a symbol: of no one run */
-    assert_int_equal(qdot_read_member(&c, &e, &run), QDOT_OK);
+    assert_int_equal(member_read(&c, &e, &run), QDOT_OK);
     assert_null(run);
-    c.at = qdot_cursor_find_word(&c, NULL) + 1;
-    assert_int_equal(qdot_read_member(&c, &e, &run), QDOT_OK);
+    statement_end_pass(&c);
+    assert_int_equal(member_read(&c, &e, &run), QDOT_OK);
     assert_null(run);
     qdot_source_free(source);
     qdot_free(r.session->runs->at);
