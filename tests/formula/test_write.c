@@ -104,7 +104,7 @@ tables_and_cases_have_cells(void **state)
          "<mrow><mo>{</mo><mtable columnalign=\"left\"><mtr><mtd><mi>a</mi></mtd><mtd><mtext>if&#xA0;</mtext><mi>b</mi>"
          "</mtd></mtr><mtr><mtd><mi>c</mi></mtd><mtd><mtext>otherwise</mtext></mtd></mtr></mtable></mrow>");
     stands_in_a_line(TABLE(2, NUMBER("1"), NUMBER("2"), NUMBER("3"), NUMBER("4")), "[1, 2; 3, 4]", "[1, 2; 3, 4]");
-    stands_in_a_line(TABLE(2, NUMBER("1"), NUMBER("2")), "[1, 2;]", "[1, 2]");
+    stands_in_a_line(TABLE(2, NUMBER("1"), NUMBER("2")), "[1, 2;]", "[1, 2;]");
 }
 
 static void

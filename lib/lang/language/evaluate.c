@@ -331,6 +331,20 @@ name(qdot_machine *m, const qdot_postfix *code)
                                     &qdot_machine_top(m, 1)->label);
 }
 
+/* The label that `rod₁` means, rod_1 or rod[1], if nothing is called rod1; false: it is written otherwise, or there is
+ * none. */
+static bool
+small_label(const qdot_scene *scene, const qdot_token *token, qdot_text *spelled)
+{
+    if (token->length == strlen(token->text) || qdot_scene_has_label(scene, token->text))
+        return false;
+    for (unsigned form = 0; qdot_resolve_small(token->text, form, spelled); form++)
+        if (qdot_scene_has_label(scene, qdot_text_str(spelled)))
+            return true;
+    qdot_text_truncate(spelled, 0);
+    return false;
+}
+
 /* Push a label as a symbol of that name; a loop index in it is replaced by its value. */
 static qdot_status
 label(qdot_machine *m, const qdot_postfix *code)
@@ -345,8 +359,9 @@ label(qdot_machine *m, const qdot_postfix *code)
     if (code->n == 0 && bound != NULL && bound->label != NULL)
         return qdot_machine_push(m, qdot_symbol_get(m->pool, QDOT_FORMAL, bound->label));
     QDOT_TRY(qdot_machine_take(m, code->n));
-    status =
-        qdot_entry_name(m->session, code->token->text, code->n, m->args.at, &text);
+    status = code->n == 0 && small_label(m->session->scene, code->token, &text)
+                 ? qdot_text_status(&text)
+                 : qdot_entry_name(m->session, code->token->text, code->n, m->args.at, &text);
     if (status == QDOT_OK)
         status = qdot_machine_push(
             m, qdot_symbol_get(m->pool, QDOT_FORMAL, qdot_text_str(&text)));

@@ -136,7 +136,7 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
                 member = 0;
         }
         if (binary || (qdot_token_is(k, ",") && member == 0 && k + 1 < to) ||
-            (qdot_token_is(k, ";") && k + 1 < to))
+            (qdot_token_is(k, ";") && k + 1 < to && !qdot_token_is(k + 1, "]")))
             qdot_text_char(out, ' ');
     }
 }
