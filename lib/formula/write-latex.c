@@ -12,6 +12,11 @@ static const char *const signs[] = {
 #undef QDOT_SIGN
 };
 
+typedef struct {
+    qdot_text *out;
+    size_t roman, times; /* where a name in roman type, a sign of multiplication ended last */
+} writer;
+
 /* Functions with a LaTeX command. */
 static const struct {
     const char *name, *command;
@@ -46,10 +51,20 @@ latex_add_roman(qdot_text *out, const char *name, size_t n)
     qdot_text_char(out, '}');
 }
 
+/* A sign of multiplication. LaTeX drops the blank, so a thin space parts names of several letters: mass length. */
+static void
+latex_add_times(writer *w)
+{
+    qdot_text_add(w->out, w->roman == w->out->n && w->roman > 0 ? " \\, " : signs[QDOT_SIGN_TIMES]);
+    w->times = w->out->n;
+}
+
 /* Greek letters as commands; several letters in roman type. */
 static void
-latex_add_name(qdot_text *out, const char *name, size_t n)
+latex_add_name(writer *w, const char *name, size_t n)
 {
+    qdot_text *out = w->out;
+
     if (n > 1 && qdot_name_greek(name) != NULL) {
         for (size_t i = 0; i + 1 < n; i += 2) {
             qdot_text_add(out, i > 0 ? " \\" : "\\");
@@ -57,17 +72,23 @@ latex_add_name(qdot_text *out, const char *name, size_t n)
         }
         return;
     }
-    if (n == 1)
+    if (n == 1) {
         qdot_text_char(out, *name);
-    else
-        latex_add_roman(out, name, n);
+        return;
+    }
+    if (w->times == out->n && w->times > 0 && !qdot_ends_in(qdot_text_str(out), "\\, "))
+        qdot_text_add(out, "\\, ");
+    latex_add_roman(out, name, n);
+    w->roman = out->n;
 }
 
 static void
-latex_add_text(qdot_text *out, const qdot_formula_node *node, const char *text)
+latex_add_text(writer *w, const qdot_formula_node *node, const char *text)
 {
+    qdot_text *out = w->out;
+
     if (node->what == QDOT_TEXT_NAME)
-        latex_add_name(out, text, node->n);
+        latex_add_name(w, text, node->n);
     else if (node->what == QDOT_TEXT_FUNCTION)
         latex_add_function(out, text, node->n);
     else if (node->what == QDOT_TEXT_LABEL)
@@ -84,11 +105,17 @@ static qdot_status
 latex_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     static const char *const opening[] = {"\\left(", "\\left[", "\\left|", "\\left\\lfloor "};
-    qdot_text *out = walk->user;
+    writer *w = walk->user;
+    qdot_text *out = w->out;
 
     switch (node->kind) {
-    case QDOT_FORMULA_TEXT: latex_add_text(out, node, walk->formula->text.at + node->child); break;
-    case QDOT_FORMULA_SIGN: qdot_text_add(out, signs[node->what]); break;
+    case QDOT_FORMULA_TEXT: latex_add_text(w, node, walk->formula->text.at + node->child); break;
+    case QDOT_FORMULA_SIGN:
+        if (node->what == QDOT_SIGN_TIMES)
+            latex_add_times(w);
+        else
+            qdot_text_add(out, signs[node->what]);
+        break;
     case QDOT_FORMULA_FRACTION:
         qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : node->flags & QDOT_FORMULA_SMALL ? "\\tfrac{"
                                                                                                     : "\\frac{");
@@ -108,7 +135,7 @@ latex_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
 static qdot_status
 latex_between(qdot_formula_walk *walk, const qdot_formula_node *node, uint32_t k)
 {
-    qdot_text *out = walk->user;
+    qdot_text *out = ((const writer *)walk->user)->out;
 
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION:
@@ -147,7 +174,7 @@ static qdot_status
 latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     static const char *const closing[] = {"\\right)", "\\right]", "\\right|", "\\right\\rfloor "};
-    qdot_text *out = walk->user;
+    qdot_text *out = ((const writer *)walk->user)->out;
 
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION: qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : "}"); break;
@@ -178,8 +205,9 @@ latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 qdot_status
 qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out)
 {
+    writer w = {.out = out};
     qdot_formula_walk walk = {
-        .formula = f, .user = out, .enter = latex_enter, .between = latex_between, .leave = latex_leave};
+        .formula = f, .user = &w, .enter = latex_enter, .between = latex_between, .leave = latex_leave};
 
     QDOT_TRY(qdot_formula_pass(&walk, id));
     return qdot_text_status(out);

@@ -43,6 +43,10 @@ texts_have_their_role(void **state)
     says(NAME("θ"), "\\theta", "<mi>θ</mi>");
     says(NAME("δθ"), "\\delta \\theta", "<mi>δθ</mi>");
     says(NAME("V_max"), "\\mathrm{V\\_max}", "<mi>V_max</mi>");
+    says(ROW(NAME("k"), sign(QDOT_SIGN_TIMES), NAME("mass"), sign(QDOT_SIGN_TIMES), NAME("l"),
+             sign(QDOT_SIGN_TIMES), NAME("m")),
+         "k \\, \\mathrm{mass} \\, l m", /* LaTeX drops a blank */
+         "<mrow><mi>k</mi><mo>&#x2062;</mo><mi>mass</mi><mo>&#x2062;</mo><mi>l</mi><mo>&#x2062;</mo><mi>m</mi></mrow>");
     says(NUMBER("12"), "12", "<mn>12</mn>");
     says(FUNCTION("asin"), "\\arcsin", "<mi>asin</mi>");
     says(FUNCTION("si"), "\\operatorname{si}", "<mi>si</mi>");
