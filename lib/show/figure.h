@@ -82,10 +82,16 @@ QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const c
 QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size_t i,
                                                  qdot_figure_view *view);
 
-/* A panel in `columns` x `rows` characters: braille, or stars where `ascii`; with the ends of its
- * axes. Errors: QDOT_EDOMAIN, QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_figure_sketch(const qdot_figure *figure, size_t i,
-                                               size_t columns, size_t rows, bool ascii,
+/* How a sketch is drawn: with characters of braille, or with stars. */
+typedef struct {
+    size_t columns, rows;
+    bool ascii;
+    bool colours; /* several curves differ in colours of a terminal; else in dashes, in ASCII in marks */
+} qdot_figure_sketching;
+
+/* A panel in characters, with the names of its axes and their ends, in as many digits as these need to differ. Errors:
+ * QDOT_EDOMAIN, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_figure_sketch(const qdot_figure *figure, size_t i, const qdot_figure_sketching *how,
                                                qdot_text *out);
 
 #endif

@@ -7,7 +7,7 @@
 #include "base/utf8.h"
 #include "show/figure-parts.h"
 
-enum { ACROSS = 2, DOWN = 4, MARGIN = 11 };
+enum { ACROSS = 2, DOWN = 4, MARGIN = 11, END_TEXT = 32 };
 
 typedef struct {
     size_t columns, rows;
@@ -18,8 +18,9 @@ typedef struct {
     long last[2], along;  /* its last dot, and how many there were before */
 } grid;
 
-/* Curves differ in dashes; in ASCII in their marks. */
+/* Curves differ in dashes; in ASCII in their marks; on a terminal with colours in these: blue, red, green, magenta. */
 enum { LOOKS = 4, DASHES = 8 };
+static const char *const colours[LOOKS] = {"34", "31", "32", "35"};
 static const char marks[LOOKS + 1] = "*+ox";
 static const char dashes[LOOKS][DASHES + 1] = {"********", "*****   ", "*   *   ", "***** * "};
 
@@ -124,6 +125,24 @@ sketch_add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
     qdot_text_char(out, (char)(0x80 + (dots & 0x3F)));
 }
 
+/* A row of the grid without the blanks at its end; colour: the curves have colours. */
+static void
+sketch_add_row(const grid *g, size_t row, bool ascii, bool colour, qdot_text *out)
+{
+    const unsigned char *cells = g->cells + row * g->columns, *looks = g->looks + row * g->columns;
+    size_t n = g->columns, shown = 0;
+
+    while (n > 0 && cells[n - 1] == 0)
+        n--;
+    for (size_t i = 0; i < n; i++) {
+        if (colour && looks[i] > 0 && looks[i] != shown)
+            qdot_text_format(out, "\033[%sm", colours[looks[i] - 1]);
+        shown = looks[i] > 0 ? looks[i] : shown;
+        sketch_add_cell(out, cells[i], (size_t)fmax(looks[i] - 1.0, 0), ascii);
+    }
+    qdot_text_add(out, colour && shown > 0 ? "\033[39m" : "");
+}
+
 static void
 add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
 {
@@ -133,80 +152,121 @@ add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
         qdot_text_add(out, label->text != NULL ? label->text : "");
 }
 
-/* Write the key, which shows the pattern of each curve. */
+/* Write the key, which shows the pattern of each curve, or its colour. */
 static void
-write_key(const qdot_panel *panel, bool ascii, qdot_text *out)
+write_key(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *out)
 {
     static const char *const lines[LOOKS] = {"⠒⠒⠒⠒⠒⠒⠒", "⠒⠒⠂ ⠒⠒⠂", "⠂ ⠂ ⠂ ⠂", "⠒⠒⠂⠂⠒⠒⠂"};
 
     qdot_text_format(out, "%*s", MARGIN, "");
     for (size_t k = 0; k < panel->n; k++) {
-        if (ascii)
-            qdot_text_format(out, "%s%c ", k > 0 ? "   " : "", marks[k % LOOKS]);
+        qdot_text_add(out, k > 0 ? "   " : "");
+        if (how->colours)
+            qdot_text_format(out, "\033[%sm", colours[k % LOOKS]);
+        if (how->ascii)
+            qdot_text_char(out, marks[k % LOOKS]);
         else
-            qdot_text_format(out, "%s%s ", k > 0 ? "   " : "", lines[k % LOOKS]);
-        add_label(out, &panel->curves[k].label, ascii);
+            qdot_text_add(out, lines[how->colours ? 0 : k % LOOKS]);
+        qdot_text_add(out, how->colours ? "\033[39m " : " ");
+        add_label(out, &panel->curves[k].label, how->ascii);
     }
     qdot_text_char(out, '\n');
 }
 
-/* Write the sketch, with the ends of the vertical axis on the left and of the horizontal one below. */
+/* The ends of an axis with four digits, or as many as they need to differ if each has that room. */
 static void
-sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bool ascii,
-             qdot_text *out)
+write_ends(double least, double most, size_t room, char text[2][END_TEXT])
 {
-    char left[32], right[32];
+    int digits = 4;
+
+    do {
+        snprintf(text[0], END_TEXT, "%.*g", digits, least);
+        snprintf(text[1], END_TEXT, "%.*g", digits, most);
+    } while (strcmp(text[0], text[1]) == 0 && digits++ < 17);
+    if (digits > 4 && (strlen(text[0]) > room || strlen(text[1]) > room)) {
+        snprintf(text[0], END_TEXT, "%.4g", least);
+        snprintf(text[1], END_TEXT, "%.4g", most);
+    }
+}
+
+/* A row of numbers and labels at the left of the axis. */
+static void
+write_margin(size_t margin, const char *text, qdot_text *out)
+{
+    const size_t n = qdot_utf8_columns(text, strlen(text));
+
+    qdot_text_format(out, "%*s%s ", (int)(n < margin ? margin - 1 - n : 0), "", text);
+}
+
+/* Write the sketch: on the left the ends of the vertical axis and, of a single curve, its name; below those of the
+ * horizontal one. */
+static void
+sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qdot_figure_sketching *how,
+             size_t margin, qdot_text *out)
+{
+    const bool space = panel->axis[2].text != NULL, named = !space && panel->n == 1 && g->rows > 2;
+    char ends[2][END_TEXT];
     qdot_text label = {0};
     long free;
 
+    write_ends(v->least[1], v->most[1], margin - 1, ends);
+    if (named)
+        add_label(&label, &panel->axis[1], how->ascii);
+    if (qdot_utf8_columns(qdot_text_str(&label), label.n) >= margin)
+        qdot_text_truncate(&label, 0);
     for (size_t r = 0; r < g->rows; r++) {
-        size_t n = g->columns;
+        const char *text = r == 0 ? ends[1] : r + 1 == g->rows ? ends[0] : r == g->rows / 2 ? qdot_text_str(&label) : "";
 
-        if (r == 0 || r + 1 == g->rows) {
-            snprintf(left, sizeof left, "%.4g", r == 0 ? v->most[1] : v->least[1]);
-            qdot_text_format(out, "%*s ", MARGIN - 1, panel->axis[2].text ? "" : left);
-        } else {
-            qdot_text_format(out, "%*s", MARGIN, "");
-        }
-        qdot_text_add(out, ascii ? "|" : "│");
-        while (n > 0 && g->cells[r * g->columns + n - 1] == 0)
-            n--;
-        for (size_t i = 0; i < n; i++)
-            sketch_add_cell(out, g->cells[r * g->columns + i],
-                            (size_t)fmax(g->looks[r * g->columns + i] - 1.0, 0), ascii);
+        write_margin(margin, space ? "" : text, out);
+        qdot_text_add(out, how->ascii ? "|" : "│");
+        sketch_add_row(g, r, how->ascii, how->colours && panel->n > 1, out);
         qdot_text_char(out, '\n');
     }
-    if (panel->axis[2].text != NULL)
+    qdot_text_truncate(&label, 0);
+    if (space)
         return;
-    snprintf(left, sizeof left, "%.4g", v->least[0]);
-    snprintf(right, sizeof right, "%.4g", v->most[0]);
-    add_label(&label, &panel->axis[0], ascii);
-    free = (long)g->columns - (long)strlen(left) - (long)strlen(right);
+    write_ends(v->least[0], v->most[0], g->columns / 2 - 2, ends);
+    add_label(&label, &panel->axis[0], how->ascii);
+    free = (long)g->columns - (long)strlen(ends[0]) - (long)strlen(ends[1]);
     if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
         qdot_text_truncate(&label, 0); /* the numbers say more */
     free = (long)fmax((double)free - (double)qdot_utf8_columns(qdot_text_str(&label), label.n), 0);
-    qdot_text_format(out, "%*s%s%*s%s%*s%s\n", MARGIN + 1, "", left, (int)(free / 2 + 1), "",
-                     qdot_text_str(&label), (int)(free - free / 2), "", right);
+    qdot_text_format(out, "%*s%s%*s%s%*s%s\n", (int)margin + 1, "", ends[0], (int)(free / 2 + 1), "",
+                     qdot_text_str(&label), (int)(free - free / 2), "", ends[1]);
     out->failed = out->failed || label.failed;
     qdot_text_clear(&label);
 }
 
+/* The columns left of the vertical axis: as many as its ends need, if the curve keeps most of them. */
+static size_t
+margin_of(const qdot_panel *panel, const qdot_figure_view *v, size_t columns)
+{
+    char ends[2][END_TEXT];
+    size_t n = MARGIN;
+
+    write_ends(v->least[1], v->most[1], columns / 2 - 2, ends);
+    for (int k = 0; k < 2 && panel->axis[2].text == NULL; k++)
+        n = strlen(ends[k]) + 1 > n ? strlen(ends[k]) + 1 : n;
+    return n;
+}
+
 qdot_status
-qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t rows,
-                   bool ascii, qdot_text *out)
+qdot_figure_sketch(const qdot_figure *figure, size_t i, const qdot_figure_sketching *how, qdot_text *out)
 {
     const qdot_panel *panel = &figure->panels[i];
-    grid g = {.columns = columns > 30 ? columns - 14 : 16, .rows = rows > 5 ? rows - 2 : 3,
-              .solid = ascii};
     qdot_figure_view view;
+    size_t margin;
+    grid g = {.rows = how->rows > 5 ? how->rows - 2 : 3, .solid = how->ascii || how->colours};
 
     QDOT_TRY(qdot_figure_get_view(figure, i, &view));
+    margin = margin_of(panel, &view, how->columns);
+    g.columns = how->columns > margin + 19 ? how->columns - margin - 3 : 16;
     g.cells = qdot_calloc(g.columns * g.rows, 2);
     if (g.cells == NULL)
         return QDOT_ENOMEM;
     g.looks = g.cells + g.columns * g.rows;
     if (panel->map != NULL)
-        draw_map(&g, panel->map, ascii);
+        draw_map(&g, panel->map, how->ascii);
     for (size_t k = 0; k < panel->n; k++) {
         g.look = k % LOOKS;
         g.along = 0;
@@ -214,8 +274,8 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t r
         draw_curve(&g, panel, &view, &panel->curves[k]);
     }
     if (panel->n > 1 || (figure->n > 1 && panel->map == NULL))
-        write_key(panel, ascii, out);
-    sketch_write(&g, panel, &view, ascii, out);
+        write_key(panel, how, out);
+    sketch_write(&g, panel, &view, how, margin, out);
     qdot_free(g.cells);
     return qdot_text_status(out);
 }

@@ -487,6 +487,14 @@ paths_in_space_have_three_axes(void **state)
     free(text);
 }
 
+static qdot_status
+sketch(const qdot_figure *figure, size_t columns, size_t rows, bool ascii, bool colours, qdot_text *text)
+{
+    const qdot_figure_sketching how = {columns, rows, ascii, colours};
+
+    return qdot_figure_sketch(figure, 0, &how, text);
+}
+
 static void
 a_sketch_shows_the_curve(void **state)
 {
@@ -497,7 +505,7 @@ a_sketch_shows_the_curve(void **state)
     qdot_text text = {0};
 
     (void)state;
-    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, true, &text), QDOT_OK);
+    assert_int_equal(sketch(&figure, 50, 7, true, false, &text), QDOT_OK);
     assert_string_equal(text.at, "      10.4 |                              ******\n"
                                  "           |                      ********\n"
                                  "           |              ********\n"
@@ -505,7 +513,7 @@ a_sketch_shows_the_curve(void **state)
                                  "      -0.4 |******\n"
                                  "            0               theta               1\n");
     qdot_text_clear(&text);
-    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, false, &text), QDOT_OK);
+    assert_int_equal(sketch(&figure, 50, 7, false, false, &text), QDOT_OK);
     assert_non_null(strstr(text.at, "θ"));
     assert_non_null(strstr(text.at, "⠤"));
     qdot_text_clear(&text);
@@ -539,13 +547,56 @@ curves_of_a_sketch_differ(void **state)
     qdot_text text = {0};
 
     (void)state;
-    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, true, &text), QDOT_OK);
+    assert_int_equal(sketch(&figure, 50, 7, true, false, &text), QDOT_OK);
     assert_non_null(strstr(text.at, "           * theta   + <b>\n"));
     assert_non_null(strstr(text.at, "|++"));
     assert_non_null(strstr(text.at, "|**"));
     qdot_text_clear(&text);
-    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, false, &text), QDOT_OK);
+    assert_int_equal(sketch(&figure, 50, 7, false, false, &text), QDOT_OK);
     assert_non_null(strstr(text.at, " θ   ⠒⠒⠂ ⠒⠒⠂ <b>\n"));
+    qdot_text_clear(&text);
+}
+
+/* On a terminal with colours each curve has one, with its name. */
+static void
+curves_of_a_sketch_have_colours(void **state)
+{
+    const double at[] = {0, 1}, up[] = {0, 10}, down[] = {10, 0};
+    const qdot_curve curves[] = {{.label = {"theta", true}, .rows = 2, .x = at, .y = up},
+                                 {.label = {"<b>", false}, .rows = 2, .x = at, .y = down}};
+    const qdot_panel both = {.curves = curves, .n = 2}, one = {.curves = curves, .n = 1};
+    qdot_figure figure = {.panels = &both, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(sketch(&figure, 50, 7, true, true, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "           \033[34m*\033[39m theta   \033[31m+\033[39m <b>\n"));
+    assert_non_null(strstr(text.at, "|\033[31m++"));
+    assert_non_null(strstr(text.at, "|\033[34m**"));
+    qdot_text_truncate(&text, 0);
+    figure.panels = &one;
+    assert_int_equal(sketch(&figure, 50, 7, true, true, &text), QDOT_OK);
+    assert_null(strstr(text.at, "\033"));
+    qdot_text_clear(&text);
+}
+
+/* Ends of an axis that agree in four digits have more; the vertical axis of a single curve has its name. */
+static void
+ends_of_a_sketch_differ(void **state)
+{
+    const double at[] = {2.5, 2.50000125}, height[] = {3.00321, 3.00322};
+    const qdot_curve curve = {.rows = 2, .x = at, .y = height};
+    const qdot_panel panel = {.curves = &curve, .n = 1, .axis = {{"t", true}, {"theta'", true}}};
+    const qdot_figure figure = {.panels = &panel, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(sketch(&figure, 60, 7, false, false, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "        θ̇ │"));
+    assert_non_null(strstr(text.at, "   3.00322 │"));
+    assert_non_null(strstr(text.at, "   3.00321 │"));
+    assert_non_null(strstr(text.at, " 2.5 "));
+    assert_non_null(strstr(text.at, " 2.500001\n"));
     qdot_text_clear(&text);
 }
 
@@ -560,7 +611,7 @@ a_narrow_sketch_fits(void **state)
     qdot_text text = {0};
 
     (void)state;
-    assert_int_equal(qdot_figure_sketch(&figure, 0, 40, 7, true, &text), QDOT_OK);
+    assert_int_equal(sketch(&figure, 40, 7, true, false, &text), QDOT_OK);
     assert_non_null(strstr(text.at, "\n            9.736e-05         0.0003854\n"));
     qdot_text_clear(&text);
 }
@@ -808,6 +859,8 @@ main(void)
         cmocka_unit_test(a_sketch_shows_the_curve),
         cmocka_unit_test(a_range_of_y_cuts_no_time_off),
         cmocka_unit_test(curves_of_a_sketch_differ),
+        cmocka_unit_test(curves_of_a_sketch_have_colours),
+        cmocka_unit_test(ends_of_a_sketch_differ),
         cmocka_unit_test(a_narrow_sketch_fits),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),

@@ -69,9 +69,14 @@ sketch(qdot_session *session, const qdot_figure *figure)
     (void)qdot_terminal_size(stdout, &columns, &rows);
     columns = columns > SKETCH_COLUMNS ? SKETCH_COLUMNS : columns;
     rows = rows > SKETCH_ROWS + 4 ? SKETCH_ROWS : rows > 8 ? rows - 4 : 4;
-    for (size_t i = 0; i < figure->n && status == QDOT_OK; i++)
-        status = qdot_figure_sketch(figure, i, columns, figure->n > 1 ? rows / 2 + 2 : rows,
-                                    session->output->style != QDOT_UNICODE, &text);
+    for (size_t i = 0; i < figure->n && status == QDOT_OK; i++) {
+        const qdot_figure_sketching how = {.columns = columns,
+                                           .rows = figure->n > 1 ? rows / 2 + 2 : rows,
+                                           .ascii = session->output->style != QDOT_UNICODE,
+                                           .colours = (session->output->colours & QDOT_COLOURS_ANSWERS) != 0};
+
+        status = qdot_figure_sketch(figure, i, &how, &text);
+    }
     return qdot_answer_written(session, "sketch", status, &text);
 }
 
