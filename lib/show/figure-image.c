@@ -20,6 +20,7 @@ static const qdot_figure_kind kinds[] = {
      "set terminal @png enhanced",
      "", "IEND\xae\x42\x60\x82"},
     {".pdf", 1, 1.5, 0.75, 1.4, "set terminal pdfcairo enhanced fontscale 1", "cm", "%%EOF"},
+    {".eps", 1, 1.5, 0.75, 1.4, "set terminal epscairo enhanced fontscale 1", "cm", "%%EOF"},
 };
 
 static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {\n"
@@ -176,14 +177,18 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
 
     if (qdot_rank() > 0)
         return QDOT_OK;
-    for (size_t i = 0; i < figure->n; i++)
+    for (size_t i = 0; i < figure->n; i++) {
         if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
+        if (figure->panels[i].n_legend > figure->panels[i].n)
+            return qdot_fail(QDOT_EINVAL, "the legend names %zu curves, but there %s %zu", figure->panels[i].n_legend,
+                             figure->panels[i].n == 1 ? "is" : "are", figure->panels[i].n);
+    }
     if (path != NULL) {
         d.kind = figure_kind_of(path);
         if (d.kind == NULL) {
             qdot_fail(QDOT_EINVAL, "`%.200s` does not say what figure it is to be", path);
-            return qdot_hint("end its name in .svg, .png or .pdf");
+            return qdot_hint("end its name in .svg, .png, .pdf or .eps");
         }
     }
     if (path != NULL && figure->keep)

@@ -263,6 +263,12 @@ qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
     }
 }
 
+qdot_figure_label
+qdot_figure_curve_label(const qdot_panel *panel, size_t k)
+{
+    return k < panel->n_legend ? (qdot_figure_label){panel->legend[k], false} : panel->curves[k].label;
+}
+
 void
 qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label)
 {

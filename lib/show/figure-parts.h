@@ -23,6 +23,8 @@ void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
 /* A formula in plain style as Unicode, for a sketch; with `markup` in gnuplot's markup. */
 void qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup);
+/* What curve k is called in the key. */
+qdot_figure_label qdot_figure_curve_label(const qdot_panel *panel, size_t k);
 /* The approximate width of the label in characters. */
 size_t qdot_figure_label_width(const qdot_figure_label *label);
 

@@ -195,7 +195,8 @@ key_width(const qdot_panel *panel)
     size_t most = 0;
 
     for (size_t i = 0; i < panel->n; i++) {
-        const size_t width = qdot_figure_label_width(&panel->curves[i].label);
+        const qdot_figure_label label = qdot_figure_curve_label(panel, i);
+        const size_t width = qdot_figure_label_width(&label);
 
         most = width > most ? width : most;
     }
@@ -412,8 +413,10 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[look % COLOURS]);
         if ((panel->n > 1 || curve->look > 0) && !panel->marks && !panel->points && !point)
             qdot_text_format(d->script, " dashtype %s", dashes[look % DASHES]);
+        const qdot_figure_label label = qdot_figure_curve_label(panel, k);
+
         qdot_text_add(d->script, " title ");
-        qdot_figure_add_label(d->script, &panel->curves[k].label);
+        qdot_figure_add_label(d->script, &label);
     }
     qdot_text_char(d->script, '\n');
 }

@@ -43,6 +43,8 @@ typedef struct {
     const double *value;     /* [n[1] x n[0]] borrowed, along x the fastest; NaN: blank */
 } qdot_figure_map;
 
+enum { QDOT_FIGURE_LEGEND = 16 };
+
 /* One pair of axes; three of them if the first curve is in space. */
 typedef struct {
     qdot_figure_label title, axis[3]; /* what is written along x, y, z */
@@ -54,6 +56,8 @@ typedef struct {
     bool equal;                 /* one scale for all axes: paths */
     bool marks;                 /* a mark at every point, joined by lines */
     bool points;                /* points that are not joined */
+    const char *legend[QDOT_FIGURE_LEGEND]; /* names of the first curves in the key, in place of their labels */
+    size_t n_legend;
     const qdot_figure_map *map; /* in place of curves; NULL: curves */
 } qdot_panel;
 
@@ -71,9 +75,9 @@ typedef struct {
     bool log[3];
 } qdot_figure_view;
 
-/* Type by ending: .svg .png .pdf. path NULL: a window of gnuplot that persists.
+/* Type by ending: .svg .png .pdf .eps. path NULL: a window of gnuplot that persists.
  *
- * Errors: QDOT_EINVAL for another ending, a figure without curves; QDOT_EDOMAIN if no point can be
+ * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend of more curves than there are; QDOT_EDOMAIN if no point can be
  * shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);

@@ -89,7 +89,7 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
             draw_line(g, last, here);
         grid_put(g, here[0], here[1]);
         memcpy(last, here, sizeof last);
-        open = !c->points;
+        open = !c->points && !panel->points;
     }
 }
 
@@ -158,6 +158,8 @@ write_key(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *
 {
     static const char *const lines[LOOKS] = {"⠒⠒⠒⠒⠒⠒⠒", "⠒⠒⠂ ⠒⠒⠂", "⠂ ⠂ ⠂ ⠂", "⠒⠒⠂⠂⠒⠒⠂"};
 
+    qdot_figure_label label;
+
     qdot_text_format(out, "%*s", MARGIN, "");
     for (size_t k = 0; k < panel->n; k++) {
         qdot_text_add(out, k > 0 ? "   " : "");
@@ -168,7 +170,8 @@ write_key(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *
         else
             qdot_text_add(out, lines[how->colours ? 0 : k % LOOKS]);
         qdot_text_add(out, how->colours ? "\033[39m " : " ");
-        add_label(out, &panel->curves[k].label, how->ascii);
+        label = qdot_figure_curve_label(panel, k);
+        add_label(out, &label, how->ascii);
     }
     qdot_text_char(out, '\n');
 }

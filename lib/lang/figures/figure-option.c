@@ -55,18 +55,19 @@ length_find(qdot_record *r, const qdot_filled *part, double *length)
                      least_size, most_size, *length);
 }
 
-/* X, ... */
+/* X, ...: at most `most` texts. */
 static qdot_status
-labels_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
+texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **texts, size_t *n)
 {
     const qdot_filled *end = r->parts.at + r->parts.n;
 
     for (const qdot_filled *part = first; part < end; part += 2) {
-        if (p->n_labels == 3) {
+        if (*n == most) {
             qdot_record_blame(r, part);
-            return qdot_fail(QDOT_EINVAL, "a figure has no more than three axes");
+            return most == 3 ? qdot_fail(QDOT_EINVAL, "a figure has no more than three axes")
+                             : qdot_fail(QDOT_EINVAL, "a legend has no more than %zu names", most);
         }
-        p->labels[p->n_labels++] = qdot_record_text(part);
+        texts[(*n)++] = qdot_record_text(part);
         if (part + 1 == end || !qdot_filled_is(part + 1, ","))
             break;
     }
@@ -96,7 +97,9 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
     if (qdot_filled_is(word, "range"))
         return ordinate_find(r, hole, p);
     if (qdot_filled_is(word, "labels"))
-        return labels_find(r, hole, p);
+        return texts_find(r, hole, 3, p->labels, &p->n_labels);
+    if (qdot_filled_is(word, "legend"))
+        return texts_find(r, hole, QDOT_FIGURE_LEGEND, p->legend, &p->n_legend);
     if (qdot_filled_is(word, "size")) {
         QDOT_TRY(length_find(r, hole, &f->width));
         return length_find(r, qdot_record_next(r, hole, "H"), &f->height);
@@ -107,6 +110,10 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         p->log[1] = !qdot_filled_is(hole, "x");
     } else if (qdot_filled_is(word, "title")) {
         p->title = qdot_record_text(hole);
+    } else if (qdot_filled_is(word, "equal")) {
+        p->equal = true;
+    } else if (qdot_filled_is(word, "points")) {
+        p->points = true;
     } else if (qdot_filled_is(word, "keep")) {
         f->keep = true;
     } else if (qdot_filled_is(word, "to") && hole->from->kind == QDOT_TOKEN_STRING) {
@@ -132,6 +139,10 @@ qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
         panel->range[k] = choice->range[k];
         panel->log[k] = choice->logs ? choice->log[k] : panel->log[k];
     }
+    panel->equal = panel->equal || choice->equal;
+    panel->points = panel->points || choice->points;
+    panel->n_legend = choice->n_legend;
+    memcpy(panel->legend, choice->legend, sizeof panel->legend);
     if (choice->title != NULL)
         panel->title = (qdot_figure_label){choice->title, false};
     for (size_t k = 0; k < choice->n_labels; k++)

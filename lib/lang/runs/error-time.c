@@ -81,7 +81,7 @@ qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_c
         return QDOT_OK;
     qdot_record_blame(r, qdot_record_hole(r, NULL, "T0..T1") + 1);
     (void)qdot_fail(QDOT_EINVAL, "the name `%.200s` does not tell the kind of file", figure->path);
-    return qdot_hint("end its name in .csv, .txt, .json, .html, .h5, .svg, .png or .pdf");
+    return qdot_hint("end its name in .csv, .txt, .json, .html, .h5, .svg, .png, .pdf or .eps");
 }
 
 qdot_status
