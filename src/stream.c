@@ -33,55 +33,60 @@ stream_read_line(qdot_text *text)
     return any;
 }
 
-/* Lines are read until they are a statement or several: brackets closed, no line continued. Into `text`, behind as many
- * empty lines as were read before, so that lines have their numbers in all of the input; *lines grows by their number.
- * Lines before a Ctrl-C are dropped. false: there are no more. */
+/* What is read of the input: the lines of a statement or several, and how many lines precede them. */
+typedef struct {
+    qdot_text text;
+    uint32_t before, lines;
+} part;
+
+/* Read lines until they are a statement or several: brackets closed, no line continued. Lines before a Ctrl-C are
+ * dropped. false: there are no more. */
 static bool
-read_statements(qdot_text *text, size_t *lines)
+read_statements(part *p)
 {
     qdot_text line = {0};
-    bool any = false, more;
+    bool more;
 
     qdot_signals_waiting();
+    p->before += p->lines;
+    p->lines = 0;
+    qdot_text_truncate(&p->text, 0);
     do {
         qdot_text_truncate(&line, 0);
         more = stream_read_line(&line);
-        if (qdot_signals_take() || !any) {
-            qdot_text_truncate(text, 0);
-            for (size_t k = 0; k < *lines; k++)
-                qdot_text_char(text, '\n');
-            any = false;
+        if (qdot_signals_take()) {
+            p->before += p->lines;
+            p->lines = 0;
+            qdot_text_truncate(&p->text, 0);
         }
         if (!more)
             break;
-        qdot_text_add_n(text, line.at, line.n);
-        text->failed = text->failed || line.failed;
-        any = true;
-        ++*lines;
-    } while (!text->failed && qdot_script_is_incomplete(text->at, text->n));
+        qdot_text_add_n(&p->text, line.at, line.n);
+        p->text.failed = p->text.failed || line.failed;
+        p->lines++;
+    } while (!p->text.failed && qdot_script_is_incomplete(p->text.at, p->text.n));
     qdot_text_clear(&line);
-    return any;
+    return p->lines > 0;
 }
 
 void
 qdot_stream_run(qdot_session *session)
 {
-    qdot_text text = {0};
-    size_t lines = 0; /* read so far */
+    part p = {0};
 
     session->typed->told = true;
-    while (!session->outcome->quit) {
-        if (!read_statements(&text, &lines))
-            break;
-        if (text.failed) {
+    qdot_signals_patient(true);
+    while (!session->outcome->quit && read_statements(&p)) {
+        if (p.text.failed) {
             fprintf(stderr, "qdot: out of memory\n");
             break;
         }
         qdot_signals_computing();
-        (void)qdot_script_run_text(session, "standard input", text.at, text.n);
+        (void)qdot_script_run_part(session, "standard input", p.before, p.text.at, p.text.n);
         fflush(session->output->out);
         fflush(session->output->err);
     }
+    qdot_signals_patient(false);
     session->typed->told = false;
-    qdot_text_clear(&text);
+    qdot_text_clear(&p.text);
 }

@@ -37,7 +37,7 @@ qdot_system_declare(qdot_system *system, const char *text)
         return qdot_api_refuse(system, "declare: the text is NULL");
     status = qdot_api_begin(system);
     if (status == QDOT_OK)
-        status = qdot_script_carry_out(system->session, "declare", text, strlen(text));
+        status = qdot_script_carry_out(system->session, "declare", 0, text, strlen(text));
     return qdot_api_end(system, status);
 }
 
@@ -73,7 +73,7 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
     session->output->json = notation == QDOT_NOTATION_JSON;
     session->output->style = session->output->json ? QDOT_PLAIN : (qdot_style)notation;
     if (status == QDOT_OK)
-        status = qdot_script_carry_out(session, "ask", text, strlen(text));
+        status = qdot_script_carry_out(session, "ask", 0, text, strlen(text));
     session->output->json = false;
     session->output->style = before;
     result = qdot_api_end(system, status);

@@ -88,7 +88,7 @@ qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line, uint32_
     if (at > source->length)
         at = source->length;
     start = line_start(source, at);
-    *line = 1;
+    *line = source->lines_before + 1;
     for (const char *c = source->text; c < source->text + start;) {
         const char *end = memchr(c, '\n', (size_t)(source->text + start - c));
 

@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text,
 qdot_source *qdot_source_keep(const qdot_source *source); /* one use more */
 void qdot_source_free(qdot_source *source);               /* one use less */
 
-/* Where a byte is: line and column from 1 (columns count characters). */
+/* Where a byte is: line and column from 1 (columns count characters), the line in the whole input. */
 void qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line,
                         uint32_t *column);
 /* "file:line:column: error: message", the line, the caret, "hint: ...". A very long line is cut

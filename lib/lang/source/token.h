@@ -30,6 +30,7 @@ typedef struct qdot_source {
     char *name;
     char *text; /* NUL-terminated copy */
     size_t length;
+    uint32_t lines_before; /* of the same input, before this text */
     qdot_arena *arena;
     qdot_vec(qdot_token) tokens; /* the last is END */
 } qdot_source;

@@ -25,7 +25,13 @@ int
 qdot_script_run_text(qdot_session *session, const char *name, const char *text,
                      size_t length)
 {
-    return exit_status(session, qdot_script_carry_out(session, name, text, length));
+    return qdot_script_run_part(session, name, 0, text, length);
+}
+
+int
+qdot_script_run_part(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length)
+{
+    return exit_status(session, qdot_script_carry_out(session, name, before, text, length));
 }
 
 static qdot_status
@@ -80,7 +86,7 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
     status = script_read_file(path, &text);
     if (status == QDOT_OK) {
         *opened = true;
-        status = qdot_script_carry_out(session, standard ? "standard input" : path,
+        status = qdot_script_carry_out(session, standard ? "standard input" : path, 0,
                                        qdot_text_str(&text), text.n);
     }
     qdot_text_clear(&text);

@@ -643,13 +643,14 @@ report_error(engine *x)
 /* --- a whole text ------------------------------------------------------------------- */
 
 qdot_status
-qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
-                      size_t length)
+qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length)
 {
     engine x = {.session = session};
     qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
     size_t outer = qdot_undo_text_begin(session);
 
+    if (x.source != NULL)
+        x.source->lines_before = before;
     session->typed->texts++;
     (void)qdot_memory_ran_out(); /* before: whoever asked then has heard of it */
     if (status == QDOT_OK)

@@ -12,6 +12,8 @@
  * statement failed or a check was refuted, 2 a syntax error. */
 int qdot_script_run_text(qdot_session *session, const char *name, const char *text,
                          size_t length);
+/* As qdot_script_run_text, for a part of an input: errors count its lines on from the `before` lines that precede it. */
+int qdot_script_run_part(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length);
 /* As qdot_script_run_text, for a file ("-": standard input); an error if it is unreadable, a
  * directory, or not UTF-8. */
 int qdot_script_run_file(qdot_session *session, const char *path);
@@ -26,8 +28,8 @@ bool qdot_script_takes_long(const char *text, size_t length);
 /* The error position that means: an included file has already reported the error. */
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 
-/* Lex and carry out a text, reporting the first error. */
-QDOT_MUST_CHECK qdot_status qdot_script_carry_out(qdot_session *session, const char *name,
+/* Lex and carry out a text, reporting the first error; `before`: lines of the same input that precede it. */
+QDOT_MUST_CHECK qdot_status qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before,
                                                   const char *text, size_t length);
 /* The same from a file; *opened: whether its text could be read (errors before that
  * are not reported yet). */
