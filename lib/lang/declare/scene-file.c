@@ -298,13 +298,15 @@ may_overwrite(const char *path, const char *header)
 qdot_status
 qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file what)
 {
-    const char *path = name->text;
+    const char *path = name->text, *dot = strrchr(path, '.');
     qdot_text text = {0};
     qdot_status status;
 
     if (!qdot_scene_file_is(name)) {
-        c->at = name;
-        return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
+        c->error_at = name->start;
+        (void)qdot_fail(QDOT_ESYNTAX, "`%.200s`: statements are written to a file whose name ends in `.lag`", path);
+        return qdot_hint("save %s to \"%.*s.lag\"", what == QDOT_FILE_HISTORY ? "history" : "session",
+                         (int)(dot != NULL ? dot - path : (long)strlen(path)), path);
     }
     status = qdot_scene_file_text(c->session, what, &text);
     c->error_at = name->start;
