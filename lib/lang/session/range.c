@@ -3,12 +3,15 @@
 
 #include <string.h>
 
+#include "base/text.h"
 #include "expr/build.h"
+#include "expr/print.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/mixture.h"
 #include "lang/session/runs.h"
+#include "normal/refute/constant.h"
 
 static const struct {
     const char *word;
@@ -82,6 +85,29 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
     return qdot_pool_check(session->pool);
 }
 
+/* Numbers behind an expression are no expressions of their own: mean(E, 2, 11) means mean(E, 2..11). */
+static qdot_status
+refuse_ends_apart(qdot_session *session, const char *word, uint32_t n, const qdot_expr *args)
+{
+    const qdot_pool *pool = session->pool;
+    qdot_text line = {0};
+    const uint32_t both = n > 2 && qdot_is_constant(pool, args[n - 2]) ? 2 : 1;
+    qdot_status status = QDOT_OK;
+
+    if (n < 2 || qdot_is_constant(pool, args[0]) || !qdot_is_constant(pool, args[n - 1]))
+        return QDOT_OK;
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text_add(&line, i == 0 ? "" : i + both > n ? ".." : i == n - 1 ? ", 0.." : ", ");
+        status = qdot_print(session->pool, args[i], QDOT_PLAIN, &line);
+    }
+    if (status == QDOT_OK) {
+        (void)qdot_fail(QDOT_ETYPE, "`%s` of a number, which does not move along a run", word);
+        status = qdot_hint("a range is written A..B: %s(%.200s)", word, qdot_text_str(&line));
+    }
+    qdot_text_clear(&line);
+    return status;
+}
+
 qdot_status
 qdot_range_value(qdot_session *session, const char *run, const char *word, uint32_t n,
                  const qdot_expr *args, const qdot_expr *range, qdot_expr *value)
@@ -100,6 +126,8 @@ qdot_range_value(qdot_session *session, const char *run, const char *word, uint3
             kind = words[i].kind;
     if (n == 0)
         return qdot_fail(QDOT_ETYPE, "`%s` needs an expression", word);
+    if (range == NULL)
+        QDOT_TRY(refuse_ends_apart(session, word, n, args));
     for (int k = 0; k < 2 && range != NULL; k++)
         QDOT_TRY(qdot_session_number(session, range[k], &ends[k], NULL));
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
