@@ -80,6 +80,22 @@ line_is_same(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text 
            strncmp(qdot_text_str(line), c->source->text + m->from->start, line->n) == 0;
 }
 
+/* Whether the line is of the same statement and keeps the unknown name that the error is about: then it would fail as
+ * well. */
+static bool
+keeps_unknown(const qdot_cursor *c, const qdot_match *m, const char *line)
+{
+    const size_t n = strlen(m->from->text);
+
+    if (strncmp(qdot_last_error()->message, "unknown name ", 13) != 0 || strncmp(line, m->from->text, n) != 0 ||
+        line[n] != ' ')
+        return false;
+    for (const qdot_token *t = m->from + 1; t < m->to; t++)
+        if (t->start == c->error_at)
+            return t->kind == QDOT_TOKEN_NAME && qdot_has_word(line, t->text);
+    return false;
+}
+
 /* Replace the error by that of the pattern; false if it has no better line to suggest. */
 static bool
 form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
@@ -96,7 +112,7 @@ form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
         qdot_text_add(&message, error.message);
     qdot_pattern_write(c, f->line, m, &line);
     fits = line.n < sizeof error.hint - 8 && !line.failed && !message.failed &&
-           !line_is_same(c, m, &line);
+           !line_is_same(c, m, &line) && (f->message != NULL || !keeps_unknown(c, m, qdot_text_str(&line)));
     if (fits) {
         (void)qdot_fail(error.status, "%s", qdot_text_str(&message));
         (void)qdot_hint("%s%s", f->say ? "" : "write ", qdot_text_str(&line));

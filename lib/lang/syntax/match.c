@@ -10,6 +10,7 @@
 
 #include "lang/functions/builtin.h"
 #include "lang/language/formals.h"
+#include "lang/language/hints.h"
 #include "lang/session/row-tables.h"
 #include "lang/syntax/expected.h"
 #include "lang/syntax/hole-read.h"
@@ -270,11 +271,30 @@ clause_missing(const qdot_usage *u, int alternative, uint64_t taken)
     return NULL;
 }
 
+/* The first name in what was read for expressions that means nothing; NULL: each is known, or its meaning depends on
+ * what follows. */
+static const qdot_token *
+unknown_name(const matcher *m)
+{
+    for (size_t k = 0; k < m->r->parts.n; k++) {
+        const qdot_filled *part = &m->r->parts.at[k];
+
+        if (part->node->kind != QDOT_USAGE_HOLE || !qdot_hole_is_expression(part->node))
+            continue;
+        for (const qdot_token *t = part->from; t < part->to; t++)
+            if (t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t - 1, ".") && !qdot_token_is(t + 1, ".") &&
+                !qdot_token_is(t + 1, "[") && !qdot_token_is(t + 1, "(") && !qdot_cursor_knows(m->c->session, t->text))
+                return t;
+    }
+    return NULL;
+}
+
 /* Assign to the parts the nodes through which the end was reached. */
 static qdot_status
 trace_back(matcher *m)
 {
     const qdot_usage_node *missing;
+    const qdot_token *unknown;
     uint32_t at = (uint32_t)m->first;
     uint64_t taken;
 
@@ -288,6 +308,11 @@ trace_back(matcher *m)
     missing = clause_missing(m->u, m->r->parts.at[m->r->parts.n - 1].node->alternative, taken);
     if (missing == NULL)
         return QDOT_OK;
+    unknown = unknown_name(m); /* the clause would not help */
+    if (unknown != NULL) {
+        m->c->error_at = unknown->start;
+        return qdot_hints_unknown(m->c, unknown, NULL);
+    }
     if (qdot_expected_clause(m->u->word, missing->text) != NULL)
         return qdot_cursor_expected(m->c, qdot_expected_clause(m->u->word, missing->text));
     m->c->error_at = m->r->start->start;
