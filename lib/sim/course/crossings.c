@@ -79,7 +79,7 @@ search_piece(search *s)
     const size_t last = qdot_trajectory_last_of(tr, s->piece);
     const bool final = s->piece + 1 == tr->pieces.n,
                jumps = !final && tr->pieces.at[s->piece + 1].jumped;
-    const qdot_watch_reader reader = {read_stored, NULL, s, qdot_course_systems(s->c) + mode,
+    const qdot_watch_reader reader = {read_stored, NULL, s, true, qdot_course_systems(s->c) + mode,
                                       NULL};
     size_t k = tr->pieces.at[s->piece].first;
     qdot_watch *w = s->watches[mode];

@@ -305,6 +305,15 @@ come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *f
     return QDOT_OK;
 }
 
+bool
+qdot_piece_has_crossed_flatly(const qdot_piece *x, size_t i)
+{
+    for (size_t k = 0; k < x->fired.n; k++)
+        if (x->fired.at[k].function == i)
+            return x->fired.at[k].cubic;
+    return false;
+}
+
 void
 qdot_piece_find_delay(qdot_piece *x)
 {

@@ -138,7 +138,7 @@ note(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     qdot_occurrence o = {w->index, root->t, way_of(x, root),
-                         root->within, root->bend, (root->way == 0 || root->stays ? root->blur : 0) + root->moved};
+                         root->within, root->bend, (root->way == 0 || root->stays ? root->blur : 0) + root->moved + root->flat};
 
     if (w->kind != QDOT_WATCH_EVENT)
         return QDOT_OK;
@@ -185,7 +185,7 @@ rests_on(const qdot_piece *x, size_t i, int way)
 
     return w && way != 0 && x->c->stage->events.at[w->index].then && !x->c->stage->back && x->functions_on[i]
            && fabs(x->t1 - x->start.t) > no_time * fabs(x->t1) && qdot_watch_slow(qdot_piece_watch(x))[i]
-           && qdot_watch_first(qdot_piece_watch(x))[i] == way;
+           && qdot_watch_first(qdot_piece_watch(x))[i] == way && !qdot_piece_has_crossed_flatly(x, i);
 }
 
 /* Whether a contact persists: an event with `then` that ended the piece before, occurs again at once; or the motion
@@ -614,7 +614,7 @@ qdot_piece_begin(qdot_piece *x)
     x->reader = (qdot_watch_reader){x->options->alternates ? read_either
                                     : x->method->series    ? read_series
                                                            : read_step,
-                                    by_series_alone ? read_series_two : NULL, x,
+                                    by_series_alone ? read_series_two : NULL, x, true,
                                     &x->c->systems.at[x->mode], ends_piece};
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;

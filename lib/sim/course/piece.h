@@ -228,6 +228,8 @@ QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
 void qdot_piece_start_at_end(qdot_piece *x);
 /* The exact state at the start of the piece minus y [n], into low [n]. */
 void qdot_piece_low(const qdot_piece *x, double *low);
+/* (piece-end.c) Whether the last piece ended where function i crosses 0 flatly: such a motion goes on, it does not rest. */
+bool qdot_piece_has_crossed_flatly(const qdot_piece *x, size_t i);
 /* Set x->late and x->blur, the delay of the end of the piece and its uncertainty, from its roots. */
 void qdot_piece_find_delay(qdot_piece *x);
 

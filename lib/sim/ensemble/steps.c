@@ -247,7 +247,7 @@ copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 static qdot_status
 begin_watch(const qdot_ensemble_steps *s, lane *a)
 {
-    const qdot_watch_reader reader = {read_lane, NULL, a, &a->system, NULL};
+    const qdot_watch_reader reader = {read_lane, NULL, a, false, &a->system, NULL};
     const size_t m = s->of.watching->n_events;
     int *before = qdot_calloc(m + 1, sizeof *before);
     bool *on = qdot_calloc(m + 1, sizeof *on);

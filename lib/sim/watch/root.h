@@ -17,6 +17,8 @@ typedef struct {
     /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the
      * run: not negative. */
     double late, blur;
+    bool cubic;  /* g grows around it like an odd power above the first: the motion crosses, however slowly */
+    double flat; /* so far around it rounding of the state hides g; 0: less than a few doubles of t */
     double rounding; /* of a function of t alone: so far rounding of its operations may move the root */
     double moved;    /* so far t was put later, to that of another root of the same instant */
     /* For a touch: the tolerance below which |g| counts as 0 (0 if rounding decides), and g''. */
@@ -35,6 +37,7 @@ typedef struct {
     /* The state at t as sums of two doubles, for steps with a series; NULL if not available. */
     qdot_status (*read_two)(double t, qdot_two *y, void *user);
     void *user;
+    bool alone; /* no other thread uses the pool of expressions meanwhile */
     const qdot_ode_system *system; /* for accelerations and multipliers */
     /* Whether the steps end at a root, so that those behind it are not wanted; NULL: they do not. */
     bool (*ends)(const qdot_root *root, void *user);

@@ -170,7 +170,7 @@ lessen_noise(qdot_watch *w, double t, double *noise)
     for (size_t i = 0; i < w->m; i++) {
         double here;
 
-        if (!w->live[i] || (w->clock[i] && qdot_watch_is_fine(w, i)))
+        if (!w->live[i] || w->deep[i] || (w->clock[i] && qdot_watch_is_fine(w, i)))
             continue;
         if (qdot_watch_is_fine(w, i)) {
             QDOT_TRY(qdot_watch_noise_two(w, t, w->z, i, &here));
@@ -206,8 +206,8 @@ qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p)
         QDOT_TRY(status);
     }
     for (size_t i = 0; i < w->m; i++) {
-        w->noise[i] = qdot_watch_is_fine(w, i) ? 0 : w->first_noise[i];
-        if (w->live[i] && w->clock[i] && qdot_watch_is_fine(w, i)) /* no state makes it grow along the step */
+        w->noise[i] = qdot_watch_is_fine(w, i) || w->deep[i] ? 0 : w->first_noise[i];
+        if (w->live[i] && !w->deep[i] && w->clock[i] && qdot_watch_is_fine(w, i)) /* no state makes it grow along the step */
             QDOT_TRY(qdot_watch_operations_within(w, p, true, i, w->noise + i));
     }
     if (p->a != w->t) {

@@ -55,6 +55,11 @@ struct qdot_watch {
     /* Values in sums of two doubles (watch-two.c). */
     qdot_tape_two *two;   /* the tape of g in two doubles; NULL until it is needed */
     qdot_two *state_two;  /* [2n] scratch */
+    struct qdot_precise *many; /* g in many digits (watch-flat.c); NULL until it is needed */
+    double *settled; /* [m] the time of the flat root located last; NaN: none */
+    bool *deep;      /* [m] values are in many digits: the first step of a piece that starts on it */
+    bool any_deep;
+    int *leaves;     /* [m] the sign of these just after the start */
     struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
     bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
     bool *clock;          /* [m] it is one of t alone */
@@ -193,6 +198,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double 
 /* Whether function i can be evaluated in two doubles within the step: the state can be read so, or is not needed. */
 bool qdot_watch_can_two(const qdot_watch *w, size_t i);
 
+/* Make the tape of g in two doubles, and w->state_two, unless they exist; the state at t within the step: w->state_two. */
+QDOT_MUST_CHECK qdot_status qdot_watch_make_two(qdot_watch *w);
+QDOT_MUST_CHECK qdot_status qdot_watch_read_two(qdot_watch *w, double t);
+
 /* g [m] at t within the step, in two doubles where w->wants says so; w->in is the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double *g);
 
@@ -316,16 +325,32 @@ void qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdo
  * t, and that are no farther apart than that, are given the same t; whether there are any, so that the order is another one. */
 bool qdot_watch_join_instants(qdot_watch *w);
 
+/* --- flat roots (watch-flat.c) -------------------------------------------------------- */
+
+/* Where function i has hardly any slope at a crossing that was found, |g'| <= `slope`: locate it in many digits. *is false:
+ * it is none, but made by rounding. It may become a touch. */
+QDOT_MUST_CHECK qdot_status qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qdot_root *root,
+                                                   bool *is);
+/* Likewise a touch, at which g'' is `bend`. */
+QDOT_MUST_CHECK qdot_status qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qdot_root *root,
+                                                    bool *is);
+/* Where a piece starts: set w->deep [m], and w->start.g0 of these. Then values at t within the step, into g [m]. */
+QDOT_MUST_CHECK qdot_status qdot_watch_begin_deep(qdot_watch *w, const double *low);
+QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w);
+QDOT_MUST_CHECK qdot_status qdot_watch_value_deep(qdot_watch *w, double t, double *g);
+void qdot_watch_end_deep(qdot_watch *w);
+void qdot_watch_clear_flat(qdot_watch *w);
+
 /* --- touches (watch-touches.c) ------------------------------------------------------- */
 
 /* Whether an extremum of value v at x of the polynomial of function i is a root; *within: as in qdot_root. */
 QDOT_MUST_CHECK qdot_status qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
                                                 double v, bool *touch, double *within);
 
-/* Make a root for a touch; its time is uncertain by the distance of the two crossings that rounding
- * could have merged. */
+/* Make a root for a touch (*is false: in many digits it is none); its time is uncertain by the distance of the two
+ * crossings that rounding could have merged. */
 QDOT_MUST_CHECK qdot_status qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v,
-                                             double within, qdot_root *root);
+                                             double within, qdot_root *root, bool *is);
 
 /* Append the root from which on g_i is 0, |g_i| <= least: it is at `to`, not at `from`. Its sign before is
  * w->now.sign, which becomes 0. */

@@ -91,7 +91,7 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
     int n;
 
     *v = QDOT_PART_GOOD;
-    if (qdot_watch_vanishes(w, p, i))
+    if (w->deep[i] || qdot_watch_vanishes(w, p, i))
         return QDOT_OK;
     n = qdot_watch_extrema(w, p, i, &x);
     if (!p->from_zero && fabs(w->now.g0[i]) <= least && !leaves_start(p, w->now.g0[i], least)) {

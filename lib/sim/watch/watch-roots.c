@@ -131,7 +131,7 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
         qdot_chebyshev_tail(nodes, p->c) >
             qdot_watch_least(w, p, i))
         return QDOT_PART_MORE_NODES;
-    if (p->from_zero && !qdot_watch_vanishes(w, p, i) &&
+    if (p->from_zero && !w->deep[i] && !qdot_watch_vanishes(w, p, i) &&
         fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_slope(p) * size)
         return QDOT_PART_START_CUT;
     return QDOT_PART_GOOD;
@@ -407,7 +407,9 @@ is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 static int
 leaves_to(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, is_slow(w, p, i) ? 1 : -1));
+    return w->deep[i] && p->a == w->t
+               ? w->leaves[i]
+               : qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, is_slow(w, p, i) ? 1 : -1));
 }
 
 /* How far from the start of the part the extremum is that makes the zero there: a touch of a part
@@ -456,6 +458,16 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
                                        : 0,
                            .exact = true};
     return qdot_watch_push(w, root);
+}
+
+/* Append a crossing, unless it is found in many digits that rounding has made it. */
+static qdot_status
+push_crossing(qdot_watch *w, const qdot_watch_part *p, qdot_root root)
+{
+    bool is;
+
+    QDOT_TRY(qdot_watch_settle_flat(w, p, fabs(slope_at(p, root.t)), &root, &is));
+    return is ? qdot_watch_push(w, root) : QDOT_OK;
 }
 
 /* Treat the zero at the start of the part: count it as a root if the sign before differs, or as a touch if
@@ -618,8 +630,9 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
             if (within == 0)
                 forget_roundings(w, i, from);
             if (sign != 0 && !is_start_again(p, to)) {
-                QDOT_TRY(qdot_watch_touch(w, p, i, x[e], v, within, &root));
-                QDOT_TRY(qdot_watch_push(w, root));
+                QDOT_TRY(qdot_watch_touch(w, p, i, x[e], v, within, &root, &found));
+                if (found)
+                    QDOT_TRY(qdot_watch_push(w, root));
             }
             continue;
         }
@@ -631,7 +644,7 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
             QDOT_TRY(qdot_watch_cross(w, p, i, there, guess, ends, &root, &found));
             if (found && !is_start_again(p, root.t)) {
                 forget_roundings(w, i, from);
-                QDOT_TRY(qdot_watch_push(w, root));
+                QDOT_TRY(push_crossing(w, p, root));
             } else if (!found && ends[1].t == p->a && ends[1].g != 0 && !p->from_zero) {
                 QDOT_TRY(cross_between_steps(w, p, i, there, ends[1].g));
             }

@@ -85,7 +85,7 @@ flat_width(const qdot_watch_part *p, const double *d, double x)
 
 qdot_status
 qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, double within,
-                 qdot_root *root)
+                 qdot_root *root, bool *is)
 {
     const double t = qdot_watch_time(p, x);
     double d[QDOT_WATCH_NODES], bend, apart;
@@ -99,7 +99,7 @@ qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, do
                         .blur = fmax(flat_width(p, d, x), apart),
                         .within = within,
                         .bend = within > 0 ? bend : 0};
-    return QDOT_OK;
+    return qdot_watch_settle_touch(w, p, bend, root, is);
 }
 
 /* How long before t |g_i| was 4 times `least`, within rounding of which it is 0 at t; at most since the start of the

@@ -27,9 +27,8 @@ can_any(const qdot_watch *w)
     return any && !w->accelerations;
 }
 
-/* The state at t within the step: w->state_two. */
-static qdot_status
-read_two(qdot_watch *w, double t)
+qdot_status
+qdot_watch_read_two(qdot_watch *w, double t)
 {
     if (w->reader.read_two && w->expanded)
         return w->reader.read_two(t, w->state_two, w->reader.user);
@@ -50,9 +49,8 @@ sampled_size(const qdot_watch *w, size_t i, int nodes)
     return size;
 }
 
-/* Make the tape of g in two doubles unless it exists. */
-static qdot_status
-make_two(qdot_watch *w)
+qdot_status
+qdot_watch_make_two(qdot_watch *w)
 {
     if (w->two)
         return QDOT_OK;
@@ -120,8 +118,8 @@ difference(qdot_two a, double b)
 qdot_status
 qdot_watch_value_two(qdot_watch *w, double t, double *g)
 {
-    QDOT_TRY(make_two(w));
-    QDOT_TRY(read_two(w, t));
+    QDOT_TRY(qdot_watch_make_two(w));
+    QDOT_TRY(qdot_watch_read_two(w, t));
     QDOT_TRY(value_two(w, t, w->state_two, false, g));
     for (size_t i = 0; i < w->m; i++)
         if (w->now.offset[i] != 0 && is_of_two(w, i))
@@ -132,7 +130,7 @@ qdot_watch_value_two(qdot_watch *w, double t, double *g)
 qdot_status
 qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double *low, double *g)
 {
-    QDOT_TRY(make_two(w));
+    QDOT_TRY(qdot_watch_make_two(w));
     for (size_t i = 0; i < w->m; i++)
         w->wants[i] = true;
     for (size_t k = 0; k < 2 * w->n; k++)
@@ -171,13 +169,13 @@ find_sides(qdot_watch *w, const qdot_watch_part *p)
     enum { PLACES = 4 };
     uint64_t sides = 0;
 
-    QDOT_TRY(make_two(w));
+    QDOT_TRY(qdot_watch_make_two(w));
     w->steady = true;
     for (int k = 0; k <= PLACES && w->steady; k++) {
         const double t = k == PLACES ? p->b : p->a + (p->b - p->a) * k / PLACES;
         uint64_t here;
 
-        QDOT_TRY(read_two(w, t));
+        QDOT_TRY(qdot_watch_read_two(w, t));
         evaluate_two(w, t, w->state_two);
         here = qdot_tape_two_sides(w->two);
         w->steady = here != 0 && (k == 0 || here == sides);

@@ -146,8 +146,11 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
 qdot_status
 qdot_watch_value_at(qdot_watch *w, double t, double *g)
 {
-    if (w->fine)
-        return qdot_watch_value_two(w, t, g);
-    QDOT_TRY(w->reader.read(t, w->in, w->reader.user));
-    return qdot_watch_value(w, t, g);
+    if (w->fine) {
+        QDOT_TRY(qdot_watch_value_two(w, t, g));
+    } else {
+        QDOT_TRY(w->reader.read(t, w->in, w->reader.user));
+        QDOT_TRY(qdot_watch_value(w, t, g));
+    }
+    return w->any_deep ? qdot_watch_value_deep(w, t, g) : QDOT_OK;
 }

@@ -374,6 +374,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         qdot_watch_bound(w, step);
     qdot_polynomial_bounds_begin(&w->bounds, NULL);
     QDOT_TRY(qdot_watch_find_fading(w, t, y));
+    if (w->any_deep)
+        QDOT_TRY(qdot_watch_leave_deep(w));
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = !qdot_watch_has_faded(w, i)
                      && (w->start.on[i] || qdot_watch_sign(w->final[i]) != w->start.sign[i] || !is_far(w, i, t, y, step));
@@ -430,6 +432,7 @@ void
 qdot_watch_take(qdot_watch *w)
 {
     copy_state(w, &w->start, &w->now);
+    qdot_watch_end_deep(w);
     qdot_watch_take_fading(w);
     w->least = 0;
     memcpy(w->y, w->end, 2 * w->n * sizeof *w->y);
@@ -490,6 +493,7 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
     w->t = t;
     memset(w->now.blurred, 0, w->m * sizeof *w->now.blurred);
     QDOT_TRY(qdot_watch_value_at_begin(w, known->low));
+    QDOT_TRY(qdot_watch_begin_deep(w, known->low));
     for (size_t i = 0; i < w->m; i++) {
         const double g = w->start.g0[i];
         const bool met = known->residual && known->residual[i] >= 0;
@@ -577,6 +581,7 @@ qdot_watch_free(qdot_watch *w)
     qdot_tape_free(w->plain);
     qdot_tape_two_free(w->two);
     qdot_free(w->state_two);
+    qdot_watch_clear_flat(w);
     qdot_watch_clear_turns(w);
     qdot_free(w->smooth);
     qdot_polynomial_bounds_clear(&w->bounds);
@@ -599,10 +604,10 @@ watch_make_room(qdot_watch *w)
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
     double *at = qdot_calloc(inputs + 3 * 2 * n + 1 + 2 * work + 15 * m + 3 * QDOT_WATCH_NODES * m +
-                                 (DEEPEST + 2) * m,
+                                 (DEEPEST + 2) * m + m,
                              sizeof *at);
-    int *signs = qdot_calloc(6 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(13 * m + 1, sizeof *flags);
+    int *signs = qdot_calloc(7 * m + 1, sizeof *signs);
+    bool *flags = qdot_calloc(14 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -636,11 +641,15 @@ watch_make_room(qdot_watch *w)
     w->now.offset = w->start.offset + m;
     w->most = w->now.offset + m;
     w->faded_since = w->most + m;
+    w->settled = w->faded_since + m;
+    for (size_t i = 0; i < m; i++)
+        w->settled[i] = NAN;
     w->start.sign = signs + m;
     w->now.sign = signs + 2 * m;
     w->n_extrema = signs + 3 * m;
     w->n_fitted = signs + 4 * m;
     w->faded = signs + 5 * m;
+    w->leaves = signs + 6 * m;
     w->fresh = flags + m;
     w->start.on = flags + 2 * m;
     w->now.on = flags + 3 * m;
@@ -653,6 +662,7 @@ watch_make_room(qdot_watch *w)
     w->wants = flags + 10 * m;
     w->may_fade = flags + 11 * m;
     w->fading = flags + 12 * m;
+    w->deep = flags + 13 * m;
     return QDOT_OK;
 }
 

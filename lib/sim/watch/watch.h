@@ -22,6 +22,9 @@
  * An extremum within rounding of 0, or within the tolerance of the run, is a root without
  * change of sign.
  *
+ * Where g has hardly any slope at a root, rounding of its operations hides the root, or makes several of it: it is
+ * evaluated in many digits there (watch-flat.c).
+ *
  * Of functions of t alone two crossings that only rounding of their operations sets apart have the same time
  * (watch-instants.c).
  *
@@ -29,7 +32,8 @@
  * represents it: there, in a part of a few thousand doubles of t, its values alone are looked at
  * (watch-rough.c).
  *
- * Tests  tests/script/events/event-spans.lag, events.lag, event-roots.lag, event-stays.lag, narrow-events.lag
+ * Tests  tests/script/events/event-spans.lag, events.lag, event-roots.lag, event-stays.lag, narrow-events.lag,
+ *        flat-events.lag
  */
 #ifndef QDOT_SIM_WATCH_H
 #define QDOT_SIM_WATCH_H

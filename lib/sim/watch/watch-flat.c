@@ -1,0 +1,432 @@
+/* watch-flat.c -- roots at which a function is so flat that rounding of its own operations hides them.
+ *
+ *     g = c (t - t*)^m + r   hides the root within   |t - t*| <= (r/c)^(1/m):
+ *
+ * 5e-6 in doubles for m = 3. The state is known far better than that, and with g = F(u(state)), F flat, so is t*. Where
+ * the polynomial of g has hardly any slope at a root, g is evaluated in so many digits that its operations round nothing
+ * that counts. Rounding of the state is left:
+ *
+ *     noise = sum over k of |g(y + eps max|y_k| e_k) - g(y)|
+ *
+ * A sign counts where |g| is more than that. Between the next signs on both sides of a crossing the root is bisected; where
+ * there is none on one side rounding has made the crossing, or two of a touch.
+ *
+ * Tests  tests/script/events/flat-events.lag
+ */
+#include <float.h>
+#include <math.h>
+
+#include "sim/watch/watch-parts.h"
+
+#include "series/precise.h"
+
+#define RN MPFR_RNDN
+
+/* More than enough for multiplicities that occur: a state in two doubles leaves u = 2^-106 at a root, and u^m is told from
+ * rounding for m < 6. */
+enum { BITS = 640 };
+
+/* A slope below this part of |g| on the part, per length of the part, is looked at. */
+static const double hardly_any = 1e-3;
+
+/* g is of odd order m > 1 where it grows by more than this from h to 2h: by 2^m; or a bounce, however low, by 4. */
+static const double growth_of_cube = 6;
+
+void
+qdot_watch_clear_flat(qdot_watch *w)
+{
+    qdot_precise_free(w->many);
+}
+
+static double
+step_of_double(double t)
+{
+    return nextafter(fabs(t), INFINITY) - fabs(t);
+}
+
+/* --- values in many digits ------------------------------------------------------------- */
+
+/* Function i at the state in w->state_two, of which component k (SIZE_MAX: none) is changed by `by`. */
+static double
+value_of_state(qdot_watch *w, size_t i, double t, size_t k, double by)
+{
+    const size_t stride = qdot_precise_stride(w->many);
+    mpfr_t *in = qdot_precise_input(w->many, 0);
+    const mpfr_t *out = qdot_precise_output(w->many, i);
+    double g;
+
+    for (size_t j = 0; j < 2 * w->n; j++) {
+        mpfr_set_d(in[j * stride], w->state_two[j].hi, RN);
+        mpfr_add_d(in[j * stride], in[j * stride], w->state_two[j].lo, RN);
+        if (j == k)
+            mpfr_add_d(in[j * stride], in[j * stride], by, RN);
+    }
+    mpfr_set_d(in[2 * w->n * stride], t, RN);
+    qdot_precise_order(w->many, 0);
+    if (!mpfr_number_p(out[0]))
+        return NAN;
+    g = mpfr_get_d(out[0], RN);
+    return mpfr_sgn(out[0]) * fmin(fmax(fabs(g), DBL_MIN), QDOT_WATCH_MOST); /* a zero stays one */
+}
+
+static qdot_status
+value_in_digits(qdot_watch *w, size_t i, double t, double *g)
+{
+    QDOT_TRY(qdot_watch_read_two(w, t));
+    *g = value_of_state(w, i, t, SIZE_MAX, 0);
+    return QDOT_OK;
+}
+
+/* What rounding of the state at t makes of function i. */
+static qdot_status
+noise_at(qdot_watch *w, size_t i, double t, double *noise)
+{
+    double g;
+
+    QDOT_TRY(value_in_digits(w, i, t, &g));
+    *noise = 0;
+    for (size_t k = 0; k < 2 * w->n && !w->clock[i]; k++) {
+        const double size = fmax(fabs(w->state_two[k].hi), w->largest ? w->largest[k] : 0),
+                     change = fabs(value_of_state(w, i, t, k, DBL_EPSILON * size) - g);
+
+        *noise += isnan(change) ? 0 : change;
+    }
+    return QDOT_OK;
+}
+
+static bool
+may_have_many(const qdot_watch *w, size_t i)
+{
+    return w->reader.alone && !w->accelerations && w->coordinate[i] == SIZE_MAX;
+}
+
+static qdot_status
+make_many(qdot_watch *w)
+{
+    QDOT_TRY(qdot_watch_make_two(w));
+    return w->many ? QDOT_OK
+                   : qdot_precise_new(w->plan->pool, w->plain ? w->plain : w->tape, 0, BITS, &w->many);
+}
+
+qdot_status
+qdot_watch_begin_deep(qdot_watch *w, const double *low)
+{
+    w->any_deep = false;
+    for (size_t i = 0; i < w->m; i++) {
+        w->deep[i] = fabs(w->t - w->settled[i]) <= 4 * DBL_EPSILON * fabs(w->t);
+        w->any_deep = w->any_deep || w->deep[i];
+    }
+    for (size_t k = 0; k < 2 * w->n && w->any_deep; k++)
+        w->state_two[k] = qdot_two_add_double((qdot_two){w->y[k], 0}, low ? low[k] : 0);
+    for (size_t i = 0; i < w->m && w->any_deep; i++) {
+        const double g = w->deep[i] ? value_of_state(w, i, w->t, SIZE_MAX, 0) : NAN;
+
+        w->deep[i] = !isnan(g);
+        if (w->deep[i]) {
+            w->start.g0[i] = g;
+            w->start.sharp[i] = true;
+        }
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_value_deep(qdot_watch *w, double t, double *g)
+{
+    QDOT_TRY(qdot_watch_read_two(w, t));
+    for (size_t i = 0; i < w->m; i++) {
+        const double value = w->deep[i] ? value_of_state(w, i, t, SIZE_MAX, 0) : NAN;
+
+        if (!isnan(value))
+            g[i] = value - w->now.offset[i];
+    }
+    return QDOT_OK;
+}
+
+/* So many doubles of t behind a root rounding of the state hides its sign no longer. */
+static const double clearly = 0x1p12;
+
+qdot_status
+qdot_watch_leave_deep(qdot_watch *w)
+{
+    const double by = fmin(clearly * step_of_double(w->t), 0.5 * w->length);
+
+    QDOT_TRY(qdot_watch_read_two(w, w->t + w->direction * by));
+    for (size_t i = 0; i < w->m; i++)
+        w->leaves[i] =
+            w->deep[i] ? qdot_watch_sign(value_of_state(w, i, w->t + w->direction * by, SIZE_MAX, 0)) : 0;
+    return QDOT_OK;
+}
+
+void
+qdot_watch_end_deep(qdot_watch *w)
+{
+    for (size_t i = 0; i < w->m && w->any_deep; i++)
+        w->deep[i] = false;
+    w->any_deep = false;
+}
+
+/* --- a crossing ------------------------------------------------------------------------ */
+
+/* From t on, by steps that double, as far as `end`: where function i has the sign `sign` (0: any) and exceeds `noise`; *found. */
+static qdot_status
+seek_sign(qdot_watch *w, size_t i, double t, double end, int sign, double noise, double *at, bool *found)
+{
+    const double way = end < t ? -1 : 1;
+    double by = step_of_double(t);
+
+    *found = false;
+    for (*at = t; !*found; by *= 2) {
+        double g;
+
+        QDOT_TRY(value_in_digits(w, i, *at, &g));
+        *found = (sign == 0 ? fabs(g) : g * sign) > noise;
+        if (*found || *at == end)
+            break;
+        *at = way * (t + way * by - end) < 0 ? t + way * by : end;
+    }
+    return QDOT_OK;
+}
+
+/* Bisect the root between lo, where function i has the sign -way, and hi, in the direction of the run. */
+static qdot_status
+bisect(qdot_watch *w, size_t i, int way, double lo, double hi, qdot_root *root)
+{
+    double ends[2];
+
+    for (;;) {
+        const double middle = lo + 0.5 * (hi - lo);
+        double g;
+
+        if (middle == lo || middle == hi)
+            break;
+        QDOT_TRY(value_in_digits(w, i, middle, &g));
+        *(g * way >= 0 ? &hi : &lo) = middle;
+    }
+    QDOT_TRY(value_in_digits(w, i, lo, ends));
+    QDOT_TRY(value_in_digits(w, i, hi, ends + 1));
+    root->t = hi;
+    root->exact = ends[1] == 0;
+    root->late = root->exact ? 0 : fabs(hi - lo) * (fabs(ends[1]) / (fabs(ends[0]) + fabs(ends[1])));
+    root->blur = root->exact ? 0 : fabs(hi - lo);
+    return QDOT_OK;
+}
+
+/* Whether function i crosses 0 at t like an odd power above the first. */
+static qdot_status
+crosses_flatly(qdot_watch *w, size_t i, double t, double h, bool *is)
+{
+    double odd[2], even[2];
+
+    for (int k = 0; k < 2; k++) {
+        double before, behind;
+
+        QDOT_TRY(value_in_digits(w, i, t - (k + 1) * h, &before));
+        QDOT_TRY(value_in_digits(w, i, t + (k + 1) * h, &behind));
+        odd[k] = fabs(behind - before);
+        even[k] = fabs(behind + before);
+    }
+    *is = odd[0] > 2 * even[0] && odd[1] > 2 * even[1] && odd[1] > growth_of_cube * odd[0];
+    return QDOT_OK;
+}
+
+/* Whether the root is one that was found already, or where the piece starts: rounding makes several of a flat one. */
+static bool
+is_found_already(const qdot_watch *w, const qdot_root *root)
+{
+    const double near = 16 * DBL_EPSILON * fabs(root->t);
+
+    if (w->deep[root->function] && fabs(root->t - w->t) <= near)
+        return true;
+    for (size_t k = w->roots.n; k-- > 0;)
+        if (w->roots.at[k].function == root->function && w->roots.at[k].way == root->way)
+            return fabs(w->roots.at[k].t - root->t) <= near;
+    return false;
+}
+
+/* Note a root that is located in many digits, and set its residual: |g| that doubles may see beside it. */
+static qdot_status
+leave_residual(qdot_watch *w, double noise, qdot_root *root)
+{
+    double operations;
+
+    w->settled[root->function] = root->t;
+    QDOT_TRY(w->reader.read(root->t, w->in, w->reader.user));
+    QDOT_TRY(qdot_watch_operations(w, root->t, false, root->function, &operations));
+    root->residual = fmax(root->residual, noise + operations);
+    return QDOT_OK;
+}
+
+/* The times around a root that are looked at: those of the step. */
+typedef struct {
+    double from, to, ulp;
+} flat_range;
+
+/* Between lo and hi: the least of sign * g_i, at *t. */
+static qdot_status
+seek_least(qdot_watch *w, size_t i, int sign, double lo, double hi, double *t)
+{
+    while (fabs(hi - lo) > 4 * step_of_double(fmax(fabs(lo), fabs(hi)))) {
+        const double third = (hi - lo) / 3;
+        double a, b;
+
+        QDOT_TRY(value_in_digits(w, i, lo + third, &a));
+        QDOT_TRY(value_in_digits(w, i, hi - third, &b));
+        if (sign * a < sign * b)
+            hi -= third;
+        else
+            lo += third;
+    }
+    *t = lo + 0.5 * (hi - lo);
+    return QDOT_OK;
+}
+
+/* The change of function i by a few doubles of t about `t`. */
+static qdot_status
+change_at(qdot_watch *w, size_t i, double t, double *change)
+{
+    const double by = 4 * step_of_double(t);
+    double at, before, behind;
+
+    QDOT_TRY(value_in_digits(w, i, t, &at));
+    QDOT_TRY(value_in_digits(w, i, t - by, &before));
+    QDOT_TRY(value_in_digits(w, i, t + by, &behind));
+    *change = fmax(fabs(before - at), fabs(behind - at));
+    return QDOT_OK;
+}
+
+/* The extremum of function i, of that sign on both sides, to which it falls from root->t. If that is 0 but for rounding of
+ * the state the root becomes a touch there; *is. */
+static qdot_status
+make_touch(qdot_watch *w, const flat_range *of, int sign, qdot_root *root, bool *is)
+{
+    const size_t i = root->function;
+    double ends[2], g, noise, change;
+    bool found;
+
+    QDOT_TRY(value_in_digits(w, i, root->t, &g));
+    for (int side = 0; side < 2; side++) { /* as far as it falls, and twice that */
+        const double end = side == 0 ? of->from : of->to, way = end < root->t ? -1 : 1;
+        double there = g, last = g;
+
+        ends[side] = root->t;
+        for (double by = of->ulp; ends[side] != end && sign * there <= sign * last; by *= 2) {
+            last = there;
+            ends[side] = way * (root->t + way * by - end) < 0 ? root->t + way * by : end;
+            QDOT_TRY(value_in_digits(w, i, ends[side], &there));
+        }
+    }
+    QDOT_TRY(seek_least(w, i, sign, ends[0], ends[1], &root->t));
+    QDOT_TRY(noise_at(w, i, root->t, &noise));
+    QDOT_TRY(change_at(w, i, root->t, &change));
+    noise += change;
+    QDOT_TRY(value_in_digits(w, i, root->t, &g));
+    *is = fabs(g) <= 4 * noise;
+    if (!*is)
+        return QDOT_OK;
+    QDOT_TRY(seek_sign(w, i, root->t, of->from, sign, 4 * noise, ends, &found));
+    QDOT_TRY(seek_sign(w, i, root->t, of->to, sign, 4 * noise, ends + 1, &found));
+    root->way = 0;
+    root->exact = false;
+    root->late = root->flat = 0;
+    root->blur = fabs(ends[1] - ends[0]);
+    root->residual = 0;
+    return leave_residual(w, noise, root);
+}
+
+/* How far around the crossing `root` rounding of the state hides function i: root->flat, unless it is a few doubles of t;
+ * *noise: what that makes of it. */
+static qdot_status
+find_width(qdot_watch *w, const flat_range *of, qdot_root *root, double *noise)
+{
+    double lo, hi;
+    bool found;
+
+    QDOT_TRY(noise_at(w, root->function, root->t, noise));
+    QDOT_TRY(seek_sign(w, root->function, root->t, of->from, -root->way, *noise, &lo, &found));
+    QDOT_TRY(seek_sign(w, root->function, root->t, of->to, root->way, *noise, &hi, &found));
+    root->flat = fabs(hi - lo) > 16 * of->ulp ? fabs(hi - lo) : 0;
+    return QDOT_OK;
+}
+
+static flat_range
+flat_range_of(const qdot_watch *w, const qdot_watch_part *p, double t)
+{
+    const double length = fabs(p->b - p->a), end = w->t + w->direction * w->length;
+
+    return (flat_range){.from = fabs(p->a - w->t) < length ? w->t : p->a - w->direction * length,
+                        .to = fabs(end - p->b) < length ? end : p->b + w->direction * length,
+                        .ulp = step_of_double(t)};
+}
+
+qdot_status
+qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qdot_root *root, bool *is)
+{
+    const size_t i = root->function;
+    const double length = fabs(p->b - p->a);
+    const flat_range of = flat_range_of(w, p, root->t);
+    double noise, lo, hi, room, h;
+    bool before, behind;
+
+    *is = true;
+    if (w->coarse || root->pole || !may_have_many(w, i)
+        || slope * length > hardly_any * qdot_chebyshev_size(p->n, p->c))
+        return QDOT_OK;
+    QDOT_TRY(make_many(w));
+    QDOT_TRY(noise_at(w, i, root->t, &noise));
+    QDOT_TRY(seek_sign(w, i, root->t, of.from, -root->way, noise, &lo, &before));
+    QDOT_TRY(seek_sign(w, i, root->t, of.to, root->way, noise, &hi, &behind));
+    room = fmin(w->deep[i] ? INFINITY : fabs(root->t - of.from), fabs(of.to - root->t));
+    if (before != behind) {
+        if (room > 0x1p-10 * length) {
+            QDOT_TRY(make_touch(w, &of, before ? -root->way : root->way, root, is));
+            *is = *is && !is_found_already(w, root);
+        } else { /* at an end of the step */
+            root->flat = 16 * room;
+        }
+        return QDOT_OK;
+    }
+    *is = before;
+    if (!*is)
+        return QDOT_OK;
+    if (fabs(hi - lo) > 4 * of.ulp)
+        QDOT_TRY(bisect(w, i, root->way, lo, hi, root));
+    QDOT_TRY(find_width(w, &of, root, &noise));
+    h = fmax(64 * of.ulp, 16 * root->flat);
+    if (fmin(fabs(root->t - of.from), fabs(of.to - root->t)) > 2 * h)
+        QDOT_TRY(crosses_flatly(w, i, root->t, h, &root->cubic));
+    *is = !is_found_already(w, root);
+    return root->cubic || root->flat > 0 ? leave_residual(w, noise, root) : QDOT_OK;
+}
+
+qdot_status
+qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qdot_root *root, bool *is)
+{
+    const size_t i = root->function;
+    const double length = fabs(p->b - p->a);
+    const flat_range of = flat_range_of(w, p, root->t);
+    double noise, at;
+    int sign[2] = {0, 0};
+
+    *is = true;
+    if (w->coarse || !may_have_many(w, i)
+        || fabs(bend) * length * length > hardly_any * qdot_chebyshev_size(p->n, p->c))
+        return QDOT_OK;
+    QDOT_TRY(make_many(w));
+    QDOT_TRY(noise_at(w, i, root->t, &noise));
+    for (int side = 0; side < 2; side++) {
+        double g;
+        bool found;
+
+        QDOT_TRY(seek_sign(w, i, root->t, side == 0 ? of.from : of.to, 0, noise, &at, &found));
+        QDOT_TRY(value_in_digits(w, i, at, &g));
+        sign[side] = found ? qdot_watch_sign(g) : 0;
+    }
+    if (sign[0] == 0 || sign[1] == 0) /* at an end of the step, or it stays 0 */
+        return QDOT_OK;
+    *is = sign[0] == sign[1];
+    if (*is)
+        QDOT_TRY(make_touch(w, &of, sign[0], root, is));
+    *is = *is && !is_found_already(w, root);
+    return QDOT_OK;
+}
