@@ -10,6 +10,7 @@
 #include "expr/calculus.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "sim/digits/precise-formula.h"
 #include "sim/digits/precise-hold.h"
 
 #define RN MPFR_RNDN
@@ -17,29 +18,10 @@
 /* The largest distance of a root from that of the run in doubles, as a fraction of the piece's duration. */
 static const double pad = 0x1p-8;
 
-enum { MOST_TRIES = 2000, MOST_BOUNCES = 1000000 };
+enum { MOST_BOUNCES = 1000000 };
 
-/* Value of formula.event if the formula is the rate of the event's function. */
-#define RATE (SIZE_MAX - 1)
-
-/* An expression evaluated in MPFR. */
-typedef struct {
-    size_t mode, function; /* of a surface, domain or event; SIZE_MAX: `then` of event */
-    size_t event;
-    bool accelerations;
-    qdot_precise *program;
-} formula;
-
-struct qdot_precise_course {
-    qdot_vec(formula) formulas;
-    qdot_vec(qdot_precise_hold *) holds; /* [modes] with constraints and changes; else NULL */
-    bool *set;                           /* [2n] what an event has set */
-    size_t *segment_of;                  /* [pieces of the guide] */
-    qdot_reals numbers; /* t, y [2n], old [2n], and the locator's */
-    mpfr_t *y, *old, *at;
-};
-
-enum { LO, HI, F_LO, F_HI, X, F_X, W, BEFORE, SPEED, SPEED_BEFORE, FLIGHT, BEGAN, NUMBERS };
+/* A function whose root is sought has this many times the digits of the state: one of that multiplicity is no less exact. */
+enum { FLAT = 8 };
 
 /* --- what is prepared ---------------------------------------------------------------- */
 
@@ -67,11 +49,11 @@ mode_of(const qdot_precise_side *s, size_t mode)
     return s->guide->stage->modes.at[mode];
 }
 
-static formula *
+static qdot_precise_formula *
 formula_find(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
 {
     for (size_t i = 0; i < s->course->formulas.n; i++) {
-        formula *f = &s->course->formulas.at[i];
+        qdot_precise_formula *f = &s->course->formulas.at[i];
 
         if (f->function == function && f->event == event
             && (function == SIZE_MAX || f->mode == mode))
@@ -85,7 +67,7 @@ formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
 {
     const qdot_mode *m = mode_of(s, mode);
     const qdot_plan *p = m->plan;
-    formula f = {.mode = mode, .function = function, .event = event};
+    qdot_precise_formula f = {.mode = mode, .function = function, .event = event};
     qdot_tape *own = NULL;
     const qdot_tape *tape;
     qdot_status status = QDOT_OK;
@@ -96,7 +78,7 @@ formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
         tape = s->guide->stage->events.at[event].then;
         f.accelerations = s->guide->stage->events.at[event].accelerations;
     } else {
-        const qdot_expr e = event == RATE ? qdot_ddt(p->pool, m->functions[function])
+        const qdot_expr e = event == QDOT_PRECISE_RATE ? qdot_ddt(p->pool, m->functions[function])
                                           : m->functions[function];
 
         QDOT_TRY(qdot_pool_check(p->pool));
@@ -106,7 +88,7 @@ formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
                           & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
     }
     if (status == QDOT_OK)
-        status = qdot_precise_new(p->pool, tape, 0, s->start.bits, &f.program);
+        status = qdot_precise_new(p->pool, tape, 0, (function == SIZE_MAX ? 1 : FLAT) * s->start.bits, &f.program);
     qdot_tape_free(own);
     if (status == QDOT_OK && (status = qdot_vec_push(&s->course->formulas, f)) != QDOT_OK)
         qdot_precise_free(f.program);
@@ -189,7 +171,7 @@ qdot_precise_course_init(qdot_precise_side *s)
 
         QDOT_TRY(formula_add(s, mode, e->function, SIZE_MAX));
         if (begins_contact(g, e->piece, e, 1, &many))
-            QDOT_TRY(formula_add(s, mode, e->function, RATE));
+            QDOT_TRY(formula_add(s, mode, e->function, QDOT_PRECISE_RATE));
         if (e->what.kind == QDOT_WATCH_EVENT
             && g->stage->events.at[e->what.index].then) {
             QDOT_TRY(formula_add(s, mode, SIZE_MAX, e->what.index));
@@ -200,110 +182,6 @@ qdot_precise_course_init(qdot_precise_side *s)
         QDOT_TRY(formula_add(s, g->tr.pieces.at[piece_of(g, g->occurrences.at[i].t)].mode,
                              g->occurrences.at[i].event, SIZE_MAX));
     return QDOT_OK;
-}
-
-/* --- a function along a segment ------------------------------------------------------ */
-
-/* f at the state y of t. */
-static qdot_status
-formula_evaluate(qdot_precise_side *s, const formula *f, size_t mode, mpfr_srcptr t, const mpfr_t *y)
-{
-    return qdot_precise_evaluate(s, mode, mode_of(s, mode)->plan, f->program, f->accelerations,
-                                 t, y);
-}
-
-/* f at t of a segment into out, the state into s->course->y. */
-static qdot_status
-value_at(qdot_precise_side *s, size_t segment, const formula *f, mpfr_srcptr t,
-         mpfr_ptr out)
-{
-    QDOT_TRY(qdot_precise_state_in(s, segment, t, s->course->y));
-    QDOT_TRY(formula_evaluate(s, f, s->segments.at[segment].mode, t,
-                              (const mpfr_t *)s->course->y));
-    mpfr_set(out, qdot_precise_output(f->program, 0)[0], RN);
-    return mpfr_number_p(out) ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "it has no value there");
-}
-
-/* at[LO] and at[HI]: around t, within the segment. */
-static void
-bracket(const qdot_precise_side *s, size_t segment, double t, double by)
-{
-    const qdot_precise_run *run = &s->segments.at[segment].run;
-    mpfr_t *at = s->course->at;
-    mpfr_srcptr first = qdot_precise_point(run, 0)[0];
-    mpfr_srcptr last = qdot_precise_point(run, run->count - 1)[0];
-    int way = mpfr_less_p(last, first) ? -1 : 1;
-
-    mpfr_set_d(at[LO], t, RN);
-    mpfr_set(at[HI], at[LO], RN);
-    mpfr_set_d(at[W], way * by, RN);
-    mpfr_sub(at[LO], at[LO], at[W], RN);
-    mpfr_add(at[HI], at[HI], at[W], RN);
-    if (way * mpfr_cmp(at[LO], first) < 0)
-        mpfr_set(at[LO], first, RN);
-    if (way * mpfr_cmp(at[HI], last) > 0)
-        mpfr_set(at[HI], last, RN);
-}
-
-/* The root of f between at[LO] and at[HI], into at[X]; *found: f changes its sign there. */
-static qdot_status
-find_root(qdot_precise_side *s, size_t segment, const formula *f, bool *found)
-{
-    mpfr_t *at = s->course->at;
-    const double t = mpfr_get_d(at[LO], RN);
-    int stayed = 0;
-    double least;
-
-    QDOT_TRY(value_at(s, segment, f, at[LO], at[F_LO]));
-    QDOT_TRY(value_at(s, segment, f, at[HI], at[F_HI]));
-    *found = mpfr_sgn(at[F_LO]) * mpfr_sgn(at[F_HI]) <= 0
-             && (mpfr_sgn(at[F_LO]) || mpfr_sgn(at[F_HI]));
-    if (!*found)
-        return QDOT_OK;
-    least = fmax(0, log2(fabs(t) + 1)) + 6 - (double)s->start.bits;
-    mpfr_set(at[BEFORE], at[LO], RN);
-    for (int tries = 0; tries < MOST_TRIES; tries++) {
-        QDOT_TRY(qdot_interrupt_check());
-        mpfr_sub(at[X], at[HI], at[LO], RN);
-        if (tries % 8 == 7) {
-            mpfr_div_2ui(at[X], at[X], 1, RN);
-        } else {
-            mpfr_sub(at[W], at[F_HI], at[F_LO], RN);
-            mpfr_mul(at[X], at[X], at[F_LO], RN);
-            mpfr_div(at[X], at[X], at[W], RN);
-            mpfr_neg(at[X], at[X], RN);
-        }
-        mpfr_add(at[X], at[X], at[LO], RN);
-        QDOT_TRY(value_at(s, segment, f, at[X], at[F_X]));
-        mpfr_sub(at[W], at[X], at[BEFORE], RN);
-        if (mpfr_zero_p(at[F_X]) || qdot_real_log2(at[W]) <= least)
-            return QDOT_OK;
-        mpfr_set(at[BEFORE], at[X], RN);
-        if (mpfr_sgn(at[F_X]) == mpfr_sgn(at[F_HI])) {
-            mpfr_swap(at[HI], at[X]);
-            mpfr_swap(at[F_HI], at[F_X]);
-            if (stayed == 1)
-                mpfr_div_2ui(at[F_LO], at[F_LO], 1, RN);
-            stayed = 1;
-        } else {
-            mpfr_swap(at[LO], at[X]);
-            mpfr_swap(at[F_LO], at[F_X]);
-            if (stayed == -1)
-                mpfr_div_2ui(at[F_HI], at[F_HI], 1, RN);
-            stayed = -1;
-        }
-    }
-    mpfr_set(at[X], at[LO], RN);
-    return QDOT_OK;
-}
-
-/* The root of f near t, likewise. */
-static qdot_status
-locate(qdot_precise_side *s, size_t segment, const formula *f, double t, double by,
-       bool *found)
-{
-    bracket(s, segment, t, by);
-    return find_root(s, segment, f, found);
 }
 
 /* --- pieces -------------------------------------------------------------------------- */
@@ -337,14 +215,14 @@ state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, 
 
     for (size_t k = 0; k < n; k++) {
         const qdot_staged_event *e = &stage->events.at[ends[k].what.index];
-        const formula *f;
+        const qdot_precise_formula *f;
 
         if (ends[k].what.kind != QDOT_WATCH_EVENT || !e->then)
             continue;
         for (size_t i = 0; i < size; i++)
             mpfr_set(s->course->old[i], s->course->y[i], RN);
         f = formula_find(s, mode, SIZE_MAX, ends[k].what.index);
-        QDOT_TRY(formula_evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
+        QDOT_TRY(qdot_precise_formula_evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
         memset(s->course->set, 0, size * sizeof *s->course->set);
         for (size_t i = 0; i < e->changes; i++) {
             mpfr_set(s->course->y[e->targets[i]], qdot_precise_output(f->program, i)[0],
@@ -386,15 +264,15 @@ end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end 
     mpfr_ptr t = s->course->numbers.at[0];
     bool found;
 
-    QDOT_TRY(locate(s, segment, formula_find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
+    QDOT_TRY(qdot_precise_locate(s, segment, formula_find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
                     2 * pad * length_of(s->guide, k), &found));
     if (!found)
         return beyond_doubles(ends[0].t);
     mpfr_set(t, at[X], RN);
     for (size_t k = 1; k < n; k++) { /* what happens with it happens in all digits */
-        const formula *f = formula_find(s, mode, ends[k].function, SIZE_MAX);
+        const qdot_precise_formula *f = formula_find(s, mode, ends[k].function, SIZE_MAX);
 
-        QDOT_TRY(value_at(s, segment, f, t, at[F_X]));
+        QDOT_TRY(qdot_precise_formula_at(s, segment, f, t, at[F_X]));
         if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
             return beyond_doubles(ends[0].t);
     }
@@ -458,13 +336,13 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
 /* The rate of u after the impact, at the state y, into at[SPEED], and before the impact into
  * at[SPEED_BEFORE]. */
 static qdot_status
-find_speeds(qdot_precise_side *s, size_t mode, const formula *rate, mpfr_srcptr t)
+find_speeds(qdot_precise_side *s, size_t mode, const qdot_precise_formula *rate, mpfr_srcptr t)
 {
     mpfr_t *at = s->course->at;
 
-    QDOT_TRY(formula_evaluate(s, rate, mode, t, (const mpfr_t *)s->course->old));
+    QDOT_TRY(qdot_precise_formula_evaluate(s, rate, mode, t, (const mpfr_t *)s->course->old));
     mpfr_set(at[SPEED_BEFORE], qdot_precise_output(rate->program, 0)[0], RN);
-    QDOT_TRY(formula_evaluate(s, rate, mode, t, (const mpfr_t *)s->course->y));
+    QDOT_TRY(qdot_precise_formula_evaluate(s, rate, mode, t, (const mpfr_t *)s->course->y));
     mpfr_set(at[SPEED], qdot_precise_output(rate->program, 0)[0], RN);
     return mpfr_number_p(at[SPEED]) && mpfr_number_p(at[SPEED_BEFORE])
                ? QDOT_OK
@@ -494,7 +372,7 @@ does_not_rest(double t)
 
 /* Integrate one more flight in the mode, to the next impact on the same surface. */
 static qdot_status
-fly(qdot_precise_side *s, size_t mode, const formula *f, const qdot_course_end *end)
+fly(qdot_precise_side *s, size_t mode, const qdot_precise_formula *f, const qdot_course_end *end)
 {
     qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
     const size_t segment = s->segments.n;
@@ -516,7 +394,7 @@ fly(qdot_precise_side *s, size_t mode, const formula *f, const qdot_course_end *
     mpfr_mul_d(at[LO], at[FLIGHT], 0.75, RN);
     mpfr_add(at[LO], at[LO], t, RN);
     mpfr_set(at[HI], at[X], RN);
-    QDOT_TRY(find_root(s, segment, f, &found));
+    QDOT_TRY(qdot_precise_find_root(s, segment, f, &found));
     if (!found)
         return does_not_rest(end->t);
     mpfr_set(t, at[X], RN);
@@ -532,8 +410,8 @@ static qdot_status
 piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
 {
     const size_t mode = s->guide->tr.pieces.at[k].mode, n = s->guide->tr.n;
-    const formula *f = formula_find(s, mode, end->function, SIZE_MAX),
-                  *rate = formula_find(s, mode, end->function, RATE);
+    const qdot_precise_formula *f = formula_find(s, mode, end->function, SIZE_MAX),
+                  *rate = formula_find(s, mode, end->function, QDOT_PRECISE_RATE);
     const qdot_precise_run *flight = &s->segments.at[s->course->segment_of[k]].run;
     mpfr_t *at = s->course->at;
     mpfr_ptr t = s->course->numbers.at[0];
@@ -591,7 +469,7 @@ time_occurrences(qdot_precise_side *s)
         /* a function that touches 0 near its recorded root is located there as a crossing */
         if ((o->way == 0 && (o->within > 0 || !g->stage->events.at[o->event].touches)) || segment >= s->segments.n)
             continue;
-        QDOT_TRY(locate(s, segment,
+        QDOT_TRY(qdot_precise_locate(s, segment,
                         formula_find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
                         pad * pad * length_of(g, piece), &found));
         if (found)
