@@ -44,7 +44,7 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
 
 /* Record the pairs of the latest crossing, at bifurcation `at`, with earlier ones. */
 static qdot_status
-add_pairs(qdot_branch_search *s, size_t at)
+pair_crossing(qdot_branch_search *s, size_t at)
 {
     for (size_t k = 0; k + 1 < s->crossings.n; k++) {
         const size_t other = s->crossings.at[k].at;
@@ -98,7 +98,7 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
         status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
         other = status == QDOT_OK ? NULL : other;
         if (status == QDOT_OK)
-            status = add_pairs(s, i);
+            status = pair_crossing(s, i);
     }
     qdot_free(other);
     return status;
