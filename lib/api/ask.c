@@ -24,7 +24,7 @@ _Static_assert((int)QDOT_TRUTH_PROVED == (int)QDOT_PROVED, "verdict");
 _Static_assert((int)QDOT_TRUTH_REFUTED == (int)QDOT_REFUTED, "verdict");
 _Static_assert((int)QDOT_TRUTH_UNDECIDED == (int)QDOT_UNDECIDED, "verdict");
 
-/* --- statements ----------------------------------------------------------------------- */
+/* --- carrying out statements ---------------------------------------------------------- */
 
 qdot_result
 qdot_system_declare(qdot_system *system, const char *text)
@@ -81,7 +81,7 @@ qdot_system_ask(qdot_system *system, const char *text, qdot_notation notation, c
     return result;
 }
 
-/* --- formulas ------------------------------------------------------------------------- */
+/* --- deriving formulas ---------------------------------------------------------------- */
 
 typedef struct {
     qdot_style style;

@@ -71,7 +71,7 @@ copy_names(qdot_motion *m)
     return QDOT_OK;
 }
 
-/* m becomes a motion of a run of the session. */
+/* Make m hold a run of the session. */
 static qdot_status
 motion_hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
 {
@@ -140,7 +140,7 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
     return qdot_api_end(system, status);
 }
 
-/* --- of the whole --------------------------------------------------------------------- */
+/* --- a run as a whole ----------------------------------------------------------------- */
 
 const qdot_system *
 qdot_motion_system(const qdot_motion *motion)

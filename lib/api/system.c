@@ -13,7 +13,7 @@
 #include "lang/session/session.h"
 #include "lang/source/source.h"
 
-/* --- results -------------------------------------------------------------------------- */
+/* --- texts of results ----------------------------------------------------------------- */
 
 /* The public results are the statuses of base/status.h with public names; check that the values agree. */
 #define SAME(result, status)                                                             \
@@ -69,7 +69,7 @@ qdot_string_free(char *text)
     qdot_free(text);
 }
 
-/* --- a system ------------------------------------------------------------------------- */
+/* --- creating and freeing a system ---------------------------------------------------- */
 
 qdot_result
 qdot_system_new(qdot_system **system)
@@ -128,7 +128,7 @@ qdot_system_notices(const qdot_system *system)
     return system->stream[QDOT_API_NOTICES].text;
 }
 
-/* --- calls ---------------------------------------------------------------------------- */
+/* --- beginning and ending calls ------------------------------------------------------- */
 
 qdot_status
 qdot_api_begin(qdot_system *system)

@@ -27,7 +27,7 @@ struct qdot_system {
     qdot_error error; /* of the latest call; QDOT_OK: none */
 };
 
-/* Begin a call. QDOT_ENOMEM: qdot_api_end must still be called. */
+/* Begin a call of the library. If it returns QDOT_ENOMEM, qdot_api_end must still be called. */
 QDOT_MUST_CHECK qdot_status qdot_api_begin(qdot_system *system);
 /* End a call with this status and return it as a result; QDOT_ENOMEM if its messages found no memory. */
 qdot_result qdot_api_end(qdot_system *system, qdot_status status);

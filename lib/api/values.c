@@ -37,7 +37,7 @@ values_read_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
     return QDOT_OK;
 }
 
-/* --- at times ------------------------------------------------------------------------- */
+/* --- values at given times ------------------------------------------------------------ */
 
 typedef struct {
     qdot_motion *motion;
@@ -129,9 +129,9 @@ qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, do
     return qdot_api_end(motion->system, status);
 }
 
-/* --- events --------------------------------------------------------------------------- */
+/* --- times of events ------------------------------------------------------------------ */
 
-/* Begin a call that returns the run's occurrences of an event; *n of them. */
+/* Begin a call that returns the occurrences of an event in the run; *n is their number. */
 static const qdot_run_occurrence *
 occurrences(qdot_motion *motion, size_t *n, qdot_status *status)
 {
