@@ -1,4 +1,4 @@
-/* interrupt.c -- the flag. */
+/* interrupt.c -- the flag that Ctrl-C sets, and its test. */
 #include "base/interrupt.h"
 
 #include <stdatomic.h>

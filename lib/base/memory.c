@@ -74,9 +74,10 @@ qdot_memory_press_at(long n)
     qdot_memory_visit_at(n, qdot_interrupt_set);
 }
 
-/* Note an allocated block in the scope and return it; if that fails, free it and return NULL. */
+/* Record an allocated block in the thread's scope (scope.h) and return it; if that fails, free it
+ * and return NULL. */
 static void *
-noted(void *block, size_t size)
+record_block(void *block, size_t size)
 {
     if (qdot_scope_now != NULL && block != NULL && !qdot_scope_note(block, size)) {
         free(block);
@@ -88,14 +89,14 @@ noted(void *block, size_t size)
 void *
 qdot_malloc(size_t size)
 {
-    return noted(must_fail() ? NULL : malloc(size ? size : 1), size);
+    return record_block(must_fail() ? NULL : malloc(size ? size : 1), size);
 }
 
 void *
 qdot_calloc(size_t count, size_t size)
 {
-    return noted(must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
-                 count * size);
+    return record_block(must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1),
+                        count * size);
 }
 
 void *
@@ -111,7 +112,7 @@ qdot_realloc(void *block, size_t size)
     bigger = realloc(block, size ? size : 1);
     if (bigger == NULL && inside && block != NULL)
         (void)qdot_scope_note(block, 0); /* succeeds: the scope had room for this block */
-    return inside ? noted(bigger, size) : checked(bigger, size);
+    return inside ? record_block(bigger, size) : checked(bigger, size);
 }
 
 qdot_status
@@ -179,7 +180,7 @@ qdot_grow(void *block, size_t *capacity, size_t wanted, size_t size)
     return QDOT_OK;
 }
 
-/* --- arena --------------------------------------------------------------------------- */
+/* --- arenas: blocks freed as a whole ------------------------------------------------- */
 
 struct chunk {
     struct chunk *next;

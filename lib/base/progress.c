@@ -1,4 +1,4 @@
-/* progress.c -- how far long work is. */
+/* progress.c -- measures the progress of a long computation, and decides when to show it. */
 #include "base/progress.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 _Thread_local qdot_progress *qdot_progress_open;
 
-/* Seconds: before a line is shown; between two lines; between two looks at the clock. */
+/* Times in seconds: before a line is first shown; between two lines; between two readings of the clock. */
 static const double patience = 0.5, show_every = 0.1, look_every = 0.05;
 
 void
@@ -54,7 +54,7 @@ qdot_progress_look(qdot_progress *p)
     const double at = qdot_wall_now(), spent = at - p->begun;
     const double done = (p->t - p->t0) / (p->t1 - p->t0);
 
-    /* as many steps as take look_every, but no sudden change */
+    /* set the number of steps that take about look_every seconds, but do not change it suddenly */
     p->pause = spent > 0 ? (uint64_t)fmin(2.0 * (double)p->pause + 1,
                                           (double)p->steps * look_every / spent)
                          : 2 * p->pause;

@@ -10,7 +10,7 @@ _Thread_local qdot_scope *qdot_scope_now = NULL;
 enum { FIRST = 1024 };
 
 static size_t
-home(const qdot_scope *s, const void *block)
+hash_slot(const qdot_scope *s, const void *block)
 {
     return (size_t)(((uintptr_t)block >> 4) * 0x9e3779b97f4a7c15u >> 20) & s->mask;
 }
@@ -18,7 +18,7 @@ home(const qdot_scope *s, const void *block)
 static size_t
 scope_find_slot(const qdot_scope *s, const void *block)
 {
-    size_t i = home(s, block);
+    size_t i = hash_slot(s, block);
 
     while (s->slot[i].block != NULL && s->slot[i].block != block)
         i = (i + 1) & s->mask;
@@ -120,7 +120,7 @@ qdot_scope_release(void *block)
     s->bytes -= s->slot[gap].size;
     /* move entries behind the gap back if the gap would hide them */
     for (i = (gap + 1) & s->mask; s->slot[i].block != NULL; i = (i + 1) & s->mask) {
-        size_t from = home(s, s->slot[i].block);
+        size_t from = hash_slot(s, s->slot[i].block);
 
         if (((i - from) & s->mask) >= ((i - gap) & s->mask)) {
             s->slot[gap] = s->slot[i];

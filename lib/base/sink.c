@@ -13,7 +13,7 @@
 #include "base/text.h"
 
 static qdot_status
-lost(const qdot_sink *sink, int reason)
+fail_to_write(const qdot_sink *sink, int reason)
 {
     if (strcmp(sink->path, "-") == 0)
         return qdot_fail(QDOT_EIO, "cannot write standard output: %s", strerror(reason));
@@ -33,21 +33,21 @@ find_place(qdot_sink *sink, struct stat *old, bool *direct)
         return QDOT_OK;
     if (stat(sink->path, old) != 0) {
         if (errno != ENOENT)
-            return lost(sink, errno);
+            return fail_to_write(sink, errno);
         *old = (struct stat){0};
         *direct = lstat(sink->path, &(struct stat){0}) == 0; /* a link to a file to be */
     } else if (S_ISDIR(old->st_mode)) {
-        return lost(sink, EISDIR);
+        return fail_to_write(sink, EISDIR);
     } else if (!S_ISREG(old->st_mode)) {
         *direct = true;
     } else if (access(sink->path, W_OK) != 0) {
-        return lost(sink, errno);
+        return fail_to_write(sink, errno);
     }
     if (*direct)
         return QDOT_OK;
     real = old->st_mode != 0 ? realpath(sink->path, NULL) : NULL;
     if (old->st_mode != 0 && real == NULL)
-        return lost(sink, errno);
+        return fail_to_write(sink, errno);
     sink->place = qdot_strdup(real != NULL ? real : sink->path);
     free(real);
     return sink->place != NULL ? QDOT_OK : QDOT_ENOMEM;
@@ -75,14 +75,14 @@ create_beside(qdot_sink *sink, const struct stat *old)
         sink->beside = name.at;
         fd = open(sink->beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (fd < 0 && errno != EEXIST)
-            return lost(sink, errno);
+            return fail_to_write(sink, errno);
     }
     if (old->st_mode != 0)
         (void)!fchmod(fd, old->st_mode & 07777);
     sink->file = fdopen(fd, "wb");
     if (sink->file != NULL)
         return QDOT_OK;
-    status = lost(sink, errno);
+    status = fail_to_write(sink, errno);
     (void)close(fd);
     (void)unlink(sink->beside);
     return status;
@@ -108,13 +108,13 @@ qdot_sink_open(qdot_sink *sink, const char *path)
         return qdot_fail(QDOT_EINVAL, "a file needs a name");
     if (qdot_rank() > 0 || strcmp(path, "-") == 0) { /* rank 0 writes */
         sink->file = qdot_rank() > 0 ? fopen("/dev/null", "wbe") : stdout;
-        return sink->file != NULL ? QDOT_OK : lost(sink, errno);
+        return sink->file != NULL ? QDOT_OK : fail_to_write(sink, errno);
     }
     status = find_place(sink, &old, &direct);
     if (status == QDOT_OK && direct) {
         sink->file = fopen(path, "wbe");
         if (sink->file == NULL)
-            status = lost(sink, errno);
+            status = fail_to_write(sink, errno);
     } else if (status == QDOT_OK) {
         status = create_beside(sink, &old);
     }
@@ -126,7 +126,7 @@ qdot_sink_open(qdot_sink *sink, const char *path)
 qdot_status
 qdot_sink_put(qdot_sink *sink, const char *bytes, size_t length)
 {
-    return fwrite(bytes, 1, length, sink->file) == length ? QDOT_OK : lost(sink, errno);
+    return fwrite(bytes, 1, length, sink->file) == length ? QDOT_OK : fail_to_write(sink, errno);
 }
 
 qdot_status
@@ -144,7 +144,7 @@ qdot_sink_close(qdot_sink *sink)
         reason = errno;
     if (reason == 0 && sink->place != NULL && rename(sink->beside, sink->place) != 0)
         reason = errno;
-    status = reason == 0 ? QDOT_OK : lost(sink, reason);
+    status = reason == 0 ? QDOT_OK : fail_to_write(sink, reason);
     if (reason != 0 && sink->beside != NULL)
         (void)unlink(sink->beside);
     sink_forget_names(sink);

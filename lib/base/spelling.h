@@ -19,7 +19,7 @@ typedef struct {
 void qdot_spelling_begin(qdot_spelling *s, const char *name);
 void qdot_spelling_offer(qdot_spelling *s, const char *candidate);
 
-/* The nearest of list [n]; NULL if none is near. */
+/* The nearest word in list [n]; NULL if none is near. */
 const char *qdot_spelling_nearest(const char *name, size_t n, const char *const *list);
 
 #endif

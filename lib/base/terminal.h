@@ -1,4 +1,4 @@
-/* terminal.h -- the terminal that a stream writes to. */
+/* terminal.h -- finds properties of the terminal to which a stream writes. */
 #ifndef QDOT_BASE_TERMINAL_H
 #define QDOT_BASE_TERMINAL_H
 

@@ -1,4 +1,4 @@
-/* utf8.c -- decoding, strict: no overlong forms, no surrogates. */
+/* utf8.c -- decodes UTF-8 strictly: overlong forms and surrogates are errors. */
 #include "base/utf8.h"
 
 uint32_t

@@ -1,4 +1,4 @@
-/* wrap.c -- lines broken at blanks, tables folded. */
+/* wrap.c -- breaks lines at blanks, and folds tables that are too wide. */
 #include "base/wrap.h"
 
 #include <stdbool.h>
@@ -34,7 +34,8 @@ piece_columns(piece p)
     return from < p.n ? columns + qdot_utf8_columns(p.at + from, p.n - from) : columns;
 }
 
-/* Bytes of what stands at i: a code for a colour, a mark of a cell, a letter; *columns that it takes. */
+/* The length in bytes of the colour code, cell mark or letter at byte i; *columns: the terminal
+ * columns that it takes. */
 static size_t
 bytes_at(const char *text, size_t n, size_t i, size_t *columns)
 {
@@ -95,7 +96,7 @@ add_blanks(qdot_text *out, size_t n)
     qdot_text_format(out, "%*s", (int)n, "");
 }
 
-/* A line ends, without the blanks at its end, and the next one begins with so many. */
+/* End a line, without the blanks at its end, and begin the next one with `indent` blanks. */
 static void
 begin_next_line(qdot_text *out, size_t indent)
 {
@@ -116,7 +117,7 @@ add_plain(qdot_text *out, piece p)
         }
 }
 
-/* --- lines ---------------------------------------------------------------------------- */
+/* --- breaking lines ------------------------------------------------------------------- */
 
 enum { USUAL_INDENT = 2, LEAST_ROOM = 16 };
 
@@ -178,7 +179,7 @@ end_of_chunk(piece line, size_t i, size_t room)
     }
 }
 
-/* Append a word from `column` on, cut where it is too long for a line; the column behind it. */
+/* Append a word from `column` on, cut where it is too long for a line; returns the column behind it. */
 static size_t
 add_word(qdot_text *out, piece word, size_t column, size_t indent, size_t width)
 {
@@ -195,7 +196,7 @@ add_word(qdot_text *out, piece word, size_t column, size_t indent, size_t width)
     }
 }
 
-/* One line, the first column of which is `column`, broken; those that follow indented. */
+/* Append a line that begins at `column`, broken to the width; the lines that continue it are indented. */
 static void
 add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t width)
 {
@@ -232,7 +233,7 @@ wrap_add_line(qdot_text *out, piece line, size_t width)
         add_broken(out, line, 0, indent_of(line, width), width);
 }
 
-/* --- tables --------------------------------------------------------------------------- */
+/* --- folding tables ------------------------------------------------------------------- */
 
 typedef struct {
     qdot_vec(piece) cells; /* row by row; the first is the head */
@@ -394,7 +395,7 @@ table_add_blocks(qdot_text *out, const table *t, size_t width)
     }
 }
 
-/* Whether each word of a cell fits into so many columns. */
+/* Whether each word of a cell fits into `room` columns. */
 static bool
 fits_by_words(piece cell, size_t room)
 {
@@ -406,7 +407,7 @@ fits_by_words(piece cell, size_t room)
     return true;
 }
 
-/* Each row as lines "name value"; a value that does not fit behind the names has a line of its own. */
+/* Append each row as lines "name value"; a value that does not fit behind its name has a line of its own. */
 static void
 add_records(qdot_text *out, const table *t, size_t width)
 {
@@ -437,7 +438,7 @@ add_records(qdot_text *out, const table *t, size_t width)
         }
 }
 
-/* Whether column k, the last one, can be broken by words beside the keys. */
+/* Whether the last column, k, fits beside the key columns once it is broken between words. */
 static bool
 can_be_broken(const table *t, size_t k, size_t width)
 {
@@ -455,7 +456,7 @@ can_be_broken(const table *t, size_t k, size_t width)
     return t->key_columns + LEAST_ROOM / 2 <= width;
 }
 
-/* Whether each column fits beside the keys; the last may be broken. */
+/* Whether each column fits beside the key columns, the last one perhaps broken between words. */
 static bool
 fits_in_blocks(const table *t, size_t width)
 {
