@@ -1,16 +1,16 @@
-/* bounds.c -- the sign of a sum from rational bounds of its terms. */
+/* bounds.c -- finds the sign of a sum from rational bounds of its terms. */
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
 
-/* One bound of a value: a rational if known; `open`: the value does not reach it. */
+/* One bound of a value: a rational number if it is known; `open`: the value does not reach it. */
 struct bound {
     fmpq x;
     bool known, open;
 };
 
 static void
-set(struct bound *b, int64_t n, int64_t d, bool open)
+bound_set(struct bound *b, int64_t n, int64_t d, bool open)
 {
     b->x = (fmpq){n, d};
     b->known = true;
@@ -52,22 +52,22 @@ bound_end(const qdot_fun_end *end, bool up, struct bound *b)
     if (!end->known)
         return;
     if (!end->angle)
-        set(b, end->number, 1, end->open);
+        bound_set(b, end->number, 1, end->open);
     else if ((end->number > 0) == up)
-        set(b, 355 * end->number, 226, true);
+        bound_set(b, 355 * end->number, 226, true);
     else
-        set(b, 333 * end->number, 212, true);
+        bound_set(b, 333 * end->number, 212, true);
 }
 
-/* The bounds of a function's values for any real arguments. */
+/* Find the bounds of a function's values for any real arguments. */
 static void
-of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
+bounds_of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
 {
     bound_end(&qdot_fun_facts_of(id)->lo, false, lo);
     bound_end(&qdot_fun_facts_of(id)->hi, true, hi);
 }
 
-/* Bounds of f^k for a positive integer k, where |f| <= 1 or f >= 1. */
+/* Find bounds of f^k for a positive integer k, where |f| <= 1 or f >= 1. */
 static void
 bounds_of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
 {
@@ -82,10 +82,10 @@ bounds_of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bou
     if (f->lo.angle || !f->lo.known)
         return;
     if (f->lo.number == 1) {
-        set(lo, 1, 1, false);
+        bound_set(lo, 1, 1, false);
     } else if (f->lo.number == -1 && f->hi.number == 1) {
-        set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
-        set(hi, 1, 1, f->hi.open);
+        bound_set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
+        bound_set(hi, 1, 1, f->hi.open);
     }
 }
 
@@ -137,9 +137,9 @@ of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct 
     fmpq_clear(&most.x);
 }
 
-/* The bounds of a term without its coefficient. */
+/* Find the bounds of a term without its coefficient. */
 static void
-of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
+bounds_of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
 {
     const qdot_node *node = NODE(pool, e);
     const qdot_symbol *s;
@@ -150,9 +150,9 @@ of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
         bound_declared(pool, s->lo, s->lo_open, false, lo);
         bound_declared(pool, s->hi, s->hi_open, true, hi);
         if (e == QDOT_PI)
-            set(lo, 333, 106, true), set(hi, 355, 113, true);
+            bound_set(lo, 333, 106, true), bound_set(hi, 355, 113, true);
         break;
-    case QDOT_FUN: of_function(node->op, lo, hi); break;
+    case QDOT_FUN: bounds_of_function(node->op, lo, hi); break;
     case QDOT_PROD:
         if (node->n != 3 || ARGS(pool, e)[0] != QDOT_ONE)
             break;
@@ -199,7 +199,7 @@ shorten(struct bound *b, bool up)
     b->open = true;
 }
 
-/* sum <- sum + c b if both are known; an upper bound if `up`. */
+/* Add c b to *sum, if both are known; up: an upper bound, else a lower one. */
 static void
 bound_add(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
 {
@@ -224,7 +224,7 @@ qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
         const fmpq *c = RATIONAL(pool, args[i + 1]);
         bool up = qdot_rational_sgn(c) > 0;
 
-        of_term(pool, args[i], &lo, &hi);
+        bounds_of_term(pool, args[i], &lo, &hi);
         bound_add(&least, c, up ? &lo : &hi, false);
         bound_add(&most, c, up ? &hi : &lo, true);
         fmpq_clear(&lo.x);

@@ -20,7 +20,7 @@ qdot_expr qdot_sqrt(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_sum(qdot_pool *pool, size_t n, const qdot_expr *terms);     /* n = 0: 0 */
 qdot_expr qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors); /* n = 0: 1 */
 
-/* --- constructors: the rest; no arithmetic on them here (expr/tensor.h) ----------------- */
+/* --- other constructors (arithmetic of vectors and matrices: expr/tensor.h) ------------- */
 
 /* Between scalars; numbers are decided at once (QDOT_TRUE, QDOT_FALSE), except EQ, which stays
  * an equation. */

@@ -9,9 +9,9 @@
 #include "expr/pool.h"
 #include "expr/walk.h"
 
-/* --- derivations --------------------------------------------------------------------------- */
+/* --- derivatives and differentials --------------------------------------------------------- */
 
-/* A derivation: `of` is 0 on symbols that are neither among `holds` nor touch `touches`. */
+/* A derivation: a linear map with the product rule; 0 on nodes with no property in `holds` or `touches`. */
 typedef struct {
     qdot_pool *pool;
     const qdot_walk *w;
@@ -52,7 +52,7 @@ derive_sum(derivation *d, qdot_expr e)
     }
 }
 
-/* The product rule: d(b^x) = x b^(x-1) db + b^x log(b) dx, times the other factors. */
+/* Apply the product rule: d(b^x) = x b^(x-1) db + b^x log(b) dx, times the other factors. */
 static void
 derive_product(derivation *d, qdot_expr e)
 {
@@ -101,9 +101,9 @@ derive_ufun(derivation *d, qdot_expr e)
     }
 }
 
-/* if(condition, yes, no); if one branch is 0, the other times a factor 1 or 0. */
+/* The value if(condition, yes, no); if one branch is 0: the other branch times a factor that is 1 or 0. */
 static qdot_expr
-choice(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
+make_choice(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
 {
     if (yes != QDOT_ZERO && no != QDOT_ZERO)
         return qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){condition, yes, no});
@@ -128,10 +128,10 @@ derive_extreme(derivation *d, qdot_expr e, const qdot_expr *args)
         const qdot_expr inner = derived(d, args[k]);
 
         if (inner != QDOT_ZERO || slope != QDOT_ZERO)
-            slope = choice(pool,
-                           id == QDOT_MAX ? qdot_rel(pool, QDOT_LT, rest, args[k])
-                                          : qdot_rel(pool, QDOT_LT, args[k], rest),
-                           inner, slope);
+            slope = make_choice(pool,
+                                id == QDOT_MAX ? qdot_rel(pool, QDOT_LT, rest, args[k])
+                                               : qdot_rel(pool, QDOT_LT, args[k], rest),
+                                inner, slope);
         rest = qdot_fun(pool, id, n - k, args + k);
     }
     if (slope != QDOT_ZERO)
@@ -312,7 +312,7 @@ qdot_differential(qdot_pool *pool, qdot_expr e)
     return derive_by(pool, e, in_time_holds, 0, in_differentials, NULL);
 }
 
-/* --- substitution --------------------------------------------------------------------------- */
+/* --- replacing subexpressions --------------------------------------------------------------- */
 
 struct replacements {
     size_t n;

@@ -15,20 +15,21 @@ qdot_expr qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x);
  * wrong, so they are QDOT_EDOMAIN. */
 qdot_expr qdot_ddt(qdot_pool *pool, qdot_expr e);
 
-/* de = sum de/dq dq + de/dt dt. */
+/* The total differential of e: the sum of de/dq dq over the coordinates, plus de/dt dt. */
 qdot_expr qdot_differential(qdot_pool *pool, qdot_expr e);
 
 /* Make n replacements at once; from[i] may be any node, usually a symbol. */
 qdot_expr qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
                     const qdot_expr *to);
 
-/* Products over sums multiplied out, integer powers of sums too. */
+/* Multiply out products of sums, and integer powers of sums. */
 qdot_expr qdot_expand(qdot_pool *pool, qdot_expr e);
 
 /* e as a sum over powers of x (a symbol or any node): expanded in x only. */
 qdot_expr qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x);
 
-/* Coefficient of x^n in e, a polynomial in x, after collecting powers. QDOT_EDOMAIN if e is none. */
+/* Coefficient of x^n in e, a polynomial in x, after collecting powers. QDOT_EDOMAIN if e is no
+ * polynomial in x. */
 qdot_expr qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n);
 
 /* Whether e holds floor, mod, sign or `if` of something that moves with one of `holds`

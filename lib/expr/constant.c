@@ -155,7 +155,8 @@ ball_power(arb_t y, const arb_t x, const fmpq_t e, slong bits)
         arb_pow_fmpq(y, x, e, bits);
 }
 
-/* 1, 0, or the ball of both where the relation is not decided. */
+/* Set y = 1 or 0 if the relation is true or false; the ball that contains both if the balls do not
+ * decide it. */
 static void
 ball_relation(arb_t y, qdot_rel_op op, const arb_t a, const arb_t b)
 {
@@ -366,7 +367,7 @@ ball_side_of(const arb_t ball, double value)
 
 /* Whether all numbers of the ball round to the same double, *value. */
 static bool
-decided(const arb_t ball, double *value)
+rounds_to_one_double(const arb_t ball, double *value)
 {
     arf_t lo, hi;
     double a, b;
@@ -398,7 +399,7 @@ no_value(const qdot_pool *pool, qdot_expr e, const char *why)
     return status;
 }
 
-/* The middle of the ball less `value`. */
+/* The midpoint of the ball minus `value`. */
 static double
 rest_of(const arb_t ball, double value)
 {
@@ -423,7 +424,7 @@ constant_evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *
             QDOT_TRY(qdot_interrupt_check());
             QDOT_TRY(evaluate_node(v, i, bits));
         }
-        if (decided(ball_of(v, e), value)) {
+        if (rounds_to_one_double(ball_of(v, e), value)) {
             if (!isfinite(*value))
                 return no_value(v->pool, e, "is beyond what a double holds");
             *side = ball_side_of(ball_of(v, e), *value);
@@ -441,7 +442,7 @@ constant_evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *
     return QDOT_OK;
 }
 
-/* The walk of e with a ball for each node; qdot_free and walk_end by constant_release(). */
+/* Prepare the walk of e with a ball for each node; qdot_free and walk_end by constant_release(). */
 static qdot_status
 constant_prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
 {

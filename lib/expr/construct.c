@@ -1,4 +1,5 @@
-/* construct.c -- relations, logic, vectors, matrices, lists; rebuilding any node. */
+/* construct.c -- makes relations, logical expressions, vectors, matrices and lists; rebuilds nodes
+ * with new children. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -34,7 +35,7 @@ is_truth(const qdot_pool *pool, qdot_expr e)
 
 /* An equation between numbers as an operand of and, or, not: true or false. */
 static qdot_expr
-decided(const qdot_pool *pool, qdot_expr e)
+decide_equation(const qdot_pool *pool, qdot_expr e)
 {
     const qdot_expr *side = ARGS(pool, e);
 
@@ -63,7 +64,7 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
                                     "and, or, not join comparisons such as x > 0");
     }
     if (op == QDOT_NOT) {
-        first = decided(pool, args[0]);
+        first = decide_equation(pool, args[0]);
         if (first == QDOT_TRUE || first == QDOT_FALSE)
             return first == QDOT_TRUE ? QDOT_FALSE : QDOT_TRUE;
         return qdot_pool_intern(pool, QDOT_LOGIC, op, 1, args, 0);
@@ -71,7 +72,7 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
     if (n > 16)
         return qdot_pool_intern(pool, QDOT_LOGIC, op, n, args, 0);
     for (uint32_t i = 0; i < n; i++) {
-        first = decided(pool, args[i]);
+        first = decide_equation(pool, args[i]);
         if (first == (op == QDOT_AND ? QDOT_FALSE : QDOT_TRUE))
             return first;
         if (first != (op == QDOT_AND ? QDOT_TRUE : QDOT_FALSE))
@@ -82,9 +83,9 @@ qdot_logic(qdot_pool *pool, qdot_logic_op op, uint32_t n, const qdot_expr *args)
     return k == 1 ? kept[0] : qdot_pool_intern(pool, QDOT_LOGIC, op, k, kept, 0);
 }
 
-/* Entries of a vector or matrix: numbers, or equations between numbers. */
+/* Check the entries of a vector or matrix: each a number, or an equation between numbers. */
 static bool
-entries(qdot_pool *pool, uint32_t n, const qdot_expr *e)
+check_entries(qdot_pool *pool, uint32_t n, const qdot_expr *e)
 {
     if (FAILED(pool))
         return false;
@@ -102,7 +103,7 @@ entries(qdot_pool *pool, uint32_t n, const qdot_expr *e)
 qdot_expr
 qdot_vector(qdot_pool *pool, uint32_t n, const qdot_expr *components)
 {
-    if (!entries(pool, n, components))
+    if (!check_entries(pool, n, components))
         return QDOT_NIL;
     if (n < 2)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a vector has 2 or more components");
@@ -115,7 +116,7 @@ qdot_matrix(qdot_pool *pool, uint32_t rows, uint32_t columns, const qdot_expr *e
     if (rows == 0 || columns == 0 || columns > UINT16_MAX)
         return qdot_pool_refuse(pool, QDOT_ETYPE, "a matrix of %u rows and %u columns",
                                 rows, columns);
-    if (!entries(pool, rows * columns, e))
+    if (!check_entries(pool, rows * columns, e))
         return QDOT_NIL;
     return qdot_pool_intern(pool, QDOT_MAT, (uint16_t)columns, rows * columns, e, 0);
 }

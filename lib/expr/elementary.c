@@ -72,7 +72,7 @@ split_pi(qdot_pool *pool, qdot_expr x, fmpq_t c)
     return x;
 }
 
-/* sin(k pi/12), 0 <= k <= 6; the sum of two terms a sqrt(b) each. */
+/* sin(k pi/12) for 0 <= k <= 6, as a sum of two terms of the form a sqrt(b). */
 static qdot_expr
 sine_of_twelfths(qdot_pool *pool, long k)
 {
@@ -106,7 +106,7 @@ sine_at(qdot_pool *pool, long k)
     return sine_of_twelfths(pool, k <= 6 ? k : 12 - k);
 }
 
-/* a/b, where b is one of the values above; sums among them are never divisors. */
+/* a/b for two values of the sine at multiples of pi/12; QDOT_EDOMAIN for b = 0. */
 static qdot_expr
 quotient_of_values(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 {
@@ -146,7 +146,7 @@ circular_at(qdot_pool *pool, qdot_fun_id id, long k)
 
 /* f(x + quarters pi/2) in terms of f or its co-function at x. */
 static qdot_expr
-shifted(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
+shift_by_quarter_turns(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
 {
     static const struct {
         qdot_fun_id to;
@@ -165,7 +165,7 @@ shifted(qdot_pool *pool, qdot_fun_id id, qdot_expr x, long quarters)
     return rows[row][quarters].sign < 0 ? qdot_neg(pool, e) : e;
 }
 
-/* f(x) with a leading minus of x taken out by parity. */
+/* The function of x, with a leading minus of x taken out by parity. */
 static qdot_expr
 without_pi(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
@@ -200,7 +200,7 @@ fold_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     } else if (rest != QDOT_ZERO && rest != QDOT_NIL && !fmpq_is_zero(c) &&
                fmpz_divisible_si(fmpq_numref(twelve), 6) &&
                fmpz_is_one(fmpq_denref(twelve))) {
-        e = shifted(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
+        e = shift_by_quarter_turns(pool, id, rest, (long)fmpz_fdiv_ui(fmpq_numref(twelve), 24) / 6);
     } else {
         e = without_pi(pool, id, x);
     }
@@ -209,7 +209,7 @@ fold_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     return e;
 }
 
-/* --- the inverse circular functions at nice places ---------------------------------------- */
+/* --- inverse circular functions at exactly known values ----------------------------------- */
 
 static qdot_expr
 inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
@@ -247,7 +247,7 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     return plain(pool, id, 1, &x);
 }
 
-/* --- hyperbolic, exponential --------------------------------------------------------------- */
+/* --- hyperbolic functions, exponentials, logarithms ---------------------------------------- */
 
 static qdot_expr
 fold_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
@@ -322,7 +322,7 @@ logarithm(qdot_pool *pool, qdot_expr x)
     return plain(pool, QDOT_LOG, 1, &x);
 }
 
-/* --- the rest -------------------------------------------------------------------------------- */
+/* --- absolute value, sign, max, min, floor and the like -------------------------------------- */
 
 static qdot_expr
 absolute(qdot_pool *pool, qdot_expr x)
@@ -348,7 +348,7 @@ absolute(qdot_pool *pool, qdot_expr x)
     return e;
 }
 
-/* A product without its positive factors. */
+/* The product x without those factors that are known to be positive; it has the same sign. */
 static qdot_expr
 without_positive(qdot_pool *pool, qdot_expr x)
 {
@@ -574,7 +574,7 @@ qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     return qdot_fun(pool, id, 1, &x);
 }
 
-/* --- derivatives -------------------------------------------------------------------------------- */
+/* --- derivatives of elementary functions -------------------------------------------------------- */
 
 static qdot_expr
 one_plus(qdot_pool *pool, long c, qdot_expr x) /* 1 + c x^2 */

@@ -15,14 +15,14 @@ enum {
     QDOT_FUN_FALLING = 8,  /* likewise */
     QDOT_FUN_ENTIRE = 16,  /* analytic at every real number */
     QDOT_FUN_ARC = 32,     /* its sine and cosine are algebraic functions of the argument */
-    QDOT_FUN_AREA = 64,    /* its hyperbolic sine and cosine are */
+    QDOT_FUN_AREA = 64,    /* its hyperbolic sine and cosine are algebraic functions of the argument */
     QDOT_FUN_POLE = 128    /* grows beyond all bounds at a finite place */
 };
 
 /* An end of the range of a function: number, or number pi/2 if `angle`. */
 typedef struct {
     bool known; /* there is one */
-    bool open;  /* it is no value itself */
+    bool open;  /* the function does not take the value of this end */
     bool angle;
     int number;
 } qdot_fun_end;
@@ -36,10 +36,10 @@ typedef struct {
     qdot_fun_id inverse; /* x = inverse(v) solves f(x) = v, of an even f also -x; QDOT_FUNCTION_KINDS: none */
 } qdot_fun_facts;
 
-/* What is known of a function; of `hold` only its name and that it has one argument. */
+/* The known properties of a function; of `hold` only its name and that it has one argument. */
 const qdot_fun_facts *qdot_fun_facts_of(qdot_fun_id id);
 
-/* *lo, *hi: doubles just outside the ends of the range of the function; infinite if it has no end. */
+/* Find *lo, *hi: doubles just outside the ends of the range of the function; infinite if it has no end. */
 void qdot_fun_ends(qdot_fun_id id, double *lo, double *hi);
 
 /* Whether a function has all of the traits. */
@@ -48,7 +48,7 @@ bool qdot_fun_is(qdot_fun_id id, unsigned traits);
 /* Whether e is a function with all of these traits. */
 bool qdot_expr_is_function_that(const qdot_pool *pool, qdot_expr e, unsigned traits);
 
-/* Whether e is an application of that function. */
+/* Whether e is an application of the function `id`. */
 bool qdot_expr_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id);
 
 /* The first node of e, children before parents, that is one of the functions ids [n] and holds x (nil: any). Nil: there

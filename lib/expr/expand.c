@@ -9,7 +9,7 @@
 
 enum { MOST_TERMS = 1500000 }; /* products of terms, all of one expansion */
 
-/* Terms of e as a sum: count, and the i-th. */
+/* The number of terms of e as a sum; 1 if e is no sum. */
 static uint32_t
 term_count(const qdot_pool *pool, qdot_expr e)
 {
@@ -78,7 +78,7 @@ expand_power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
     return result;
 }
 
-/* c times a bare sum as a sum. */
+/* Multiply out a coefficient times one sum: 2*(a + b) becomes 2*a + 2*b. */
 static qdot_expr
 distribute(qdot_pool *pool, qdot_expr e, uint64_t *work)
 {
@@ -154,7 +154,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
     return FAILED(pool) ? QDOT_NIL : result;
 }
 
-/* --- collecting ----------------------------------------------------------------------------- */
+/* --- collecting powers of a symbol ---------------------------------------------------------- */
 
 struct group {
     qdot_expr power; /* of x: QDOT_ONE for x^0 */

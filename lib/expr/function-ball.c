@@ -1,7 +1,7 @@
 /* function-ball.c -- the elementary functions of one argument in ball arithmetic, a column of function.def. */
 #include "expr/function-ball.h"
 
-/* sign(x) for the table; Arb's function takes no precision. */
+/* Set y to sign(x), for the table; Arb's function takes no precision. */
 static void
 ball_sign(arb_t y, const arb_t x, slong bits)
 {

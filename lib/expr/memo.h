@@ -14,16 +14,16 @@
 
 #include "expr/id.h"
 
-/* The size of the largest answer. */
+/* The size in bytes of the largest answer that can be stored. */
 #define QDOT_MEMO_BYTES 48
 
-/* What can be asked; the lower bits are for what else the answer depends on. */
+/* The kinds of questions with stored answers; the lower 8 bits hold further data on which an answer depends. */
 enum { QDOT_MEMO_LESS = 1 << 8, QDOT_MEMO_SHORTEST = 2 << 8 };
 
 /* Copy the answer of `size` bytes. False: it is not known. */
 bool qdot_memo_find(const qdot_pool *pool, qdot_expr question, uint32_t asked, void *answer, size_t size);
 
-/* Keep it, if there is memory. */
+/* Store an answer of `size` bytes, if there is memory. */
 void qdot_memo_keep(qdot_pool *pool, qdot_expr question, uint32_t asked, const void *answer, size_t size);
 
 #endif

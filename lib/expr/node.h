@@ -27,9 +27,9 @@ typedef struct {
 } qdot_node;
 
 const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
-/* What the node of e knows of its sign, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; nil: 0. */
+/* What is stored in the node of e about its sign, as bits QDOT_GE0, QDOT_LE0, QDOT_NE0; nil: 0. */
 uint8_t qdot_expr_sign(const qdot_pool *pool, qdot_expr e);
-/* The args [n]; valid until the next constructor call. */
+/* The args of a node; valid until the next constructor call. */
 const qdot_expr *qdot_expr_args(const qdot_pool *pool, qdot_expr e);
 qdot_kind qdot_expr_kind(const qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);

@@ -11,7 +11,7 @@
 
 /* The rank of a factor in a product: parameters, time, coordinates, velocities ... */
 static int
-level(uint32_t holds)
+factor_rank(uint32_t holds)
 {
     static const struct {
         uint32_t mask;
@@ -26,7 +26,7 @@ level(uint32_t holds)
                                        QDOT_HAS_MULTIPLIER | QDOT_HAS_ACCELERATION |
                                        QDOT_HAS_VELOCITY | QDOT_HAS_MOMENTUM;
 
-    /* test coordinates and parameters, the most frequent, before the rows above them */
+    /* start at the row of coordinates unless e contains something of the rows before it, which is rare */
     for (size_t i = holds & above_coordinates ? 0 : 6; i < sizeof rows / sizeof *rows;
          i++)
         if (holds & rows[i].mask)
@@ -39,7 +39,7 @@ level(uint32_t holds)
 static int
 factor_level(const qdot_node *node)
 {
-    int l = level(node->holds);
+    int l = factor_rank(node->holds);
 
     return node->kind == QDOT_FUN && l > 0 && l < 3 ? 3 : l;
 }
@@ -51,7 +51,7 @@ kind_rank(const qdot_node *node)
 {
     static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12};
 
-    if (node->kind == QDOT_SUM && level(node->holds) == 1 && node->size <= node->n / 2)
+    if (node->kind == QDOT_SUM && factor_rank(node->holds) == 1 && node->size <= node->n / 2)
         return 2; /* of k terms about as many operations: hardly more than symbols */
     if (node->kind == QDOT_UFUN && !(node->holds & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
         return rank[QDOT_FUN];
@@ -76,7 +76,7 @@ compare_symbols(const qdot_symbol *a, const qdot_symbol *b)
 
 /* The height of a node if it exceeds 64, else 64: very deep nodes come last, the deepest at the end. */
 static uint32_t
-deep(const qdot_node *node)
+depth_beyond_64(const qdot_node *node)
 {
     return node->height > 64 ? node->height : 64;
 }
@@ -91,8 +91,8 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
         if (a == b)
             return 0;
-        if (deep(x) != deep(y)) /* or a comparison would go down all the way */
-            return three(deep(x), deep(y));
+        if (depth_beyond_64(x) != depth_beyond_64(y)) /* or a comparison would go down all the way */
+            return three(depth_beyond_64(x), depth_beyond_64(y));
         d = x->holds == y->holds && x->kind == y->kind ? 0 : factor_level(x) - factor_level(y);
         if (d == 0)
             d = kind_rank(x) - kind_rank(y);
@@ -124,7 +124,7 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
     }
 }
 
-/* The i-th (base, exponent) of a term seen as a product. */
+/* Find the i-th (base, exponent) of a term seen as a product. */
 static void
 order_factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
                 qdot_expr *exponent)
@@ -161,11 +161,11 @@ compare_bases(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     const qdot_node *x = NODE(pool, a), *y = NODE(pool, b);
 
-    if ((x->kind == QDOT_SUM) != (y->kind == QDOT_SUM) && deep(x) == deep(y) &&
+    if ((x->kind == QDOT_SUM) != (y->kind == QDOT_SUM) && depth_beyond_64(x) == depth_beyond_64(y) &&
         factor_level(x) == 1 && factor_level(y) == 1)
         return x->kind == QDOT_SUM ? -1 : 1;
     if (x->kind == QDOT_UFUN && y->kind == QDOT_UFUN && x->op == y->op && x->n == y->n &&
-        deep(x) == deep(y) && level(x->holds) == level(y->holds))
+        depth_beyond_64(x) == depth_beyond_64(y) && factor_rank(x->holds) == factor_rank(y->holds))
         for (uint32_t i = x->n / 2; i < x->n; i++) {
             int d = qdot_rational_cmp(RATIONAL(pool, ARGS(pool, b)[i]),
                                       RATIONAL(pool, ARGS(pool, a)[i]));
@@ -180,7 +180,7 @@ int
 qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     uint32_t na = factors(pool, a), nb = factors(pool, b), ha = NODE(pool, a)->holds;
-    int d = NODE(pool, b)->holds == ha ? 0 : level(NODE(pool, b)->holds) - level(ha);
+    int d = NODE(pool, b)->holds == ha ? 0 : factor_rank(NODE(pool, b)->holds) - factor_rank(ha);
 
     if (d != 0 || a == b)
         return d;
@@ -189,7 +189,7 @@ qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
         order_factor_at(pool, a, --na, &base_a, &exp_a);
         order_factor_at(pool, b, --nb, &base_b, &exp_b);
-        d = level(NODE(pool, base_a)->holds) != level(NODE(pool, base_b)->holds)
+        d = factor_rank(NODE(pool, base_a)->holds) != factor_rank(NODE(pool, base_b)->holds)
                 ? 0
                 : is_root_of_sum(pool, base_a, exp_a) - is_root_of_sum(pool, base_b, exp_b);
         if (d == 0)
@@ -216,7 +216,7 @@ qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* --- signs ------------------------------------------------------------------------------ */
+/* --- signs of products and sums --------------------------------------------------------- */
 
 static uint8_t
 flip(uint8_t s)
@@ -285,7 +285,7 @@ qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
 
 /* Whether x is a symbol declared within [lo, hi], in units of pi/2; *open: strictly. */
 static bool
-within(const qdot_pool *pool, qdot_expr x, int lo, int hi, bool *open)
+is_declared_between(const qdot_pool *pool, qdot_expr x, int lo, int hi, bool *open)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
     int bound[2];
@@ -332,10 +332,10 @@ qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *ar
     case QDOT_HOLD: return s;
     case QDOT_SIN:
     case QDOT_CSC:
-        return within(pool, args[0], 0, 2, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
+        return is_declared_between(pool, args[0], 0, 2, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
     case QDOT_COS:
     case QDOT_SEC:
-        return within(pool, args[0], -1, 1, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
+        return is_declared_between(pool, args[0], -1, 1, &open) ? (open ? QDOT_POS : QDOT_GE0) : 0;
     default: return 0;
     }
 }

@@ -17,14 +17,14 @@
 #include "expr/printed.h"
 
 static uint32_t
-mix(uint32_t h, uint32_t x)
+hash_mix(uint32_t h, uint32_t x)
 {
     h ^= x + 0x9e3779b9u + (h << 6) + (h >> 2);
     h *= 0x85ebca6bu;
     return h ^ (h >> 15);
 }
 
-/* --- failure -------------------------------------------------------------------------- */
+/* --- failures of the pool ------------------------------------------------------------- */
 
 qdot_expr
 qdot_pool_fail(qdot_pool *pool)
@@ -90,11 +90,11 @@ qdot_pool_unfinished_taken(qdot_pool *pool)
     return was;
 }
 
-/* --- interning ------------------------------------------------------------------------ */
+/* --- one node for equal expressions (interning) --------------------------------------- */
 
 static bool
-same(const qdot_pool *pool, qdot_expr e, qdot_kind kind, uint16_t op, uint32_t n,
-     const qdot_expr *args, uint32_t hash)
+is_same_node(const qdot_pool *pool, qdot_expr e, qdot_kind kind, uint16_t op, uint32_t n,
+             const qdot_expr *args, uint32_t hash)
 {
     const qdot_node *node = NODE(pool, e);
 
@@ -184,7 +184,7 @@ qdot_expr
 qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
                  const qdot_expr *args, uint8_t sign)
 {
-    uint32_t hash = mix(mix(kind, op), n), i;
+    uint32_t hash = hash_mix(hash_mix(kind, op), n), i;
     qdot_node node = {.kind = (uint8_t)kind, .sign = sign, .op = op, .n = n};
     bool inside = args >= pool->args.at && args < pool->args.at + pool->args.n;
     size_t offset = inside ? (size_t)(args - pool->args.at) : 0;
@@ -194,10 +194,10 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
     for (uint32_t k = 0; k < n; k++) {
         if (args[k] == QDOT_NIL)
             return qdot_pool_refuse(pool, QDOT_EINVAL, "an expression without a value");
-        hash = mix(hash, args[k]);
+        hash = hash_mix(hash, args[k]);
     }
     for (i = hash & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask)
-        if (same(pool, pool->table[i], kind, op, n, args, hash))
+        if (is_same_node(pool, pool->table[i], kind, op, n, args, hash))
             return pool->table[i];
     for (uint32_t k = 0; k < n; k++) {
         const qdot_node *child = NODE(pool, args[k]);
@@ -227,7 +227,7 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
     return pool_append(pool, &node);
 }
 
-/* --- numbers -------------------------------------------------------------------------- */
+/* --- numbers as nodes ----------------------------------------------------------------- */
 
 static uint8_t
 sign_of_number(const fmpq *x)
@@ -241,9 +241,9 @@ static uint32_t
 hash_fmpz(uint32_t h, const fmpz_t x)
 {
     if (!COEFF_IS_MPZ(*x))
-        return mix(mix(h, (uint32_t)*x), (uint32_t)((uint64_t)*x >> 32));
-    h = mix(h, (uint32_t)fmpz_fdiv_ui(x, 4294967291u));
-    return mix(h, (uint32_t)fmpz_bits(x) * 2 + (fmpz_sgn(x) < 0));
+        return hash_mix(hash_mix(h, (uint32_t)*x), (uint32_t)((uint64_t)*x >> 32));
+    h = hash_mix(h, (uint32_t)fmpz_fdiv_ui(x, 4294967291u));
+    return hash_mix(h, (uint32_t)fmpz_bits(x) * 2 + (fmpz_sgn(x) < 0));
 }
 
 static bool
@@ -328,18 +328,18 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
     return pool_append(pool, &node);
 }
 
-/* --- symbols -------------------------------------------------------------------------- */
+/* --- symbols as nodes ----------------------------------------------------------------- */
 
 /* The symbol if it is there, else nil; *hash that of its node. What has a base is known by it,
  * whatever its name. */
 static qdot_expr
 known_symbol(const qdot_pool *pool, const qdot_symbol *wanted, uint32_t *hash)
 {
-    uint32_t h = mix(mix(mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
+    uint32_t h = hash_mix(hash_mix(hash_mix(QDOT_SYM, wanted->class), wanted->base), wanted->order);
 
     if (wanted->base == QDOT_NIL)
         for (const char *c = wanted->name; *c != '\0'; c++)
-            h = mix(h, (unsigned char)*c);
+            h = hash_mix(h, (unsigned char)*c);
     *hash = h;
     for (uint32_t i = h & pool->mask; pool->table[i] != 0; i = (i + 1) & pool->mask) {
         qdot_expr e = pool->table[i];
@@ -516,7 +516,7 @@ qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdo
     NODE(pool, x)->sign = sign;
 }
 
-/* --- life ------------------------------------------------------------------------------ */
+/* --- creating and freeing a pool ------------------------------------------------------- */
 
 qdot_pool *
 qdot_pool_new(void)
@@ -587,7 +587,7 @@ qdot_pool_bytes(const qdot_pool *pool)
            (pool->mask + 1) * sizeof *pool->table;
 }
 
-/* --- reading --------------------------------------------------------------------------- */
+/* --- reading nodes --------------------------------------------------------------------- */
 
 const qdot_node *
 qdot_expr_node(const qdot_pool *pool, qdot_expr e)

@@ -52,7 +52,7 @@ bool qdot_expr_is_atom(const qdot_pool *pool, qdot_expr e);
  * written m*(b - a). Nil if there is none. */
 qdot_expr qdot_expr_turnable(const qdot_pool *pool, qdot_expr e);
 
-/* c1 t1 + c2 t2 + ..., every c a NUM. */
+/* The sum c[0] terms[0] + c[1] terms[1] + ... of n terms; every c is a number. */
 qdot_expr qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms);
 /* The PROD e with the factor b^x at args[i] replaced by x b^(x - 1) inner. */
 qdot_expr qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner);
@@ -73,11 +73,11 @@ uint8_t qdot_sign_of_sum(const qdot_pool *pool, uint32_t n, const qdot_expr *arg
 uint8_t qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args);
 uint8_t qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *args);
 
-/* The partial derivative d f(args) / d args[i]. */
+/* The partial derivative of f(args) with respect to args[i]. */
 qdot_expr qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n,
                               const qdot_expr *args, uint32_t i);
 
-/* The operations in node e, from those of its children, at most QDOT_SIZE_LARGE. */
+/* The number of operations in node e, found from those of its children, at most QDOT_SIZE_LARGE. */
 uint32_t qdot_size_kept(const qdot_pool *pool, qdot_expr e);
 
 struct qdot_walk;
@@ -105,12 +105,12 @@ bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
 #define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))
 #define RATIONAL(pool, e) ((const fmpq *)(pool)->numbers.at[(pool)->nodes.at[e].at])
-/* qdot_expr_rational and qdot_pool_failed as macros */
+/* Short names for qdot_expr_rational and qdot_pool_failed, as macros. */
 #define NUMBER(pool, e)                                                                  \
     ((e) != QDOT_NIL && NODE(pool, e)->kind == QDOT_NUM ? RATIONAL(pool, e) : NULL)
 #define FAILED(pool) ((pool)->error.status != QDOT_OK)
 
-/* qdot_expr_is_scalar. */
+/* As qdot_expr_is_scalar, for use within expr/. */
 static inline bool
 qdot_pool_is_scalar(const qdot_pool *pool, qdot_expr e)
 {

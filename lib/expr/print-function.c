@@ -4,9 +4,9 @@
 #include "expr/exact.h"
 #include "expr/print-parts.h"
 
-/* if(C, A, if(D, B, E)) as A if C, B if D, E otherwise. */
+/* Print if(C, A, if(D, B, E)) as A if C, B if D, E otherwise. */
 static void
-cases(printer *p, qdot_expr e, int context)
+print_cases(printer *p, qdot_expr e, int context)
 {
     const qdot_pool *pool = p->pool;
     const qdot_formula_id outer = print_begin_bracket(p, context >= BASE);
@@ -28,7 +28,7 @@ qdot_print_function(printer *p, qdot_expr e, int context)
     const qdot_formula_id outer = p->at;
 
     if (is_drawn(p) && id == QDOT_IF) {
-        cases(p, e, context);
+        print_cases(p, e, context);
         return;
     }
     if (is_drawn(p) && (id == QDOT_ABS || id == QDOT_FLOOR)) {
@@ -44,7 +44,7 @@ qdot_print_function(printer *p, qdot_expr e, int context)
     p->at = outer;
 }
 
-/* --- undefined functions ------------------------------------------------------------------------ */
+/* --- printing undefined functions --------------------------------------------------------------- */
 
 /* Print the arguments (s, t) of an application, or the declared ones. */
 static void

@@ -20,7 +20,7 @@ static const struct {
 
 /* The character for the fraction |x|, such as ½; NULL if there is none. */
 static const char *
-glyph(const fmpq_t x)
+fraction_character(const fmpq_t x)
 {
     for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++)
         if (qdot_integer_is(fmpq_denref(x), fractions[i].q) &&
@@ -236,7 +236,7 @@ decimal_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
     fmpz_clear(whole);
 }
 
-/* The digits [n] of 9.81, 0.05, or below 1e-4 of the first factor of 6.67e-11. */
+/* Append the digits [n] with the decimal point, as 9.81 or 0.05; small: the 6.67 of 6.67e-11. */
 static void
 decimal_text(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
 {
@@ -249,7 +249,7 @@ decimal_text(const char *digits, size_t n, ulong places, bool small, qdot_text *
     qdot_text_add_n(out, digits + whole, n - whole);
 }
 
-/* The size of x as a decimal number in a line. */
+/* Append the size of x as a decimal number in a line. */
 static void
 line_decimal(const char *digits, size_t n, ulong places, bool small, qdot_text *out)
 {
@@ -316,7 +316,7 @@ print_decimal(printer *p, const fmpq_t x, const struct decimal *d, int bracket)
     p->at = outer;
 }
 
-/* Append the digits of |n|. */
+/* Append the digits of |n| for an integer n. */
 static void
 print_size(printer *p, const fmpz_t n)
 {
@@ -324,7 +324,7 @@ print_size(printer *p, const fmpz_t n)
     const size_t from = out->n;
 
     integer(n, out);
-    if (out->n > from && out->at[from] == '-') { /* its size */
+    if (out->n > from && out->at[from] == '-') { /* |n| */
         memmove(out->at + from, out->at + from + 1, out->n - from);
         out->n--;
     }
@@ -345,7 +345,7 @@ qdot_print_number(printer *p, const fmpq_t x, int bracket)
 {
     const bool whole = fmpz_is_one(fmpq_denref(x)), minus = qdot_rational_sgn(x) < 0;
     const bool wrap = (bracket > 0 && minus) || (bracket == 2 && !whole);
-    const char *sign = p->notation == QDOT_NOTATION_LINE && !whole ? glyph(x) : NULL;
+    const char *sign = p->notation == QDOT_NOTATION_LINE && !whole ? fraction_character(x) : NULL;
     const qdot_formula_id outer = p->at;
     struct decimal d;
 

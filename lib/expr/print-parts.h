@@ -75,7 +75,7 @@ print_sign(printer *p, qdot_formula_sign sign)
     qdot_formula_add_sign(p->out, p->at, sign);
 }
 
-/* Append text unchanged, in a script or a line. */
+/* Append text unchanged, in a superscript as well as in a line. */
 void qdot_print_text(printer *p, const char *text);
 
 /* Begin a child to which further children are appended, until p->at is set back to the returned value. */
@@ -136,7 +136,7 @@ void qdot_print_integer(printer *p, uint32_t n);
 /* c * e, e without a coefficient (or the number 1); a context below 0: the sign is already
  * written; flip: a difference is negated instead of a minus sign. (print-product.c) */
 void qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip);
-/* (print-function.c) */
+/* Print the application of an elementary or undefined function. (print-function.c) */
 void qdot_print_function(printer *p, qdot_expr e, int context);
 void qdot_print_ufun(printer *p, qdot_expr e, int context);
 

@@ -10,7 +10,7 @@
 #include "expr/exact.h"
 #include "expr/print-parts.h"
 
-/* The factors of a product that are written under one root. */
+/* The factors of a product that are written under one root sign. */
 struct root {
     bool any, above;  /* it stands above the bar */
     bool decimal;     /* the number under the root is written as a decimal one */
@@ -20,7 +20,7 @@ struct root {
 
 /* Whether b^e belongs in the denominator. */
 static bool
-below(const qdot_pool *pool, qdot_expr e)
+is_in_denominator(const qdot_pool *pool, qdot_expr e)
 {
     const fmpq *x = qdot_expr_rational(pool, e);
 
@@ -28,9 +28,9 @@ below(const qdot_pool *pool, qdot_expr e)
                      : NODE(pool, e)->kind == QDOT_PROD && qdot_expr_is_negative(pool, e);
 }
 
-/* --- powers ----------------------------------------------------------------------------------- */
+/* --- printing powers -------------------------------------------------------------------------- */
 
-/* Print |n/d| for integers that are no nodes. */
+/* Print |n/d| for integers n and d that are not nodes of the pool. */
 static void
 say_number(printer *p, const fmpz_t n, const fmpz_t d)
 {
@@ -44,7 +44,7 @@ say_number(printer *p, const fmpz_t n, const fmpz_t d)
     fmpq_clear(x);
 }
 
-/* Print a number as an exponent, in LaTeX with a slash: r^{1/3}; size: its absolute value. */
+/* Print a number as an exponent, in LaTeX with a slash as in r^{1/3}; size: print its absolute value. */
 static void
 number_exponent(printer *p, const fmpq *x, bool size)
 {
@@ -187,7 +187,7 @@ base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
     qdot_print_part(p, (struct part){.e = b, .context = context, .turned = turned});
 }
 
-/* b^e, or b^-e below the bar; flip: of -b, e odd. */
+/* Print b^e, below the fraction bar as b^-e; flip: print (-b)^e instead, for an odd e. */
 static void
 print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool flip)
 {
@@ -216,11 +216,11 @@ print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool 
     }
 }
 
-/* --- one root ----------------------------------------------------------------------------------- */
+/* --- factors under a common root ---------------------------------------------------------------- */
 
 /* Whether b^x, x half an odd number, is taken out of a root of a product by the constructors. */
 static bool
-comes_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+leaves_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *e = qdot_expr_rational(pool, x);
 
@@ -231,7 +231,7 @@ comes_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 
 /* Whether a factor stays under a root when a product is read back: one factor of unknown sign. */
 static bool
-stays(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+stays_under_root(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     return x == QDOT_HALF && !(NODE(pool, b)->sign & QDOT_GE0) &&
            (NODE(pool, b)->kind == QDOT_SUM || qdot_expr_is_atom(pool, b));
@@ -247,7 +247,7 @@ static bool
 is_under(const qdot_pool *pool, const struct root *r, qdot_expr b, qdot_expr x)
 {
     return r->any &&
-           (comes_out(pool, b, x) || stays(pool, b, x) || is_number_root(pool, b, x));
+           (leaves_root(pool, b, x) || stays_under_root(pool, b, x) || is_number_root(pool, b, x));
 }
 
 /* The factors of c e that go under one root, at least two of them. c sqrt(n), c = a/b, is
@@ -263,8 +263,8 @@ find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
     for (uint32_t i = 1; i < n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
-        out += comes_out(pool, b, x);
-        in += stays(pool, b, x);
+        out += leaves_root(pool, b, x);
+        in += stays_under_root(pool, b, x);
         if (is_number_root(pool, b, x))
             number = RATIONAL(pool, b);
     }
@@ -273,7 +273,7 @@ find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
         return;
     for (uint32_t i = 1; i < n; i += 2) { /* the last above; if there is none, below */
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
-        bool up = !below(pool, x);
+        bool up = !is_in_denominator(pool, x);
 
         if (is_under(pool, r, b, x) && up >= r->above) {
             r->last = i;
@@ -306,7 +306,7 @@ forget_root(struct root *r)
     fmpq_clear(r->number);
 }
 
-/* b^k, k the numerator of twice x. */
+/* Print b^k under the root, where k is the numerator of 2 x. */
 static void
 under_root(printer *p, qdot_expr b, qdot_expr x, int context)
 {
@@ -341,7 +341,7 @@ root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t cou
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
         if (!is_under(pool, r, b, x) || NODE(pool, b)->kind == QDOT_NUM ||
-            (below(pool, x) == r->above) != down)
+            (is_in_denominator(pool, x) == r->above) != down)
             continue;
         if (!first || shown)
             print_sign(p, QDOT_SIGN_TIMES);
@@ -367,7 +367,7 @@ open_root(printer *p, qdot_expr e, const struct root *r)
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
 
         if (is_under(pool, r, b, x) && NODE(pool, b)->kind != QDOT_NUM)
-            count[below(pool, x) == r->above]++;
+            count[is_in_denominator(pool, x) == r->above]++;
     }
     fraction = count[1] > 0 || below_bar;
     several = count[1] + below_bar > 1 && !is_drawn(p);
@@ -386,7 +386,7 @@ open_root(printer *p, qdot_expr e, const struct root *r)
     p->at = outer;
 }
 
-/* --- products --------------------------------------------------------------------------------- */
+/* --- printing products ------------------------------------------------------------------------ */
 
 /* The number of factors in the denominator (or numerator), with the root as one. */
 static uint32_t
@@ -397,7 +397,7 @@ count_factors(const qdot_pool *pool, qdot_expr e, const struct root *r, bool dow
     if (NODE(pool, e)->kind != QDOT_PROD)
         return e != QDOT_ONE && !down;
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2)
-        count += below(pool, ARGS(pool, e)[i + 1]) == down &&
+        count += is_in_denominator(pool, ARGS(pool, e)[i + 1]) == down &&
                  !is_under(pool, r, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
     return count;
 }
@@ -446,7 +446,7 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
         bool under = is_under(pool, r, b, x);
 
         if (factor_class(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
-            (under ? i != r->last || r->above == down : below(pool, x) != down))
+            (under ? i != r->last || r->above == down : is_in_denominator(pool, x) != down))
             continue;
         if (first && number != NULL)
             print_sign(p, under ? QDOT_SIGN_TIMES : joint(p, number, b, x));
@@ -464,7 +464,7 @@ static bool
 has_pi_below(const qdot_pool *pool, qdot_expr e)
 {
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < NODE(pool, e)->n; i += 2)
-        if (ARGS(pool, e)[i] == QDOT_PI && below(pool, ARGS(pool, e)[i + 1]))
+        if (ARGS(pool, e)[i] == QDOT_PI && is_in_denominator(pool, ARGS(pool, e)[i + 1]))
             return true;
     return false;
 }

@@ -35,7 +35,7 @@ index_is_lowered(const qdot_pool *pool, const char *name)
              (d.brackets || !name_is_known(pool, name, d.letters, "[%.*s]", d.at, d.n))));
 }
 
-/* A name with dots or primes, as a child of the parent. */
+/* Append a name with dots or primes, as a child of the parent. */
 static void
 symbol_add_name(qdot_formula *f, qdot_formula_id parent, const qdot_pool *pool, const char *name, uint32_t order,
          qdot_notation_kind notation)
@@ -80,7 +80,7 @@ qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, qdot_
     qdot_formula_clear(&f);
 }
 
-/* --- symbols ---------------------------------------------------------------------------------- */
+/* --- printing symbols ------------------------------------------------------------------------- */
 
 /* The end of the digits in the name of a symbol that represents a number; NULL for other symbols. */
 static const char *
@@ -95,7 +95,7 @@ qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_SYM && number_end(qdot_expr_symbol(pool, e)) != NULL;
 }
 
-/* The digits, in a drawn formula with their power of ten: 1.5 10^-9. */
+/* Print the digits, in a drawn formula with their power of ten: 1.5 10^-9. */
 static void
 number_digits(printer *p, const char *name, size_t length)
 {
@@ -126,7 +126,7 @@ number_name(printer *p, const char *name, size_t length)
     p->at = outer;
 }
 
-/* Print a symbol derived from a coordinate: p with the coordinate as index, dq, delta q. */
+/* Print a symbol derived from a coordinate q: p with q as index, dq, or delta q. */
 static void
 about_coordinate(printer *p, const qdot_symbol *s, const char *name)
 {

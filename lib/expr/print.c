@@ -15,7 +15,7 @@
 #include "expr/walk.h"
 #include "formula/write.h"
 
-/* --- sums ------------------------------------------------------------------------------------- */
+/* --- printing sums ---------------------------------------------------------------------------- */
 
 static bool
 is_minus(const qdot_pool *pool, qdot_expr number)
@@ -47,7 +47,7 @@ term_is_constant(const qdot_pool *pool, qdot_expr e)
            0;
 }
 
-/* Whether a term enters by functions of coordinates: R sin(x), r cos(x). */
+/* Whether a term contains coordinates only as arguments of functions: R sin(x), r cos(x). */
 static bool
 is_by_functions(const qdot_pool *pool, qdot_expr e)
 {
@@ -399,9 +399,9 @@ qdot_print_text(printer *p, const char *text)
     qdot_formula_add_text(p->out, p->at, QDOT_TEXT_NAME, text, strlen(text));
 }
 
-/* What the printed form of x depends on, apart from the expression. */
+/* The circumstances on which the printed form of x depends, apart from the expression itself. */
 static uint32_t
-how(const printer *p, const struct part *x)
+printing_context(const printer *p, const struct part *x)
 {
     return (uint32_t)(x->context - NUMERATOR) << 4 | (uint32_t)p->fractions << 3 | (uint32_t)p->notation << 1 | x->turned;
 }
@@ -413,7 +413,7 @@ open_part(printer *p, struct part x)
     uint8_t kind = NODE(p->pool, x.e)->kind;
     const bool again = x.coefficient == QDOT_NIL && p->ascending == QDOT_NIL && p->below == QDOT_NIL &&
                        (kind == QDOT_SUM || kind == QDOT_FUN || kind == QDOT_UFUN || kind == QDOT_SYM);
-    const qdot_formula_id of = again ? qdot_printed_find(p->pool->printed, x.e, how(p, &x)) : 0;
+    const qdot_formula_id of = again ? qdot_printed_find(p->pool->printed, x.e, printing_context(p, &x)) : 0;
 
     if (of != 0) {
         qdot_formula_share(p->out, x.at, of);
@@ -422,7 +422,7 @@ open_part(printer *p, struct part x)
     open_node(p, &x);
     qdot_formula_unwrap(p->out, x.at);
     if (again && p->status == QDOT_OK)
-        p->status = qdot_printed_keep(p->pool->printed, x.e, how(p, &x), x.at);
+        p->status = qdot_printed_keep(p->pool->printed, x.e, printing_context(p, &x), x.at);
 }
 
 void

@@ -1,4 +1,5 @@
-/* product.c -- products: maps base -> exponent with a rational coefficient; powers. */
+/* product.c -- makes products and powers; a product is a map from bases to exponents, with a
+ * rational coefficient. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -77,7 +78,7 @@ product_scale(struct product *p, const fmpq *c)
         p->failed = true;
 }
 
-/* Take a number b^e into p. */
+/* Multiply p by base^exponent, where the base is a number. */
 static void
 push_number(struct product *p, qdot_expr base, qdot_expr exponent)
 {
@@ -204,7 +205,8 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
 
 /* --- the canonical form ------------------------------------------------------------------ */
 
-/* Append the pairs of a PROD, except the one whose base has the index `without` (0: all). */
+/* Append the pairs (base, exponent) of a product, except the pair whose base has the index
+ * `without` (0: all). */
 static void
 take_pairs(struct product *p, qdot_expr e, uint32_t without)
 {
@@ -251,7 +253,7 @@ compare_pairs(const void *a, const void *b, void *pool)
     return d != 0 ? d : qdot_expr_compare(pool, x->exponent, y->exponent);
 }
 
-/* Factors are few as a rule. */
+/* Sort the factors, by their ids or in canonical order; by insertion if there are few. */
 static void
 product_sort(struct product *p, bool ids)
 {
@@ -274,7 +276,7 @@ product_sort(struct product *p, bool ids)
     }
 }
 
-/* Merge exp(a)^i exp(b)^j ... to one exp. Returns whether there was something to do. */
+/* Merge a product exp(a)^i exp(b)^j ... into one exponential. Returns whether there was something to merge. */
 static bool
 merge_exponentials(struct product *p)
 {
@@ -507,7 +509,7 @@ all_plain(const struct product *p)
     return p->n <= 16;
 }
 
-/* Sort the pairs, and combine equal bases. The factors of each product are already sorted. */
+/* Sort the pairs, and combine pairs with equal bases. The factors of each product are already sorted. */
 static void
 product_gather(struct product *p)
 {
@@ -591,7 +593,7 @@ product_finish(struct product *p)
     return e;
 }
 
-/* --- the constructors -------------------------------------------------------------------- */
+/* --- making products and powers ---------------------------------------------------------- */
 
 qdot_expr
 qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)

@@ -26,7 +26,7 @@ qdot_rational_is_small(const fmpq *x)
            (uint64_t)x->den <= QDOT_SMALL;
 }
 
-/* y = n/d, d > 0, both less than 2^62. */
+/* Set y = n/d, d > 0, both less than 2^62. */
 static inline void
 qdot_rational_make(fmpq *y, int64_t n, int64_t d)
 {
@@ -89,7 +89,7 @@ qdot_rational_addmul(fmpq *y, const fmpq *a, const fmpq *b)
     _fmpz_demote(&product.den);
 }
 
-/* The largest y of which a and b are both integer multiples; 0 for two zeros. */
+/* Find the largest y of which a and b are both integer multiples; 0 for two zeros. */
 static inline void
 qdot_rational_gcd(fmpq *y, const fmpq *a, const fmpq *b)
 {

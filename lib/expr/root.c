@@ -45,7 +45,7 @@ qdot_number_power(qdot_pool *pool, fmpq_t y, const fmpq_t x, const fmpz_t n)
     return true;
 }
 
-/* n = outside^q * inside, n > 0, where inside contains no q-th powers of the primes found. */
+/* Write n = outside^q * inside, n > 0, where inside contains no q-th powers of the primes found. */
 static void
 extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
 {

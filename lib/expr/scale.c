@@ -40,7 +40,7 @@ qdot_sum_turned(qdot_pool *pool, qdot_expr sum)
     return e;
 }
 
-/* c times e, c a NUM: the pairs stay the same. */
+/* The expression c e for a number c; the factors of e are copied as they are. */
 static qdot_expr
 multiple(qdot_pool *pool, qdot_expr c, qdot_expr e)
 {

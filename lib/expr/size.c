@@ -1,4 +1,4 @@
-/* size.c -- the number of operations in an expression, stored in each node up to 32 bits. */
+/* size.c -- counts the operations in an expression; each node stores its count, up to 32 bits. */
 #include "base/memory.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -17,7 +17,7 @@ child_size(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
     return w == NULL ? NODE(pool, e)->size : qdot_walk_get(w, e);
 }
 
-/* The price of writing a rational: a division, a sign. */
+/* The number of operations counted for a rational: one for a division, one for a minus sign. */
 static uint64_t
 size_of_number(const fmpq *x)
 {

@@ -1,4 +1,4 @@
-/* sum.c -- sums: maps term -> rational coefficient. */
+/* sum.c -- makes sums; a sum is a map from terms to rational coefficients. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/pool.h"
@@ -61,7 +61,7 @@ term_coefficient(const struct sum *s, const struct term *t)
     return t->id != QDOT_NIL ? RATIONAL(s->pool, t->id) : &t->c;
 }
 
-/* Append a * b * term; a and b are NUMs, term has no coefficient of its own. */
+/* Append a * b * term; a and b are numbers, and the term has no coefficient. */
 static void
 sum_push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
 {
@@ -100,7 +100,7 @@ sum_add_number(struct sum *s, qdot_expr a, qdot_expr b)
         qdot_rational_addmul(&s->constant, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
 }
 
-/* Add c times e, c a NUM. */
+/* Add c times e to the sum, where c is a number. */
 static void
 sum_add(struct sum *s, qdot_expr e, qdot_expr c)
 {
@@ -134,7 +134,7 @@ sum_add(struct sum *s, qdot_expr e, qdot_expr c)
     }
 }
 
-/* --- order -------------------------------------------------------------------------------- */
+/* --- sorting and merging terms ------------------------------------------------------------ */
 
 static int
 by_id(const void *a, const void *b)
@@ -258,7 +258,7 @@ sum_sort(struct sum *s)
                 start[runs++] = (uint32_t)i;
         if (pass == 1 || runs < s->n / 4 || s->n < 64)
             break;
-        /* no order at all, as after multiplying out: like terms first, by their ids */
+        /* the items have no order, as after multiplying out: put like terms together, by their ids */
         qsort(s->at, s->n, sizeof *s->at, by_id);
         sum_merge(s);
     }
@@ -306,7 +306,7 @@ sum_finish(struct sum *s)
     return e;
 }
 
-/* --- the constructors ----------------------------------------------------------------------- */
+/* --- making sums ---------------------------------------------------------------------------- */
 
 /* Whether every e is scalar; if not the pool keeps the failure. */
 static bool

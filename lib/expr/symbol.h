@@ -21,7 +21,7 @@ typedef enum {
     QDOT_WORDS         /* a text, what latex(e) gives: its name as it stands; no number */
 } qdot_class;
 
-/* What an expression contains, as a set of bits in qdot_node.holds (node.h). */
+/* The kinds of symbols in an expression, as a set of bits in qdot_node.holds (node.h). */
 enum {
     QDOT_HAS_PARAM = 1 << QDOT_PARAM,
     QDOT_HAS_FORMAL = 1 << QDOT_FORMAL,
@@ -64,7 +64,7 @@ bool qdot_symbol_is_known(const qdot_pool *pool, const char *name);
 bool qdot_symbol_is_declared(const qdot_pool *pool, const char *name);
 /* The order-th time derivative of a coordinate (order 0: itself) or of a time derivative. */
 qdot_expr qdot_symbol_jet(qdot_pool *pool, qdot_expr coordinate, uint32_t order);
-/* dq or dt, p[q], delta[q]. class: DIFFERENTIAL, MOMENTUM, DELTA. */
+/* The symbol dq or dt, p[q], or delta[q] for `class` DIFFERENTIAL, MOMENTUM or DELTA. */
 qdot_expr qdot_symbol_of(qdot_pool *pool, qdot_class class, qdot_expr coordinate);
 /* Declare lo < x < hi (nil: no bound; open: strict). Before x is used. */
 void qdot_symbol_domain(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open,
@@ -75,7 +75,7 @@ bool qdot_expr_is_class(const qdot_pool *pool, qdot_expr e, qdot_class class);
 /* Whether e is the coordinate itself (order 0). */
 bool qdot_expr_is_coordinate(const qdot_pool *pool, qdot_expr e);
 
-/* --- undefined functions -------------------------------------------------------------- */
+/* --- undefined functions: declaring and applying -------------------------------------- */
 
 typedef struct {
     const char *name;
@@ -92,7 +92,7 @@ QDOT_MUST_CHECK qdot_status qdot_ufun_declare(qdot_pool *pool, const char *name,
 QDOT_MUST_CHECK qdot_status qdot_ufun_redeclare(qdot_pool *pool, uint32_t id,
                                                 qdot_expr formals);
 const qdot_ufun *qdot_ufun_get(const qdot_pool *pool, uint32_t id);
-/* x(args), derivatives of the given orders (NULL: none). */
+/* Apply the undefined function x to `args`, with derivatives of the given orders (NULL: none). */
 qdot_expr qdot_ufun_apply(qdot_pool *pool, uint32_t id, const qdot_expr *args,
                           const uint32_t *orders);
 

@@ -55,10 +55,10 @@ same_shape(const qdot_pool *pool, qdot_expr a, qdot_expr b)
     return x->kind == y->kind && x->n == y->n && (x->kind != QDOT_MAT || x->op == y->op);
 }
 
-/* f of every component of a, with the components of b (pairwise) or with a scalar b. */
+/* Apply f to every component of a, with the same component of b or with a scalar b. */
 static qdot_expr
-each(qdot_pool *pool, qdot_expr a, qdot_expr b,
-     qdot_expr (*f)(qdot_pool *pool, qdot_expr x, qdot_expr y), bool pairwise)
+map_components(qdot_pool *pool, qdot_expr a, qdot_expr b,
+               qdot_expr (*f)(qdot_pool *pool, qdot_expr x, qdot_expr y), bool pairwise)
 {
     uint32_t n = NODE(pool, a)->n;
     parts p;
@@ -90,7 +90,7 @@ shapes_differ(qdot_pool *pool, const char *verb, qdot_expr a, qdot_expr b)
 }
 
 static bool
-ready(qdot_pool *pool, qdot_expr a, qdot_expr b)
+check_operands(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
     return a != QDOT_NIL && b != QDOT_NIL && !qdot_pool_failed(pool);
 }
@@ -104,17 +104,17 @@ is_equation(const qdot_pool *pool, qdot_expr e)
 qdot_expr
 qdot_value_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_add(pool, a, b);
     if ((is_tensor(pool, a) || is_equation(pool, a)) && same_shape(pool, a, b) &&
         is_equation(pool, a) == is_equation(pool, b))
-        return each(pool, a, b, qdot_value_add, true);
+        return map_components(pool, a, b, qdot_value_add, true);
     if (is_equation(pool, a) && qdot_expr_is_scalar(pool, b))
-        return each(pool, a, b, qdot_value_add, false);
+        return map_components(pool, a, b, qdot_value_add, false);
     if (is_equation(pool, b) && qdot_expr_is_scalar(pool, a))
-        return each(pool, b, a, qdot_value_add, false);
+        return map_components(pool, b, a, qdot_value_add, false);
     return shapes_differ(pool, "add", a, b);
 }
 
@@ -127,7 +127,7 @@ qdot_value_neg(qdot_pool *pool, qdot_expr a)
 qdot_expr
 qdot_value_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (!qdot_expr_is_scalar(pool, a) && !qdot_expr_is_scalar(pool, b) &&
         !same_shape(pool, a, b))
@@ -174,14 +174,14 @@ matrix_product(qdot_pool *pool, qdot_expr a, qdot_expr b)
 qdot_expr
 qdot_value_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_mul(pool, a, b);
     if (qdot_expr_is_scalar(pool, a) && (is_tensor(pool, b) || is_equation(pool, b)))
-        return each(pool, b, a, qdot_value_mul, false);
+        return map_components(pool, b, a, qdot_value_mul, false);
     if (qdot_expr_is_scalar(pool, b) && (is_tensor(pool, a) || is_equation(pool, a)))
-        return each(pool, a, b, qdot_value_mul, false);
+        return map_components(pool, a, b, qdot_value_mul, false);
     if (NODE(pool, a)->kind == QDOT_MAT && is_tensor(pool, b))
         return matrix_product(pool, a, b);
     if (NODE(pool, a)->kind == QDOT_VEC && NODE(pool, b)->kind == QDOT_VEC) {
@@ -199,7 +199,7 @@ qdot_value_mul(qdot_pool *pool, qdot_expr a, qdot_expr b)
 qdot_expr
 qdot_value_div(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (!qdot_expr_is_scalar(pool, b))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "cannot divide by %s",
@@ -213,7 +213,7 @@ qdot_value_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
     long n;
     qdot_expr result = QDOT_NIL;
 
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_pow(pool, a, b);
@@ -258,15 +258,15 @@ equate(qdot_pool *pool, qdot_expr a, qdot_expr b)
 qdot_expr
 qdot_value_equation(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return QDOT_NIL;
     if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return equate(pool, a, b);
     if ((is_tensor(pool, a) || NODE(pool, a)->kind == QDOT_LIST) &&
         same_shape(pool, a, b))
-        return each(pool, a, b,
-                    NODE(pool, a)->kind == QDOT_LIST ? qdot_value_equation : equate,
-                    true);
+        return map_components(pool, a, b,
+                              NODE(pool, a)->kind == QDOT_LIST ? qdot_value_equation : equate,
+                              true);
     return shapes_differ(pool, "equate", a, b);
 }
 
@@ -275,7 +275,7 @@ qdot_value_equation(qdot_pool *pool, qdot_expr a, qdot_expr b)
 static bool
 vectors(qdot_pool *pool, const char *what, qdot_expr a, qdot_expr b)
 {
-    if (!ready(pool, a, b))
+    if (!check_operands(pool, a, b))
         return false;
     if (NODE(pool, a)->kind == QDOT_VEC && NODE(pool, b)->kind == QDOT_VEC)
         return true;
@@ -292,7 +292,7 @@ qdot_dot(qdot_pool *pool, qdot_expr a, qdot_expr b)
     qdot_expr result;
 
     /* in one dimension vectors are scalars */
-    if (ready(pool, a, b) && qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
+    if (check_operands(pool, a, b) && qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b))
         return qdot_mul(pool, a, b);
     if (!vectors(pool, "dot", a, b))
         return QDOT_NIL;
@@ -339,7 +339,7 @@ qdot_norm(qdot_pool *pool, qdot_expr a)
     return qdot_sqrt(pool, qdot_dot(pool, a, a));
 }
 
-/* --- matrices --------------------------------------------------------------------------------- */
+/* --- functions of matrices -------------------------------------------------------------------- */
 
 static bool
 matrix(qdot_pool *pool, const char *what, qdot_expr a, bool square)
@@ -488,7 +488,7 @@ qdot_inverse(qdot_pool *pool, qdot_expr a)
     return qdot_matrix(pool, n, n, inverse);
 }
 
-/* --- entries ------------------------------------------------------------------------------------ */
+/* --- entries of vectors and matrices ------------------------------------------------------------ */
 
 qdot_expr
 qdot_entry(qdot_pool *pool, qdot_expr a, long i)
@@ -540,13 +540,13 @@ qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j)
     return ARGS(pool, a)[(i - 1) * columns + j - 1];
 }
 
-/* --- mapping -------------------------------------------------------------------------------------- */
+/* --- a function applied to every scalar ----------------------------------------------------------- */
 
 qdot_expr
 qdot_value_map(qdot_pool *pool, qdot_expr e,
                qdot_expr (*f)(qdot_pool *pool, qdot_expr scalar, void *user), void *user)
 {
-    /* values nest a few levels: list of vectors of equations; frames, not the C stack */
+    /* values nest a few levels deep (a list of vectors of equations); a stack of frames replaces recursion */
     struct frame {
         qdot_expr e;
         uint32_t next;

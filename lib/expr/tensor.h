@@ -23,11 +23,11 @@ qdot_expr qdot_transpose(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_trace(qdot_pool *pool, qdot_expr a);
 qdot_expr qdot_det(qdot_pool *pool, qdot_expr a);     /* fraction-free if possible */
 qdot_expr qdot_inverse(qdot_pool *pool, qdot_expr a); /* adjugate / det; det = 0: ESINGULAR */
-/* i-th entry counted from 1; QDOT_EDOMAIN with the range otherwise. */
+/* The i-th entry of a value, counted from 1; QDOT_EDOMAIN, with the allowed range, if there is none. */
 qdot_expr qdot_entry(qdot_pool *pool, qdot_expr a, long i);
 qdot_expr qdot_entry2(qdot_pool *pool, qdot_expr a, long i, long j);
 
-/* f on every scalar inside (through VEC, MAT, LIST, REL, LOGIC). */
+/* Apply f to every scalar inside a value (vector, matrix, list, relation or logical expression). */
 qdot_expr qdot_value_map(qdot_pool *pool, qdot_expr e,
                          qdot_expr (*f)(qdot_pool *pool, qdot_expr scalar, void *user),
                          void *user);

@@ -1,4 +1,4 @@
-/* ufun.c -- undefined functions: declared, applied. */
+/* ufun.c -- declares undefined functions, and applies them to arguments. */
 #include <string.h>
 
 #include "expr/build.h"

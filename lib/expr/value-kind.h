@@ -8,7 +8,7 @@
 QDOT_MUST_CHECK qdot_status qdot_value_kind_check(qdot_pool *pool, qdot_expr value);
 /* "a vector", "an equation" ... in a user's words. */
 const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
-/* *value = made, after the same check. */
+/* Set *value to `made`, after the check of qdot_value_kind_check. */
 QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made,
                                                  qdot_expr *value);
 bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);

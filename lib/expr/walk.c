@@ -187,7 +187,7 @@ typedef struct {
 
 /* List all nodes in the order in which they are met from the roots, parents first. Overwrites their values. */
 static void
-meet(qdot_walk *w, size_t n, const qdot_expr *roots, met *m)
+list_reachable(qdot_walk *w, size_t n, const qdot_expr *roots, met *m)
 {
     size_t known = 0;
 
@@ -231,7 +231,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
                           qdot_walk *w)
 {
     met *m;
-    size_t *first; /* of a height */
+    size_t *first; /* the first position of the nodes of a height */
     size_t most;
 
     QDOT_TRY(walk_begin_roots(pool, n, roots, UINT32_MAX, 0, w));
@@ -245,7 +245,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
         qdot_walk_end(w);
         return QDOT_ENOMEM;
     }
-    meet(w, n, roots, m);
+    list_reachable(w, n, roots, m);
     most = heights(w);
     for (size_t k = 0; k < w->n; k++)
         first[w->value[k] + 1]++;
