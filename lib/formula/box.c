@@ -15,7 +15,7 @@ typedef struct {
     qdot_text spelled, copy; /* work space */
 } reader;
 
-/* --- texts ---------------------------------------------------------------------------------- */
+/* --- boxes of texts ------------------------------------------------------------------------- */
 
 static const char *
 text_of(const qdot_boxes *b, const qdot_box *x)
@@ -196,10 +196,10 @@ spell(const qdot_boxes *b, uint32_t i, qdot_text *copy)
     return true;
 }
 
-/* --- sizes ------------------------------------------------------------------------------------ */
+/* --- sizes of boxes --------------------------------------------------------------------------- */
 
 static void
-beside(qdot_box *row, const qdot_box *x)
+append_box(qdot_box *row, const qdot_box *x)
 {
     row->columns += x->columns;
     if (x->above > row->above)
@@ -230,8 +230,8 @@ measure_table(qdot_boxes *b, qdot_box *table)
         qdot_box row = {0};
 
         for (uint32_t c = 0; c < table->across; c++)
-            beside(&row,
-                   b->box.at + b->children.at[table->first + r * table->across + c]);
+            append_box(&row,
+                       b->box.at + b->children.at[table->first + r * table->across + c]);
         height += qdot_box_height(&row) + (r > 0 && row.above > 0);
     }
     table->above = (height - 1) / 2;
@@ -241,7 +241,7 @@ measure_table(qdot_boxes *b, qdot_box *table)
 
 /* Make brackets as high as their contents. */
 static void
-stretch(qdot_boxes *b, const qdot_box *row)
+stretch_brackets(qdot_boxes *b, const qdot_box *row)
 {
     const uint32_t *child = b->children.at + row->first;
 
@@ -264,8 +264,8 @@ finish_row(reader *r, qdot_box x)
     if (x.count == 1)
         return qdot_vec_push(&r->done, b->children.at[x.first]);
     for (uint32_t k = 0; k < x.count; k++)
-        beside(&x, b->box.at + b->children.at[x.first + k]);
-    stretch(b, &x);
+        append_box(&x, b->box.at + b->children.at[x.first + k]);
+    stretch_brackets(b, &x);
     return box_finish(r, x);
 }
 
@@ -298,7 +298,7 @@ finish_fraction(reader *r, qdot_box x)
     return box_finish(r, x);
 }
 
-/* Write a super- or subscript in characters of its own, on the line of its base; *own: they exist. */
+/* Write a super- or subscript as characters such as ², on the line of its base; *own: these exist. */
 static qdot_status
 append_script(reader *r, const qdot_box *x, bool super, bool *own)
 {
@@ -349,7 +349,7 @@ finish_beside(reader *r, qdot_box x)
     return box_finish(r, x);
 }
 
-/* p with index θ and a square: write ² as a character on the line of p, above θ; *own: it exists. */
+/* Write p with index θ and a square: ² as a character above θ on the line of p; *own: it exists. */
 static qdot_status
 append_above_index(reader *r, const qdot_box *x, bool *own)
 {
@@ -440,7 +440,7 @@ finish_root(reader *r, qdot_box x)
     return box_finish(r, x);
 }
 
-/* --- nodes ------------------------------------------------------------------------------------ */
+/* --- nodes of the formula as boxes ------------------------------------------------------------ */
 
 /* Close the innermost open node x: the boxes finished since it was opened become its children. */
 static qdot_status
@@ -624,7 +624,7 @@ finish_all(reader *r)
 
     QDOT_TRY(close_node(r, &x));
     for (uint32_t k = 0; k < x.count; k++)
-        beside(&x, r->to->box.at + r->to->children.at[x.first + k]);
+        append_box(&x, r->to->box.at + r->to->children.at[x.first + k]);
     return box_finish(r, x);
 }
 

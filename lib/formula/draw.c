@@ -239,7 +239,7 @@ canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, q
     }
 }
 
-/* The lines above and below the baseline of items next to each other. */
+/* Find the lines above and below the baseline of items next to each other. */
 static void
 items_measure(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
               size_t *below)

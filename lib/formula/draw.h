@@ -7,7 +7,7 @@
 
 #include "formula/box.h"
 
-/* A box and its first column. */
+/* A box and the column at which it begins. */
 typedef struct {
     uint32_t box;
     size_t x;

@@ -74,7 +74,7 @@ typedef enum {
     QDOT_DUTY_COMMA
 } qdot_formula_duty;
 
-/* Signs and letters of the writers. */
+/* Signs and letters; each output notation has its own spelling of them. */
 typedef enum {
 #define QDOT_SIGN(name, plain, unicode, latex, mathml, duty) QDOT_SIGN_##name,
 #include "formula/sign.def"
@@ -82,7 +82,7 @@ typedef enum {
     QDOT_SIGNS
 } qdot_formula_sign;
 
-/* Flags of nodes: how a node is written. */
+/* Flags of nodes: variants of how a node is written. */
 enum {
     QDOT_FORMULA_SLANTED = 1, /* FRACTION of numbers, an exponent: LaTeX writes it with a slash */
     QDOT_FORMULA_RAISED = 2,  /* POWER in a line: the exponent is an integer, written by superscripts */
@@ -111,7 +111,7 @@ void qdot_formula_clear(qdot_formula *f);
 /* Remove all nodes but keep the memory. */
 void qdot_formula_empty(qdot_formula *f);
 
-/* QDOT_ENOMEM if anything failed for want of memory. */
+/* QDOT_ENOMEM if memory ran out in any earlier call; otherwise QDOT_OK. */
 QDOT_MUST_CHECK qdot_status qdot_formula_status(const qdot_formula *f);
 
 /* Create a node without children and without a parent. */
@@ -165,7 +165,7 @@ QDOT_MUST_CHECK qdot_status qdot_formula_find_parts(const qdot_formula *f, qdot_
                                                     qdot_formula_parts *parts);
 void qdot_formula_parts_clear(qdot_formula_parts *parts);
 
-/* The function of a node that is a sign; else QDOT_DUTY_NONE. */
+/* The function of a node that is a sign; QDOT_DUTY_NONE for other nodes. */
 qdot_formula_duty qdot_formula_sign_duty(const qdot_formula_node *node);
 
 /* Append a text in LaTeX: the signs between its terms and sides outside braces are nodes, what stands between them

@@ -41,7 +41,7 @@ box_of(const layout *l, uint32_t box)
     return l->boxes.box.at + box;
 }
 
-/* --- parts of what is too wide ---------------------------------------------------------------- */
+/* --- parts of an item that is too wide for a line --------------------------------------------- */
 
 /* Push a box; the last pushed is the leftmost. */
 static void
@@ -83,7 +83,7 @@ push_bracketed(layout *l, uint32_t box, uint32_t depth)
         push_text(l, "(", QDOT_BOX_OPENING, depth);
 }
 
-/* Push the boxes of a row; its brackets become those of a line. */
+/* Push the boxes of a row; its brackets get the height of one line. */
 static void
 layout_push_row(layout *l, const qdot_box *row, uint32_t depth)
 {
@@ -114,7 +114,7 @@ push_table(layout *l, const qdot_box *table, uint32_t depth)
     }
 }
 
-/* Bytes [from, from + n) of a text. */
+/* Push bytes [from, from + n) of a text as a box. */
 static void
 push_piece(layout *l, qdot_box whole, size_t from, size_t n, uint32_t depth)
 {
@@ -126,7 +126,7 @@ push_piece(layout *l, qdot_box whole, size_t from, size_t n, uint32_t depth)
     layout_push(l, (uint32_t)(l->boxes.box.n - 1), depth);
 }
 
-/* Without brackets; what is a comma there is typed as _. */
+/* Push an index without brackets; its commas are typed as _. */
 static void
 push_index(layout *l, uint32_t index, uint32_t depth)
 {
@@ -253,7 +253,7 @@ layout_split_formula(layout *l)
     return l->status;
 }
 
-/* --- lines ------------------------------------------------------------------------------------ */
+/* --- breaking a formula into lines ------------------------------------------------------------ */
 
 static qdot_box_role
 role_of(const layout *l, size_t i)
@@ -304,7 +304,7 @@ ends_label(const layout *l, size_t i)
 
 /* The cost of a line break before item i, as a fraction of a line. */
 static double
-loss(const layout *l, size_t i)
+cost_of_break(const layout *l, size_t i)
 {
     const qdot_box_role role = role_of(l, i);
 
@@ -341,7 +341,7 @@ end_of_line(const layout *l, size_t from, size_t x)
         if (i > from && must_begin(l, from, i))
             return i;
         if (i > from && x + columns > l->indent && may_begin(l, i)) {
-            const double lost = 1 - (double)columns / room + loss(l, i);
+            const double lost = 1 - (double)columns / room + cost_of_break(l, i);
 
             if (best == 0 || lost <= least) {
                 best = i;
@@ -402,7 +402,7 @@ count_relations(layout *l)
 
 /* --- lines that have no place to be broken at ---------------------------------------------------- */
 
-/* What stands on the stack replaces item i. */
+/* Replace item i by the boxes on the stack. */
 static qdot_status
 replace_item(layout *l, size_t i)
 {
@@ -419,7 +419,7 @@ replace_item(layout *l, size_t i)
     return QDOT_OK;
 }
 
-/* Item i, a name or a number, becomes two, of which the first is not wider than `room`. */
+/* Split item i, a name or a number, into two, the first of which is not wider than `room`. */
 static qdot_status
 cut_item(layout *l, size_t i, size_t room)
 {
@@ -470,7 +470,7 @@ narrow_line(layout *l, size_t from, size_t x, size_t *end)
     return cut_item(l, i, l->width - x);
 }
 
-/* One line, items [from, end) from column x on; only counted if enough are drawn. */
+/* Write items [from, end) as a line from column x on; count it only if enough lines are drawn. */
 static qdot_status
 layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
 {
@@ -494,7 +494,7 @@ layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, 
     return qdot_interrupt_check();
 }
 
-/* Of items [from, end) from column x on; a blank at the end is not drawn. */
+/* Whether items [from, end) from column x on are too wide; a blank at the end is not drawn. */
 static bool
 is_too_wide(const layout *l, size_t from, size_t end, size_t x)
 {

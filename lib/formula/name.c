@@ -146,7 +146,7 @@ qdot_name_index(const char *name, qdot_name_digits *index)
     return p.digits == 0 && !(p.index > 0 && p.below > 0) && all_digits(index->at, index->n);
 }
 
-/* --- in a line -------------------------------------------------------------------------------- */
+/* --- names written in a line ------------------------------------------------------------------ */
 
 /* A copy of the next part of a name, up to the sign `between`; moves *i past it. */
 static char *
@@ -211,9 +211,9 @@ qdot_name_line(const char *name, uint32_t order, bool lowered, qdot_text *out)
             qdot_text_add(out, "′");
 }
 
-/* --- drawn ------------------------------------------------------------------------------------ */
+/* --- names as drawn formulas ------------------------------------------------------------------ */
 
-/* Names and numbers apart by commas. */
+/* Append the parts of an index, letters and numbers, with commas between them. */
 static void
 drawn_parts(qdot_formula *f, qdot_formula_id below, const char *at, size_t length, char between)
 {

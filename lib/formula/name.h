@@ -10,7 +10,7 @@
 /* The spelled name of the two-byte Greek letter at `letter`: "theta" for "θ"; NULL if it is none. */
 const char *qdot_name_greek(const char *letter);
 
-/* An index of digits: x_1, x[1]. */
+/* An index that consists of digits: x_1 or x[1]. */
 typedef struct {
     size_t letters; /* before it */
     const char *at; /* the digits */

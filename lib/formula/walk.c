@@ -1,4 +1,4 @@
-/* walk.c -- a formula passed through in reading order, by a stack of open nodes. */
+/* walk.c -- goes through a formula in reading order, with a stack of open nodes. */
 #include "formula/walk.h"
 
 #include "base/interrupt.h"

@@ -1,4 +1,4 @@
-/* width.c -- the letters of a formula, counted. */
+/* width.c -- counts the letters of a formula. */
 #include "formula/width.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/utf8.h"
 #include "formula/walk.h"
 
-/* The number of letters of a sign, without the blanks around it. */
+/* The number of letters in the text of a sign, without the blanks around it. */
 static size_t
 sign_letters(unsigned sign)
 {
@@ -20,7 +20,7 @@ sign_letters(unsigned sign)
     }
 }
 
-/* The width of the order of a derivative: so many marks, or its digits in brackets. */
+/* The width of the order of a derivative: n marks, or the digits of n in brackets. */
 static size_t
 order_letters(uint32_t n, uint32_t most)
 {

@@ -84,7 +84,7 @@ line_add_primes(const writer *w, uint32_t n)
     }
 }
 
-/* Whether a table has a single row. */
+/* Whether a table, such as a matrix, has a single row. */
 static bool
 is_one_row(const qdot_formula *f, const qdot_formula_node *table)
 {

@@ -129,7 +129,7 @@ mathml_close_bracket(writer *w, const qdot_formula_node *node)
 
 /* The node that is written for `id`, without SPANs and rows of a single child around it. */
 static const qdot_formula_node *
-alone(const qdot_formula *f, qdot_formula_id id)
+skip_plain_rows(const qdot_formula *f, qdot_formula_id id)
 {
     const qdot_formula_node *node = qdot_formula_at(f, id);
 
@@ -143,7 +143,7 @@ alone(const qdot_formula *f, qdot_formula_id id)
 static const qdot_formula_node *
 first_child(const qdot_formula *f, const qdot_formula_node *node)
 {
-    return node->child == 0 ? node : alone(f, qdot_formula_at(f, node->child)->next);
+    return node->child == 0 ? node : skip_plain_rows(f, qdot_formula_at(f, node->child)->next);
 }
 
 /* Whether a power (or primes) of a name with an index is written directly above that index. */
@@ -191,7 +191,7 @@ is_times(const qdot_formula_node *node)
     return qdot_formula_sign_duty(node) == QDOT_DUTY_TIMES && node->what != QDOT_SIGN_DOT;
 }
 
-/* --- nodes ------------------------------------------------------------------------------------------ */
+/* --- writing the nodes ------------------------------------------------------------------------------ */
 
 static qdot_status
 mathml_enter(qdot_formula_walk *walk, const qdot_formula_node *node)

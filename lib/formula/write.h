@@ -9,7 +9,8 @@
 
 #include "formula/formula.h"
 
-/* Append the node, QDOT_NOTATION_SCRIPT or QDOT_NOTATION_LINE. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+/* Append the node as one line, in the notation QDOT_NOTATION_SCRIPT or QDOT_NOTATION_LINE. Errors:
+ * QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_line(const qdot_formula *f, qdot_formula_id id,
                                                     qdot_notation_kind notation, qdot_text *out);
 
