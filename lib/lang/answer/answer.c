@@ -25,14 +25,14 @@
 #include "lang/session/typed.h"
 #include "lang/source/source.h"
 
-/* A code for a colour of answers, "" where none is shown. */
+/* The terminal code of a colour; "" if answers are shown without colours. */
 static const char *
-paint(const qdot_session *session, const char *code)
+colour_code(const qdot_session *session, const char *code)
 {
     return qdot_write_colours(session) ? code : "";
 }
 
-/* The end of an object of JSON that went well or not: it is written, its text let go of. */
+/* End a JSON object: write it if `status` is QDOT_OK; free its text in any case. */
 static qdot_status
 end_object(qdot_session *session, qdot_status status, qdot_text *line)
 {
@@ -42,9 +42,9 @@ end_object(qdot_session *session, qdot_status status, qdot_text *line)
     return status;
 }
 
-/* --- expressions -------------------------------------------------------------------- */
+/* --- answers that are expressions --------------------------------------------------- */
 
-/* A condition, or a vector of equations. */
+/* Whether e is a logical combination of relations, or a vector of equations. */
 static bool
 holds_relations(const qdot_pool *pool, qdot_expr e)
 {
@@ -179,9 +179,9 @@ add_part(qdot_sheet *s, qdot_formula_role role, qdot_text *text)
     qdot_text_clear(text);
 }
 
-/* Append a number with its error: 1.25 ± 3e-13. */
+/* Append a number with its error, such as 1.25 ± 3e-13. */
 static void
-measured(qdot_sheet *s, double value, double error)
+add_measured(qdot_sheet *s, double value, double error)
 {
     qdot_text number = {0};
 
@@ -219,12 +219,13 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
             qdot_sheet_sign(&s, QDOT_SIGN_COMMA);
-        measured(&s, values[i], errors[i]);
+        add_measured(&s, values[i], errors[i]);
     }
     return qdot_sheet_end(&s, "", status);
 }
 
-/* {"kind":"number"}, {"kind":"numbers"} of JSON values and errors with their commas. */
+/* Write {"kind":"number"}, or {"kind":"numbers"} if there are several; values and errors are JSON,
+ * with commas. */
 static qdot_status
 numbers_json(qdot_session *session, const char *name, bool several,
              const qdot_text *values, const qdot_text *errors)
@@ -289,7 +290,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     return qdot_sheet_end(&s, "", status);
 }
 
-/* --- checks ------------------------------------------------------------------------- */
+/* --- answers to checks -------------------------------------------------------------- */
 
 static const char *const verdicts[] = {
     [QDOT_PROVED] = "proved", [QDOT_REFUTED] = "refuted", [QDOT_UNDECIDED] = "undecided"};
@@ -327,8 +328,8 @@ check_text(qdot_session *session, const qdot_decision *decision)
     qdot_sheet s = qdot_sheet_begin_words(session);
     qdot_status status = QDOT_OK;
 
-    qdot_sheet_format(&s, "%s%s%s", paint(session, verdict_colours[decision->verdict]),
-                      verdicts[decision->verdict], paint(session, QDOT_COLOUR_END));
+    qdot_sheet_format(&s, "%s%s%s", colour_code(session, verdict_colours[decision->verdict]),
+                      verdicts[decision->verdict], colour_code(session, QDOT_COLOUR_END));
     if (decision->verdict == QDOT_REFUTED)
         status = check_add_place(&s, decision);
     else if (decision->verdict == QDOT_UNDECIDED && decision->points > 0 && decision->digits > 0)
@@ -341,7 +342,7 @@ check_text(qdot_session *session, const qdot_decision *decision)
     return qdot_sheet_end(&s, "check", status);
 }
 
-/* {"x":1.5,...} from a LIST of equations symbol = number. */
+/* Append {"x":1.5,...} for a LIST of equations symbol = number. */
 static qdot_status
 point_json(qdot_session *session, qdot_expr at, qdot_text *line)
 {
@@ -471,8 +472,8 @@ put_notice(qdot_session *session, const char *message)
         qdot_write_field(&line, "{\"kind\":\"notice\",\"message\":", message);
         qdot_text_add(&line, "}\n");
     } else {
-        qdot_text_format(&line, "%snotice:%s %s\n", paint(session, QDOT_YELLOW),
-                         paint(session, QDOT_COLOUR_END), message);
+        qdot_text_format(&line, "%snotice:%s %s\n", colour_code(session, QDOT_YELLOW),
+                         colour_code(session, QDOT_COLOUR_END), message);
         return qdot_write(session, file, &line);
     }
     return qdot_write_object(session, file, &line);

@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_answer_expr(qdot_session *session, const char *
 QDOT_MUST_CHECK qdot_status qdot_answer_solved(qdot_session *session, const char *name,
                                                qdot_expr symbol, qdot_expr value);
 
-/* {"kind":"number"}: error 0: exact to the last digit; NaN: unknown. */
+/* Answer {"kind":"number"} with an error bound: 0 if the value is exact, NaN if the error is unknown. */
 QDOT_MUST_CHECK qdot_status qdot_answer_number(qdot_session *session, const char *name,
                                                double value, double error);
 /* Answer {"kind":"numbers"}: values [n], errors [n]. */
@@ -56,11 +56,11 @@ QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const cha
 /* Answer {"kind":"notice"}: `notice: MESSAGE` (printf). */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
                                                ...) QDOT_PRINTF(2, 3);
-/* A notice in whose format %s stands for e, printed as plain text. */
+/* Give a notice in whose format %s stands for e, printed as plain text. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e);
 /* Give the text as a notice if `status` is QDOT_OK, and clear it. Returns `status`, or the first failure after it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text);
-/* A notice, unless this session has already given it. */
+/* Give a notice, unless this session has already given it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
                                                     const char *format, ...)
     QDOT_PRINTF(2, 3);

@@ -37,9 +37,9 @@ qdot_digits_of(qdot_session *session, qdot_expr e)
 
 /* --- a number in digits -------------------------------------------------------------- */
 
-/* How many of the digits the error leaves meaningful. */
+/* The number of digits of x that its error leaves meaningful. */
 static int
-meaningful(mpfr_srcptr x, int digits, double error)
+meaningful_digits(mpfr_srcptr x, int digits, double error)
 {
     double known, mantissa;
     long power;
@@ -104,7 +104,7 @@ write_real(mpfr_srcptr x, int digits, double error, bool shortly, qdot_text *out
         qdot_text_char(out, '0');
         return QDOT_OK;
     }
-    d = mpfr_get_str(NULL, &exponent, 10, (size_t)meaningful(x, digits, error), x,
+    d = mpfr_get_str(NULL, &exponent, 10, (size_t)meaningful_digits(x, digits, error), x,
                      MPFR_RNDN);
     if (d == NULL)
         return QDOT_ENOMEM;
@@ -133,7 +133,7 @@ is_plain(qdot_session *session, qdot_expr e)
     return any;
 }
 
-/* The value of e with many digits; results of runs enter as the exact rationals that they are. */
+/* Evaluate e with many digits; results of runs enter as the exact rationals that they are. */
 static qdot_status
 digits_value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
 {
@@ -190,7 +190,7 @@ qdot_digits_difference(qdot_session *session, qdot_expr left, qdot_expr right,
     return status;
 }
 
-/* --- answers ------------------------------------------------------------------------- */
+/* --- printing answers with `digits` -------------------------------------------------- */
 
 static qdot_status
 add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,

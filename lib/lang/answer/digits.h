@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_digits_number(qdot_session *session, qdot_expr 
 QDOT_MUST_CHECK qdot_status qdot_digits_answer(qdot_session *session, const char *name,
                                                qdot_expr e, int digits);
 
-/* left - right in double, without the rounding of either; both measured. */
+/* Find left - right as a double, without the rounding error of either; both are results of runs. */
 QDOT_MUST_CHECK qdot_status qdot_digits_difference(qdot_session *session, qdot_expr left,
                                                    qdot_expr right, double *difference);
 

@@ -9,7 +9,7 @@
 #include "expr/walk.h"
 #include "lang/session/history.h"
 
-/* Whether e is the latest series, or one member of a list of series. */
+/* Whether e is the series computed last, or one member of a list of such series. */
 static bool
 is_series(const qdot_session *session, qdot_expr e)
 {

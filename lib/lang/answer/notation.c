@@ -1,4 +1,4 @@
-/* notation.c -- formulas of books in words of answers, atom by atom. */
+/* notation.c -- reads textbook formulas such as d/dt dL/dq' from the texts of answers, and writes them. */
 #include "lang/answer/notation.h"
 
 #include <ctype.h>
@@ -137,7 +137,7 @@ add_atom(const writer *w, qdot_formula_id parent, const char *at)
     return at + 2;
 }
 
-/* Above or below the bar of a derivative: the letter d, before a base. */
+/* Begin the numerator or denominator of a derivative with d (whole: a total derivative) or the partial sign. */
 static qdot_formula_id
 add_side(const writer *w, qdot_formula_id fraction, bool whole)
 {
@@ -152,7 +152,7 @@ add_side(const writer *w, qdot_formula_id fraction, bool whole)
     return row;
 }
 
-/* d/dt, dV/dq, dT/dq': partial but for the first. */
+/* Append a derivative dV/dq or dT/dq', with partial signs, or d/dt; returns the text after it. */
 static const char *
 add_slope(const writer *w, qdot_formula_id parent, const char *at)
 {

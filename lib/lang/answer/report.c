@@ -54,7 +54,7 @@ typedef struct {
     double value, error; /* relative to size */
     double size;         /* max(scale, |value|) */
     size_t exact;        /* its place in report->exact */
-    bool first;          /* of a line */
+    bool first;          /* the first number of a line */
 } end_number;
 
 /* Number k: q_0, q_0', q_1 ..., then the parameters, then the multipliers. */
@@ -136,7 +136,7 @@ field(qdot_text *line, const char *name, double value)
     qdot_number_text_json(line, value);
 }
 
-/* The drift of each quantity that should be constant, by name. */
+/* Write the drift of each quantity that should be constant, by name. */
 static void
 drifts_json(qdot_text *line, const qdot_run_report *r)
 {
@@ -236,21 +236,21 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     return QDOT_OK;
 }
 
-/* Write a count with its noun: 1 step, 12 steps. */
+/* Write a number with a noun in the right form: 1 step, 12 steps. */
 static void
-counted(qdot_text *line, size_t n, const char *noun)
+add_count(qdot_text *line, size_t n, const char *noun)
 {
     qdot_text_format(line, "%zu %s%s", n, noun, n == 1 ? "" : "s");
 }
 
 static void
-seconds(qdot_text *line, double s)
+add_seconds(qdot_text *line, double s)
 {
     qdot_text_double(line, s < 1 ? s * 1e3 : s, 3);
     qdot_text_add(line, s < 1 ? " ms" : " s");
 }
 
-/* Write how far the state left the constraints, and what was done against it. */
+/* Write how far the state drifted off the constraints, and how it was kept on them. */
 static void
 constraints_text(qdot_text *line, const qdot_run_report *r)
 {
@@ -275,7 +275,7 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
     qdot_text_add(line, r->digits > 0 ? "covered by guard digits" : done[r->treatment]);
     if (r->treatment == QDOT_RUN_PROJECT && r->digits == 0) {
         qdot_text_char(line, ' ');
-        counted(line, r->projections, "step");
+        add_count(line, r->projections, "step");
     }
     if (r->independent < r->m)
         qdot_text_format(line,
@@ -287,10 +287,10 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
 /* A quantity counts as conserved if its drift is below this. */
 static const double drifts_little = 1e-3;
 
-/* For tolerances above this a smaller one would give correct digits for longer: worth a hint. */
+/* For a tolerance above this, a smaller one would give correct digits for a longer time: a hint says so. */
 static const double of_method = 1e-11;
 
-/* Write which quantities are still known after the horizon, where the state is not. */
+/* Write which quantities are still known after the time from which on the state is not. */
 static void
 beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
 {
@@ -361,24 +361,24 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
     if (r->reason != NULL)
         qdot_text_format(line, ": %s", r->reason);
     qdot_text_add(line, "\n  ");
-    counted(line, r->steps, "step");
+    add_count(line, r->steps, "step");
     qdot_text_format(line, ", %zu rejected; ", r->rejected);
-    counted(line, r->evals, "evaluation");
+    add_count(line, r->evals, "evaluation");
     qdot_text_add(line, " of ");
-    counted(line, r->operations, "operation");
+    add_count(line, r->operations, "operation");
     if (r->jacobians > 0) {
         qdot_text_add(line, "; ");
-        counted(line, r->jacobians, "Jacobian");
+        add_count(line, r->jacobians, "Jacobian");
     }
     for (size_t i = 0; i < r->n_parts; i++) {
         qdot_text_format(line, "%s%s ", i == 0 ? "\n  apart: " : "; ",
                          r->parts[i].coordinates);
-        counted(line, r->parts[i].steps, "step");
+        add_count(line, r->parts[i].steps, "step");
     }
     qdot_text_add(line, "\n  cpu ");
-    seconds(line, r->cpu);
+    add_seconds(line, r->cpu);
     qdot_text_add(line, ", total cpu ");
-    seconds(line, r->cpu_total);
+    add_seconds(line, r->cpu_total);
     for (size_t i = 0; i < r->n_drifts; i++) {
         const qdot_drift *d = &r->drifts[i];
 

@@ -5,7 +5,7 @@
 #include "lang/session/parts.h"
 #include "sim/course/report.h"
 
-/* {"kind":"run"} */
+/* Answer {"kind":"run"}, the report of a run: its end state, errors and work. */
 QDOT_MUST_CHECK qdot_status qdot_report_run(qdot_session *session, const char *name,
                                             const qdot_run_report *report);
 

@@ -18,7 +18,7 @@
 #include "lang/session/output.h"
 #include "show/formula-page.h"
 
-/* --- what it is to be --------------------------------------------------------------------- */
+/* --- beginning an answer ------------------------------------------------------------------ */
 
 static void
 begin_line(qdot_sheet *s)
@@ -83,7 +83,7 @@ qdot_sheet_clear(qdot_sheet *s)
     qdot_formula_clear(&s->formula);
 }
 
-/* --- what stands in it -------------------------------------------------------------------- */
+/* --- adding words, numbers and formulas --------------------------------------------------- */
 
 /* Append text to the line; on a terminal a line may break after each word. */
 static void
@@ -361,7 +361,7 @@ sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
     qdot_text_clear(&last);
 }
 
-/* --- the end --------------------------------------------------------------------------- */
+/* --- finishing an answer --------------------------------------------------------------- */
 
 static qdot_status
 sheet_draw(const qdot_sheet *s, const char *name)

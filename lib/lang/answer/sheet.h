@@ -20,9 +20,9 @@
 #include "lang/session/parts.h"
 
 typedef enum {
-    QDOT_SHEET_LINES, /* of text */
-    QDOT_SHEET_DRAWN, /* on a terminal */
-    QDOT_SHEET_PAGE   /* of a page */
+    QDOT_SHEET_LINES, /* lines of text */
+    QDOT_SHEET_DRAWN, /* drawn on a terminal */
+    QDOT_SHEET_PAGE   /* a part of a page */
 } qdot_sheet_form;
 
 typedef struct {
@@ -39,7 +39,7 @@ typedef struct {
     uint64_t operations;             /* of the one formula in it; 0: not said where it is cut */
 } qdot_sheet;
 
-/* An answer. */
+/* Begin an answer, whose formulas may be drawn over several rows. */
 qdot_sheet qdot_sheet_begin(qdot_session *session);
 /* As qdot_sheet_begin, but formulas stand within lines of text, never drawn over several rows. */
 qdot_sheet qdot_sheet_begin_words(qdot_session *session);
@@ -79,7 +79,7 @@ QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_sheet *sheet, const char *name, 
 /* As qdot_sheet_end, but append the lines to a text. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_text(qdot_sheet *sheet, qdot_status status, qdot_text *out);
 
-/* The sheet is cleared, and nothing is answered. */
+/* Clear the sheet without giving an answer. */
 void qdot_sheet_clear(qdot_sheet *sheet);
 
 /* Write, or discard, the equations of the present statement that were collected for one block. */

@@ -8,7 +8,8 @@
 #include "lang/session/parts.h"
 #include "table/table.h"
 
-/* Write what stands before the rows, one row, or both of all rows; name: of rows that have none; JSON only. */
+/* Write the column heads, one row, or heads and all rows; `name` is for tables without a name of
+ * their own. JSON only. */
 QDOT_MUST_CHECK qdot_status qdot_answer_columns(qdot_session *session, const char *name, const qdot_table *t);
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, const qdot_table *t, size_t row);
 QDOT_MUST_CHECK qdot_status qdot_answer_rows(qdot_session *session, const char *name, const qdot_table *t);

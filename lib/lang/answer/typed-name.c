@@ -51,7 +51,7 @@ symbol_of(const writer *w, const char *word)
     return NULL;
 }
 
-/* Letters for LaTeX: a word of several, as virtual_work, is text with blanks. */
+/* Append a word in upright letters for LaTeX; several words, as virtual_work, become text with blanks. */
 static void
 add_upright(qdot_text *out, const char *word, bool called)
 {
@@ -64,7 +64,7 @@ add_upright(qdot_text *out, const char *word, bool called)
     qdot_text_add(out, called && several ? "}}" : "}");
 }
 
-/* A word that is not declared: of the language. */
+/* Append a word that the script does not declare: a function or constant of the language. */
 static void
 plain_word(writer *w, const char *word, bool called)
 {

@@ -13,10 +13,10 @@
  * (base/wrap.h), else as it is. QDOT_EIO. */
 QDOT_MUST_CHECK qdot_status qdot_write(const qdot_session *session, FILE *file, qdot_text *text);
 
-/* The same of an object of JSON, `{...}` and the line's end: among answers it says which statement has made it. */
+/* Write a JSON object `{...}` and a newline; to an answer add which statement it belongs to. */
 QDOT_MUST_CHECK qdot_status qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object);
 
-/* Columns of the terminal that one of these files is; 0: it goes elsewhere, or holds JSON. */
+/* The columns of the terminal to which `file` is connected; 0 if it is none, or if JSON is written. */
 size_t qdot_write_width(const qdot_session *session, const FILE *file);
 
 /* The stream for which answers are meant: the terminal, even while they are collected for pages. */

@@ -26,7 +26,7 @@
 #include "lang/session/output.h"
 #include "normal/refute/constant.h"
 
-/* --- expressions -------------------------------------------------------------------- */
+/* --- answering expressions ---------------------------------------------------------- */
 
 /* Answer a value that contains results of runs: a number, or a list of numbers. */
 static qdot_status
@@ -58,7 +58,8 @@ answer_measured(qdot_session *session, const char *name, qdot_expr value)
     return status;
 }
 
-/* The name of list member i: "eom[theta1]" if it belongs to a coordinate, otherwise (nil) "solve(...)[1]". */
+/* Append the name of list member i: "eom[theta1]" if it belongs to a coordinate, otherwise (nil)
+ * "solve(...)[1]". */
 static void
 member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i,
             qdot_text *out)
@@ -89,7 +90,7 @@ is_one_equilibrium(const char *name)
     return strncmp(name, "equilibria[", 11) == 0 && strchr(name + 11, '[') == NULL;
 }
 
-/* `equilibria[1]: x = 0, y = 0` */
+/* Answer the equations of a list in one line: `equilibria[1]: x = 0, y = 0`. */
 static qdot_status
 answer_joined(qdot_session *session, const char *name, qdot_expr list)
 {

@@ -43,7 +43,7 @@ QDOT_STATEMENT(check) = {
     .handler = check_claim,
 };
 
-/* --- deciding ----------------------------------------------------------------------- */
+/* --- deciding a claim --------------------------------------------------------------- */
 
 typedef enum { EQUAL, LESS, LESS_EQUAL } comparison;
 
@@ -73,7 +73,7 @@ is_word(qdot_pool *pool, qdot_expr e)
     return qdot_expr_is_class(pool, e, QDOT_WORDS) || qdot_equilibria_is_word(pool, e);
 }
 
-/* Two equations are equal if one residual is the other times a factor without zeros. */
+/* Decide whether two equations are equal: one residual is the other times a factor without zeros. */
 static qdot_status
 decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
                  const qdot_facts *known, qdot_decision *decision)
@@ -174,7 +174,7 @@ decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
     return status;
 }
 
-/* Numbers of a run: |a - b| <= tol max(1, |b|), or a < b. */
+/* Compare numbers of runs: |a - b| <= tol max(1, |b|), or a < b. */
 static qdot_status
 compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                 double tol, qdot_decision *decision)
@@ -216,7 +216,7 @@ decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison
     return QDOT_OK;
 }
 
-/* --- the statement ------------------------------------------------------------------ */
+/* --- the statement `check` ---------------------------------------------------------- */
 
 typedef struct {
     bool not, conserved, within, integrable;
@@ -300,9 +300,9 @@ unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
             *sides[i] = qdot_expr_arg(pool, *sides[i], 0);
 }
 
-/* Exchange the values of the two sides. */
+/* Exchange the values found for the two sides of the claim. */
 static void
-turn(qdot_decision *decision)
+exchange_sides(qdot_decision *decision)
 {
     double left = decision->left;
 
@@ -463,7 +463,7 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
         right = q->turned ? q->left : q->right;
         QDOT_TRY(decide_within(session, left, right, q->how, q->tol, &decision));
         if (q->turned)
-            turn(&decision);
+            exchange_sides(&decision);
     } else {
         left = qdot_assumed_replace(session, f, q->left);
         right = qdot_assumed_replace(session, f, q->right);
@@ -472,7 +472,7 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
         QDOT_TRY(qdot_pool_check(pool));
         if (q->turned) {
             QDOT_TRY(decide(session, right, left, q->how, &known, &decision));
-            turn(&decision);
+            exchange_sides(&decision);
         } else {
             QDOT_TRY(decide(session, left, right, q->how, &known, &decision));
         }

@@ -76,7 +76,7 @@ qdot_components_are(const qdot_session *session, const char *name, qdot_expr val
                     : rank == 2 && l != NULL && l->upper == 0;
 }
 
-/* The component of the tensor at these indices, counted from 0. */
+/* The component of the tensor at the given indices, counted from 0. */
 static qdot_expr
 component(const tensor *t, const uint32_t *at)
 {
@@ -88,7 +88,7 @@ component(const tensor *t, const uint32_t *at)
                        (long)at[t->rank - 1] + 1);
 }
 
-/* The next indices; false past the last. */
+/* Advance to the next set of indices; false after the last one. */
 static bool
 indices_step(const tensor *t, uint32_t *at)
 {
@@ -118,7 +118,7 @@ mirror_of(const tensor *t)
     return same ? 1 : opposite ? -1 : 0;
 }
 
-/* The index as text of a style. */
+/* Append one index as text in the given style. */
 static qdot_status
 print_index(const tensor *t, const place *p, qdot_style style, qdot_text *out)
 {
@@ -148,7 +148,7 @@ add_linear(tensor *t, const place *indices)
     return status;
 }
 
-/* Append indices number from ... to - 1 as a row of `parent`. */
+/* Append indices from ... to - 1 of the component as a row of `parent`. */
 static qdot_status
 add_indices(tensor *t, qdot_formula_id parent, const place *indices, uint32_t from, uint32_t to)
 {
@@ -202,7 +202,7 @@ add_typed(tensor *t, const place *indices)
     return status;
 }
 
-/* A component's name. */
+/* Append the name of a component, in the form chosen for this tensor. */
 static qdot_status
 component_add_name(tensor *t, const place *indices)
 {
@@ -225,7 +225,7 @@ add_component(tensor *t, const uint32_t *at, qdot_expr value)
     return QDOT_OK;
 }
 
-/* `Γ[i; k, j] = Γ[i; j, k]`, by letters for the indices. */
+/* Append the symmetry `Γ[i; k, j] = Γ[i; j, k]`, with letters for the indices. */
 static qdot_status
 add_mirror(tensor *t)
 {

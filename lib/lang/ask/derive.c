@@ -40,7 +40,7 @@ derivation_is_linear(const derivation *d)
     return d->sheet.form == QDOT_SHEET_DRAWN || d->sheet.notation != QDOT_NOTATION_DRAWN;
 }
 
-/* The notation in which formulas of a line are written. */
+/* The notation in which the formulas within a line are written. */
 static qdot_notation_kind
 line_notation(const derivation *d)
 {
@@ -80,7 +80,7 @@ derivation_label(derivation *d, const char *what, const char *of, const char *jo
 
 /* Append ` = value`, and end the formula and its line. */
 static qdot_status
-equals(derivation *d, qdot_expr value)
+write_equal_to(derivation *d, qdot_expr value)
 {
     qdot_sheet_sign(&d->sheet, QDOT_SIGN_EQUALS);
     QDOT_TRY(qdot_sheet_expr(&d->sheet, value));
@@ -150,7 +150,7 @@ add_drawn(derivation *d, const symbol *x)
     return status;
 }
 
-/* Indent a line that has no label in front. */
+/* Indent the line if it is still empty. */
 static void
 indent(derivation *d)
 {
@@ -158,15 +158,15 @@ indent(derivation *d)
         qdot_sheet_words(&d->sheet, "    ");
 }
 
-/* Append a line `symbol = value`. */
+/* Append a line with the equation `symbol = value`. */
 static qdot_status
-is(derivation *d, symbol x, qdot_expr value)
+write_equation_line(derivation *d, symbol x, qdot_expr value)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
     indent(d);
     qdot_sheet_open(&d->sheet);
     QDOT_TRY(derivation_is_linear(d) ? add_linear(d, &x) : add_drawn(d, &x));
-    return equals(d, value);
+    return write_equal_to(d, value);
 }
 
 static symbol
@@ -204,12 +204,12 @@ slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value
             QDOT_TRY(qdot_sheet_expr(sheet, q));
     }
     sheet->at = outer;
-    return equals(d, value);
+    return write_equal_to(d, value);
 }
 
 /* Append a relation on a line of its own. */
 static qdot_status
-relation(derivation *d, qdot_expr e)
+write_relation(derivation *d, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
     indent(d);
@@ -218,9 +218,9 @@ relation(derivation *d, qdot_expr e)
     return QDOT_OK;
 }
 
-/* Simplify e for printing, unless it is larger than a page. */
+/* Simplify e for printing, unless it is longer than a page. */
 static qdot_expr
-tidy(derivation *d, qdot_expr e)
+simplify_for_page(derivation *d, qdot_expr e)
 {
     enum { PAGE = 4000 };
     qdot_facts facts = qdot_scene_facts(d->session->scene);
@@ -232,21 +232,21 @@ tidy(derivation *d, qdot_expr e)
 
 /* Append the angular velocity omega of a body, in space also in its own axes, in which the inertia is given. */
 static qdot_status
-spin(derivation *d, const qdot_body *b)
+write_angular_velocity(derivation *d, const qdot_body *b)
 {
     qdot_scene *s = d->session->scene;
     const symbol omega = {.letter = "omega", .of = b->name};
     qdot_expr w = qdot_scene_spin(s, b->name);
 
     if (b->angle != QDOT_NIL)
-        return is(d, omega, w);
-    QDOT_TRY(is(d, omega, w));
+        return write_equation_line(d, omega, w);
+    QDOT_TRY(write_equation_line(d, omega, w));
     w = qdot_value_mul(s->pool, qdot_transpose(s->pool, b->rotation), w);
     derivation_label(d, "along the axes of the body", NULL, NULL, NULL);
-    return is(d, omega, tidy(d, w));
+    return write_equation_line(d, omega, simplify_for_page(d, w));
 }
 
-/* How a body in the plane is turned. */
+/* Write the angle by which a body in the plane is turned, unless it is constant. */
 static qdot_status
 derivation_turning(derivation *d, const qdot_body *b)
 {
@@ -267,11 +267,11 @@ assumptions(derivation *d)
     if (s->assumed.n > 0)
         heading(d, "Assumed", NULL);
     for (size_t i = 0; i < s->assumed.n; i++)
-        QDOT_TRY(relation(d, s->assumed.at[i].relation));
+        QDOT_TRY(write_relation(d, s->assumed.at[i].relation));
     return QDOT_OK;
 }
 
-/* Write r, v = sum dr/dq q' + dr/dt and v^2 of everything that has mass. */
+/* Write position r, velocity v = sum dr/dq q' + dr/dt, and v^2 of everything that has mass. */
 static qdot_status
 kinematics(derivation *d)
 {
@@ -290,14 +290,14 @@ kinematics(derivation *d)
             qdot_expr r = particle ? s->particles.at[i].position : b->position;
             symbol x = {.letter = step == 0 ? "r" : "v", .of = name, .square = step == 2};
 
-            QDOT_TRY(is(d, x,
-                        step == 0   ? r
-                        : step == 1 ? tidy(d, qdot_ddt(s->pool, r))
-                                    : qdot_mech_speed2(s, r)));
+            QDOT_TRY(write_equation_line(d, x,
+                                         step == 0   ? r
+                                         : step == 1 ? simplify_for_page(d, qdot_ddt(s->pool, r))
+                                                     : qdot_mech_speed2(s, r)));
             if (step == 0 && !particle)
                 QDOT_TRY(derivation_turning(d, b));
             if (step == 1 && !particle)
-                QDOT_TRY(spin(d, b));
+                QDOT_TRY(write_angular_velocity(d, b));
         }
     }
     return QDOT_OK;
@@ -323,15 +323,15 @@ kinetic(derivation *d)
         const symbol T = {.letter = "T", .of = part.name};
 
         derivation_label(d, part.kind, part.name, NULL, NULL);
-        QDOT_TRY(is(d, T, part.value));
+        QDOT_TRY(write_equation_line(d, T, part.value));
     }
     if (n > 1)
         derivation_label(d, "together", NULL, NULL, NULL);
-    QDOT_TRY(is(d, bare("T"), qdot_mech_kinetic(s)));
+    QDOT_TRY(write_equation_line(d, bare("T"), qdot_mech_kinetic(s)));
     if (s->coordinates.n == 1)
         return QDOT_OK;
     derivation_label(d, "mass matrix", NULL, NULL, NULL);
-    return is(d, bare("M"), qdot_mech_mass_matrix(s));
+    return write_equation_line(d, bare("M"), qdot_mech_mass_matrix(s));
 }
 
 /* Write the contribution of each field, potential and spring to V, then V. */
@@ -354,11 +354,11 @@ potential(derivation *d)
         else
             derivation_label(d, "potential energy", part.kind,
                              strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
-        QDOT_TRY(is(d, (symbol){.letter = "V", .of = number}, part.value));
+        QDOT_TRY(write_equation_line(d, (symbol){.letter = "V", .of = number}, part.value));
     }
     if (several)
         derivation_label(d, "together", NULL, NULL, NULL);
-    return is(d, bare("V"), qdot_mech_potential(s));
+    return write_equation_line(d, bare("V"), qdot_mech_potential(s));
 }
 
 static qdot_status
@@ -368,12 +368,12 @@ energies(derivation *d)
 
     if (s->lagrangian != QDOT_NIL) {
         heading(d, "Lagrangian, as stated", NULL);
-        return is(d, bare("L"), qdot_mech_lagrangian(s));
+        return write_equation_line(d, bare("L"), qdot_mech_lagrangian(s));
     }
     QDOT_TRY(kinetic(d));
     QDOT_TRY(potential(d));
     heading(d, "Lagrangian", "L = T - V");
-    return is(d, bare("L"), qdot_mech_lagrangian(s));
+    return write_equation_line(d, bare("L"), qdot_mech_lagrangian(s));
 }
 
 static symbol
@@ -398,23 +398,23 @@ left_sides(derivation *d)
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
 
-        QDOT_TRY(is(d, of_coordinate(d, "p", q), qdot_mech_momentum(s, q)));
+        QDOT_TRY(write_equation_line(d, of_coordinate(d, "p", q), qdot_mech_momentum(s, q)));
     }
     heading(d, stated ? "Derivatives of L" : "Derivatives of T", NULL);
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
         qdot_expr slope = qdot_diff(pool, F, qdot_symbol_jet(pool, q, 1));
 
-        slope = tidy(d, slope);
+        slope = simplify_for_page(d, slope);
         if (slope != QDOT_NIL && slope != qdot_mech_momentum(s, q))
             QDOT_TRY(slope_is(d, letter, false, true, i, slope));
-        QDOT_TRY(slope_is(d, letter, true, true, i, tidy(d, qdot_ddt(pool, slope))));
-        QDOT_TRY(slope_is(d, letter, false, false, i, tidy(d, qdot_diff(pool, F, q))));
+        QDOT_TRY(slope_is(d, letter, true, true, i, simplify_for_page(d, qdot_ddt(pool, slope))));
+        QDOT_TRY(slope_is(d, letter, false, false, i, simplify_for_page(d, qdot_diff(pool, F, q))));
     }
     return QDOT_OK;
 }
 
-/* The reaction term "sum lambda df/dq", for the kinds of constraints in the scene. */
+/* The reaction term "sum lambda df/dq", in the form for the kinds of constraints in the scene. */
 static const char *
 reaction(const qdot_scene *s)
 {
@@ -469,7 +469,7 @@ rates(derivation *d, const qdot_constraint *c)
         if (f == QDOT_NIL || qdot_expr_size(pool, f) > LINE)
             break;
         derivation_label(d, once ? "differentiated" : "differentiated twice", NULL, NULL, NULL);
-        QDOT_TRY(relation(d, qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
+        QDOT_TRY(write_relation(d, qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
     }
     return qdot_pool_check(pool);
 }
@@ -477,12 +477,12 @@ rates(derivation *d, const qdot_constraint *c)
 /* Whether a force is written as a generalized force: all of them, or if L is stated only those not
  * contained in L. */
 static bool
-acts(const derivation *d, const qdot_force_source *source)
+is_generalized_force(const derivation *d, const qdot_force_source *source)
 {
     return d->session->scene->lagrangian == QDOT_NIL || !source->conservative;
 }
 
-/* The work of each source in a displacement delta q. */
+/* Write the work of each force and torque in a virtual displacement delta q. */
 static qdot_status
 virtual_work(derivation *d)
 {
@@ -491,7 +491,7 @@ virtual_work(derivation *d)
     size_t sources = 0;
 
     for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++)
-        sources += acts(d, &source);
+        sources += is_generalized_force(d, &source);
     if (sources < 2)
         return QDOT_OK;
     heading(d, "Virtual work of what acts",
@@ -501,7 +501,7 @@ virtual_work(derivation *d)
                                                 strcmp(source.kind, "torque") == 0);
         qdot_expr W = QDOT_ZERO;
 
-        if (!acts(d, &source))
+        if (!is_generalized_force(d, &source))
             continue;
         for (size_t i = 0; i < s->coordinates.n; i++) {
             const qdot_expr q = s->coordinates.at[i];
@@ -511,7 +511,7 @@ virtual_work(derivation *d)
                                   qdot_symbol_of(s->pool, QDOT_DELTA, q)));
         }
         derivation_label(d, "virtual work", source.kind, on ? " on " : " ", source.name);
-        QDOT_TRY(is(d, bare("deltaW"), W));
+        QDOT_TRY(write_equation_line(d, bare("deltaW"), W));
     }
     return QDOT_OK;
 }
@@ -569,7 +569,7 @@ right_sides(derivation *d)
         for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++) {
             qdot_expr q = s->coordinates.at[i];
 
-            QDOT_TRY(is(d, of_coordinate(d, "Q", q), qdot_mech_force(s, q)));
+            QDOT_TRY(write_equation_line(d, of_coordinate(d, "Q", q), qdot_mech_force(s, q)));
         }
     }
     if (s->constraints.n == 0)
@@ -580,7 +580,7 @@ right_sides(derivation *d)
 
         if (c->label != NULL)
             derivation_label(d, "constraint", NULL, " ", c->name);
-        QDOT_TRY(relation(d, qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
+        QDOT_TRY(write_relation(d, qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
         QDOT_TRY(rates(d, c));
     }
     return QDOT_OK;
@@ -605,7 +605,7 @@ equations(derivation *d)
     qdot_text_clear(&formula);
     QDOT_TRY(status);
     for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(relation(d, qdot_mech_equation(s, s->coordinates.at[i])));
+        QDOT_TRY(write_relation(d, qdot_mech_equation(s, s->coordinates.at[i])));
     if (s->constraints.n > 0)
         qdot_sheet_format(&d->sheet,
                          "    with the constraints %zu equations for %zu coordinate%s and "
@@ -631,7 +631,7 @@ conserved_momenta(derivation *d)
     if (kept > 0)
         heading(d, "Momenta of cyclic coordinates are conserved", "dL/dq = 0");
     for (size_t i = 0; i < kept && status == QDOT_OK; i++)
-        status = is(d, of_coordinate(d, "p", list[i].coordinate), list[i].momentum);
+        status = write_equation_line(d, of_coordinate(d, "p", list[i].coordinate), list[i].momentum);
     qdot_free(list);
     return status;
 }

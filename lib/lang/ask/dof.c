@@ -1,4 +1,4 @@
-/* dof.c -- `dof`: coordinates, constraints, degrees of freedom. */
+/* dof.c -- the statement `dof`: lists coordinates and constraints, and counts the degrees of freedom. */
 #include "expr/exact.h"
 #include "lang/answer/answer.h"
 #include "lang/declare/constraints.h"

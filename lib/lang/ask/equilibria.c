@@ -1,4 +1,4 @@
-/* equilibria.c -- `equilibria`: where the scene can rest, with stability. */
+/* equilibria.c -- the statement `equilibria`: lists where the scene can rest, with stability. */
 #include <math.h>
 #include <stdio.h>
 
@@ -206,7 +206,7 @@ print_equation(qdot_sheet *sheet, const qdot_equilibrium *e, uint32_t k)
     return status;
 }
 
-/* `equilibria[1]: theta = 0, stable when ...`; as JSON the equations, then a text. */
+/* Answer one equilibrium as `equilibria[1]: theta = 0, stable when ...`; in JSON the equations, then a text. */
 static qdot_status
 answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
 {

@@ -45,7 +45,7 @@ add_texts(qdot_sheet *sheet, qdot_expr list)
     }
 }
 
-/* A number of a run with `digits`. */
+/* Append a number of a run with `digits`. */
 static qdot_status
 add_digits(qdot_sheet *sheet, qdot_expr member, int digits, double error)
 {

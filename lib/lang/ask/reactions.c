@@ -1,4 +1,4 @@
-/* reactions.c -- `reactions`: the constraints' forces on each particle and body. */
+/* reactions.c -- the statement `reactions`: lists the constraints' forces on each particle and body. */
 #include "expr/node.h"
 #include "mech/study/reactions.h"
 

@@ -1,4 +1,4 @@
-/* show.c -- the statement `show`: what a name means and where it was declared. */
+/* show.c -- the statement `show`: tells what a name means and where it was declared. */
 #include <string.h>
 
 #include "lang/answer/answer.h"
@@ -42,7 +42,7 @@ show_label(qdot_session *session, const char *label, qdot_text *out)
     return status;
 }
 
-/* Print the statement of the run of that name; whether there is one. */
+/* Print the `run` statement by which the run of this name was made; false if there is no such run. */
 static bool
 show_run(const qdot_session *session, const char *name, qdot_text *out)
 {

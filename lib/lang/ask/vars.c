@@ -1,4 +1,4 @@
-/* vars.c -- `vars`: every declared name. */
+/* vars.c -- the statement `vars`: lists every declared name. */
 #include "lang/answer/answer.h"
 #include "lang/ask/declared.h"
 #include "lang/syntax/record.h"

@@ -72,7 +72,7 @@ read_right(assignment *a)
     }
 }
 
-/* --- names ------------------------------------------------------------------------------ */
+/* --- names of the left side ------------------------------------------------------------- */
 
 /* Whether the index of NAME[...] is written in numbers. */
 static bool
@@ -119,7 +119,7 @@ is_run(const qdot_session *s, const char *name)
     return false;
 }
 
-/* dNAME, deltaNAME of a coordinate NAME. */
+/* Whether the name is dNAME or deltaNAME with a coordinate NAME. */
 static bool
 is_differential(const qdot_session *s, const char *name)
 {
@@ -157,7 +157,7 @@ add_free_name(const qdot_session *s, const char *name, qdot_text *out)
     qdot_text_clear(&text);
 }
 
-/* --- lines ------------------------------------------------------------------------------ */
+/* --- suggested lines -------------------------------------------------------------------- */
 
 /* Suggest NAME1 = RIGHT, with the same indices and arguments. */
 static void
@@ -203,7 +203,7 @@ tell(assignment *a, const char *message, const char *name)
     return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
 }
 
-/* --- coordinates ------------------------------------------------------------------------ */
+/* --- definitions of coordinates --------------------------------------------------------- */
 
 static bool
 is_furnished(const qdot_scene *s)
@@ -236,7 +236,7 @@ tell_acceleration(assignment *a)
     return status;
 }
 
-/* q = E, q' = E: a start; where E moves, a constraint. */
+/* q = E or q' = E: suggest `start`; if E depends on coordinates or time, suggest `constraint`. */
 static qdot_status
 tell_coordinate(assignment *a, size_t primes)
 {
@@ -285,7 +285,7 @@ find_primed(const qdot_token *name, size_t *primes)
 
 /* --- words of statements ---------------------------------------------------------------- */
 
-/* potential = E where the Lagrangian is stated: L less E. */
+/* potential = E in a scene with a stated Lagrangian L: suggest the Lagrangian L - (E). */
 static qdot_status
 tell_beside_lagrangian(assignment *a, const char *word)
 {
@@ -453,14 +453,15 @@ tell_member(assignment *a)
     if (strcmp(a->name->text, "p") == 0 && !a->moves) {
         write_equation(a, "set"); /* a number for the momentum in H or R */
     } else {
-        if (!is_furnished(a->session->scene) && q != NULL) /* something that moves first */
+        /* first a Lagrangian, as there are no equations of motion yet */
+        if (!is_furnished(a->session->scene) && q != NULL)
             qdot_text_format(&a->line, "lagrangian %s'^2/2; ", q->name);
         write_check(a);
     }
     return tell(a, "`%s[ ]` is a value of the language: it follows from the scene", a->name->text);
 }
 
-/* --- the statement ------------------------------------------------------------------------ */
+/* --- checking a definition ---------------------------------------------------------------- */
 
 /* The reason why a reserved word cannot be defined; NULL if it can. */
 static const char *
@@ -488,7 +489,7 @@ why_reserved(const qdot_session *s, const char *name)
                : "`%s` is reserved: it is the differential of the coordinate `%s`";
 }
 
-/* Whether the line is in the syntax of another system, as x = symbols('x'), for which there are other hints. */
+/* Whether the line is in the syntax of another system, as x = symbols('x'); other hints exist for these. */
 static bool
 is_foreign(const assignment *a)
 {

@@ -25,7 +25,7 @@ typedef struct {
 
 /* The number of components if the right side is a vector (a, b); 1 if it is none. */
 size_t qdot_definition_components(const qdot_assignment *a);
-/* Append component i of the right side as typed; of a number all of it. */
+/* Append component i of the right side as typed; the whole right side if it is no vector. */
 void qdot_definition_component(const qdot_assignment *a, size_t i, qdot_text *out);
 /* The coordinate declared first, or NULL. */
 const qdot_name *qdot_definition_coordinate(const qdot_session *s);

@@ -70,7 +70,7 @@ is_sum(const assignment *a)
     return false;
 }
 
-/* Suggest WORD RIGHT BEHIND. */
+/* Suggest the line WORD RIGHT BEHIND, where RIGHT is the right side of the definition. */
 static void
 write_statement(assignment *a, const char *word, const char *behind)
 {

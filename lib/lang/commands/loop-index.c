@@ -76,7 +76,7 @@ qdot_loop_index_is_read(const qdot_session *s, qdot_expr symbol)
     return false;
 }
 
-/* Whether the name that is no index itself stands for something with the symbol in it. */
+/* Whether a name other than the index is defined by an expression that contains this symbol. */
 static bool
 stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
 {
@@ -122,7 +122,7 @@ is_declaration(const qdot_token *first)
     return row != NULL && qdot_statement_declares(row);
 }
 
-/* --- the clause --------------------------------------------------------------------------- */
+/* --- the `for` clause --------------------------------------------------------------------- */
 
 /* The declared parameter or coordinate of that name; NULL if there is none. */
 static const qdot_name *
@@ -159,7 +159,7 @@ is_used(const qdot_session *s, const char *name, const qdot_token *from, const q
     return false;
 }
 
-/* The token after NAME = VALUE in `with`: a comma, the next option or the end. */
+/* The token after the pair NAME = VALUE of `with`: a comma, the next option or the end. */
 static const qdot_token *
 behind_pair(const qdot_token *k)
 {
@@ -241,7 +241,7 @@ add_run_without(qdot_session *s, const qdot_token *k, const char *name, const qd
     qdot_token_text(s, from, k, out);
 }
 
-/* The error: the index at k occurs in none of the tokens [from, to). */
+/* Fail: the index at k occurs in none of the tokens [from, to). */
 static qdot_status
 fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const qdot_token *to,
             const qdot_token *end)
@@ -266,7 +266,7 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
         return status;
     }
     qdot_text_add(&text, "{ run");
-    /* then what the run of this iteration contained */
+    /* then append the tokens of the run that belong to this iteration */
     add_run_without(s, run->tokens.at, k->text, later_time(latest, from, to), &text);
     qdot_source_free(run);
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {

@@ -1,4 +1,4 @@
-/* loop.c -- the indices of a `for`, pass by pass. */
+/* loop.c -- `for` loops: steps through the values of their indices. */
 #include "lang/commands/loop.h"
 
 #include "base/interrupt.h"
@@ -11,7 +11,7 @@
 #include "lang/session/held.h"
 #include "lang/session/names.h"
 
-/* What a loop value must not contain to be assigned to a parameter or coordinate. */
+/* Properties that a loop value must not have if it is to be assigned to a parameter or coordinate. */
 static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
                                QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER |
                                QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;

@@ -1,4 +1,4 @@
-/* loop.h -- loops: `for k = a..b, j = [1, 2, 5]`. */
+/* loop.h -- runs loops such as `for k = a..b, j = [1, 2, 5]`. */
 #ifndef QDOT_LANG_LOOP_H
 #define QDOT_LANG_LOOP_H
 

@@ -18,10 +18,10 @@ typedef qdot_vec(qdot_operand) qdot_operands;
 
 void qdot_operand_clear(qdot_operand *o);
 void qdot_operands_free(qdot_operands *list);
-/* Expression k of the part, [RUN .] EXPR; after an error the operand is still to be cleared. */
+/* Find operand k of the part: EXPR or RUN.EXPR. Also after an error the operand must be cleared. */
 QDOT_MUST_CHECK qdot_status qdot_operand_find(qdot_record *r, const qdot_filled *part, size_t k,
                                               qdot_operand *o);
-/* `E1, a.E2, ...`: the part and those behind it of its name. */
+/* Find the operands `E1, a.E2, ...`: this part and the parts of the same name after it. */
 QDOT_MUST_CHECK qdot_status qdot_operands_find(qdot_record *r, const qdot_filled *first,
                                                qdot_operands *list);
 /* Use the latest run for operands that name none; QDOT_EINVAL if there is no run. */

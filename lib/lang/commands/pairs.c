@@ -1,4 +1,4 @@
-/* pairs.c -- a list of symbols with values, as a statement gives them. */
+/* pairs.c -- lists of symbols with values, as in `set m = 1, k = 2`. */
 #include "lang/commands/pairs.h"
 
 void

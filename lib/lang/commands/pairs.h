@@ -1,4 +1,4 @@
-/* pairs.h -- a list of symbols with values, as a statement gives them. */
+/* pairs.h -- lists of symbols with values, as in `set m = 1, k = 2`. */
 #ifndef QDOT_LANG_PAIRS_H
 #define QDOT_LANG_PAIRS_H
 

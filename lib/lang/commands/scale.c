@@ -16,7 +16,7 @@ QDOT_STATEMENT(scale) = {
     .handler = scale_set,
 };
 
-/* Read q, q' or t at `part`, and its value. */
+/* Read a pair such as q = 0.1, q' = 1 or t = 2 at `part`: the symbol, and its value. */
 static qdot_status
 scale_read_one(qdot_record *r, const qdot_filled *part, qdot_pairs *list)
 {

@@ -35,7 +35,7 @@ qdot_set_unknown(const qdot_session *session, const char *what, const char *name
                         : qdot_hint("param %s declares it", name);
 }
 
-/* --- set ---------------------------------------------------------------------------- */
+/* --- the statement `set` ------------------------------------------------------------ */
 
 bool
 qdot_set_is_momentum(const qdot_session *session, const qdot_token *p)
@@ -44,7 +44,7 @@ qdot_set_is_momentum(const qdot_session *session, const qdot_token *p)
            !qdot_names_is_family(session->names, "p");
 }
 
-/* The parameter of that name; `start` is where an error is shown. */
+/* Find the parameter of that name; `start` is where an error is shown. */
 static qdot_status
 parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_expr *symbol)
 {
@@ -63,7 +63,7 @@ parameter_of(qdot_cursor *c, const qdot_token *start, const char *name, qdot_exp
                                            : qdot_hint("%s = ... names it anew", name);
 }
 
-/* p[q] */
+/* Find the momentum symbol p[q] that the part names. */
 static qdot_status
 find_momentum(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
 {
@@ -139,7 +139,7 @@ in_declared_arguments(qdot_pool *pool, uint32_t id, qdot_expr formals, qdot_expr
     return qdot_pool_check(pool);
 }
 
-/* F(u, v) = BODY of a declared function. */
+/* Read F(u, v) = BODY for a declared function. */
 static qdot_status
 set_read_function(qdot_record *r, const qdot_filled *part, qdot_expr *symbol, qdot_expr *body)
 {
@@ -205,7 +205,7 @@ qdot_set_find_constant(qdot_record *r, const qdot_filled *part, qdot_expr *value
     return check_constant(&r->cursor, part->from, value);
 }
 
-/* NAME = VALUE, F(u, v) = EXPR, ... */
+/* Read NAME = VALUE, F(u, v) = EXPR, ... into the list. */
 static qdot_status
 set_read(qdot_record *r, qdot_pairs *list)
 {
@@ -265,7 +265,7 @@ qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet)
     return check_jet(&r->cursor, name->from, *jet);
 }
 
-/* The error that no run reads p[q]. */
+/* Fail: no run uses the value of p[q]. */
 static qdot_status
 refuse_momentum(qdot_record *r, const qdot_filled *part)
 {

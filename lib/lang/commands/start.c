@@ -1,4 +1,4 @@
-/* start.c -- `start`: the initial state. */
+/* start.c -- the statement `start`: gives the initial state. */
 #include <math.h>
 
 #include "expr/symbol.h"
@@ -105,7 +105,7 @@ start_from_run(qdot_record *r, const char *name)
     return tell_parameters(session, run->name, report);
 }
 
-/* Q = VALUE, Q' = VALUE, ... */
+/* Read the pairs Q = VALUE, Q' = VALUE, ... into the list, where Q is a coordinate. */
 static qdot_status
 start_read(qdot_record *r, qdot_pairs *list)
 {
@@ -122,7 +122,7 @@ start_read(qdot_record *r, qdot_pairs *list)
     return QDOT_OK;
 }
 
-/* `start NAME`; the name need not be a run but may be q' or q[1]. */
+/* Carry out `start NAME`; NAME need not be a run but may be q' or q[1]. */
 static qdot_status
 start_from(qdot_record *r, const qdot_filled *part)
 {

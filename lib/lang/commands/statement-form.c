@@ -93,7 +93,7 @@ is_applied(const qdot_session *session, const qdot_name *known, const qdot_token
     return other || (all && !is_of_arguments(name, equals));
 }
 
-/* NAME(names) = */
+/* Whether the statement begins with NAME(names) =, the definition of a function. */
 static bool
 defines_function(const qdot_session *session, const qdot_token *name)
 {
@@ -130,7 +130,7 @@ is_definition(const qdot_session *session, const qdot_token *name, bool word)
     return qdot_token_is(qdot_statement_behind_bracket(next), "=");
 }
 
-/* --- statements of a word --------------------------------------------------------------- */
+/* --- statements that begin with a word -------------------------------------------------- */
 
 /* Whether a minus is a sign, as in `potential -k/x`: a blank before it, none after it. */
 static bool
@@ -179,7 +179,7 @@ qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
             ((qdot_token_is(next, "(") || qdot_token_is(next, "[")) && next->glued));
 }
 
-/* --- comparisons ------------------------------------------------------------------------ */
+/* --- comparisons typed as statements ---------------------------------------------------- */
 
 /* Whether the tokens are a comparison A == B outside of brackets, without `and`, `or`, `not`. */
 static bool

@@ -17,7 +17,7 @@
 
 static const uint32_t unknown = QDOT_HAS_PARAM | QDOT_HAS_UFUN | QDOT_HAS_MOMENTUM;
 
-/* --- one at a time -------------------------------------------------------------------- */
+/* --- one value at a time -------------------------------------------------------------- */
 
 qdot_status
 qdot_value_check_rest(qdot_session *session, const char *spring, qdot_expr rest)
@@ -36,7 +36,7 @@ qdot_value_check_rest(qdot_session *session, const char *spring, qdot_expr rest)
     return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
 }
 
-/* "b > a is assumed, and 1 > 2 does not hold" */
+/* Fail with a message such as "b > a is assumed, and 1 > 2 does not hold". */
 static qdot_status
 assumed_otherwise(qdot_session *session, const qdot_assumption *said, const qdot_expr *side)
 {
@@ -106,11 +106,11 @@ qdot_value_check_assumed(qdot_session *session)
     return QDOT_OK;
 }
 
-/* --- all of the scene ----------------------------------------------------------------- */
+/* --- all springs and assumptions of the scene ----------------------------------------- */
 
 /* The place of the last given value whose symbol occurs in e; if none does, of the first value. */
 static const qdot_token *
-blame(qdot_session *session, const qdot_pairs *values, qdot_expr e)
+find_culprit(qdot_session *session, const qdot_pairs *values, qdot_expr e)
 {
     for (size_t i = values->symbols.n; i-- > 0;)
         if (qdot_expr_contains(session->pool, e, values->symbols.at[i]))
@@ -142,14 +142,14 @@ check_all(qdot_cursor *c, const qdot_pairs *values)
 
         if (!(qdot_expr_node(session->pool, spring->rest)->holds & unknown))
             continue;
-        c->error_at = blame(session, values, spring->rest)->start;
+        c->error_at = find_culprit(session, values, spring->rest)->start;
         QDOT_TRY(qdot_value_check_rest(session, spring->name, spring->rest));
     }
     for (size_t i = 0; i < scene->assumed.n; i++) {
         const qdot_assumption *said = &scene->assumed.at[i];
         qdot_status status;
 
-        c->error_at = blame(session, values, said->relation)->start;
+        c->error_at = find_culprit(session, values, said->relation)->start;
         status = qdot_value_check_assumption(session, said);
         if (status == QDOT_EINVAL && values->symbols.n == 1 && is_shared(session, said->relation))
             status = qdot_hint("set values that depend on each other in one statement: a = 2, b = 3");

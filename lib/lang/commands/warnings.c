@@ -17,7 +17,7 @@
 
 static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 
-/* --- definitions ---------------------------------------------------------------------- */
+/* --- notices at definitions ----------------------------------------------------------- */
 
 /* Names of built-in values that users define by mistake, with the statement they probably meant. */
 static const struct {
@@ -235,7 +235,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
                               hidden != NULL ? words : "; it hides the language's");
 }
 
-/* --- the scene ------------------------------------------------------------------------ */
+/* --- notices about the scene ---------------------------------------------------------- */
 
 qdot_status
 qdot_warnings_twice(qdot_session *session, qdot_scene_kind kind)

@@ -22,7 +22,7 @@ QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assu
 /* Add constraint i and its time derivatives, with or without the one that contains accelerations. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_constraint(qdot_session *session, qdot_assumed *f,
                                                     size_t i, bool accelerations);
-/* Write every momentum in the facts as dL/dq'; a momentum that was replaced becomes a relation. */
+/* Write every momentum in the facts as dL/dq'; an equation of a momentum becomes a relation of velocities. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f);
 /* Insert the present values of loop indices. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_hold(qdot_session *session, qdot_assumed *f);

@@ -1,4 +1,4 @@
-/* body.c -- `body`: a rigid body, in the plane or in space. */
+/* body.c -- the statement `body`: declares a rigid body, in the plane or in space. */
 #include "lang/commands/warnings.h"
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
@@ -16,7 +16,7 @@ QDOT_STATEMENT(body) = {
     .handler = body_declare,
 };
 
-/* euler(phi, theta, psi) or `rotation MATRIX`. */
+/* Read euler(phi, theta, psi) or `rotation MATRIX` into *rotation. */
 static qdot_status
 body_read_rotation(qdot_record *r, qdot_expr *rotation)
 {

@@ -16,7 +16,7 @@
 #include "lang/session/output.h"
 #include "mech/dynamics/integrable.h"
 
-/* "blade", "roll[2]" */
+/* Append the name of a constraint, such as "blade" or "roll[2]". */
 static void
 print_constraint(const qdot_constraint *c, qdot_text *out)
 {
@@ -29,7 +29,7 @@ print_constraint(const qdot_constraint *c, qdot_text *out)
         qdot_text_add(out, c->name);
 }
 
-/* --- redundant ones ----------------------------------------------------------------- */
+/* --- redundant constraints ---------------------------------------------------------- */
 
 void
 qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
@@ -61,7 +61,7 @@ qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
         qdot_text_add(out, "\nthe constraints leave no freedom: they alone set the motion");
 }
 
-/* --- integrable --------------------------------------------------------------------- */
+/* --- integrable constraints --------------------------------------------------------- */
 
 /* Print `x - R*theta = const`. */
 static qdot_status
@@ -175,7 +175,7 @@ qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name, bool 
     return qdot_hint("constraint %s: ... labels one", label);
 }
 
-/* --- at a declaration --------------------------------------------------------------- */
+/* --- notices at the declaration of a constraint ------------------------------------- */
 
 /* Larger constraints are tested by `check integrable` only. */
 enum { MOST_OPERATIONS = 400 };

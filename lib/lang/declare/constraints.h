@@ -10,7 +10,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/things.h"
 
-/* `check [not] integrable LABEL`: a verdict for each component of the constraint. */
+/* Carry out `check [not] integrable LABEL`: a verdict for each component of the constraint. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_check_integrable(qdot_record *r, const qdot_filled *name,
                                                               bool not);
 

@@ -1,4 +1,4 @@
-/* declare.c -- names: NAME = EXPR. */
+/* declare.c -- the definition NAME = EXPR. */
 #include "lang/declare/declare.h"
 
 #include <string.h>
@@ -14,9 +14,9 @@
 #include "lang/session/measured.h"
 #include "lang/source/source.h"
 
-/* A declared name has the file and line of the token at `start`. */
+/* Give a declared name the file and line of the token `start`. */
 static void
-place(const qdot_cursor *c, const qdot_token *start, qdot_name *entry)
+set_declared_at(const qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 {
     uint32_t column;
 
@@ -30,7 +30,7 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
     bool again = qdot_names_find(c->session->names, entry->name) != NULL;
 
     c->error_at = start->start;
-    place(c, start, entry);
+    set_declared_at(c, start, entry);
     QDOT_TRY(qdot_warnings_anew(c->session, entry));
     QDOT_TRY(qdot_names_declare(c->session->names, entry));
     return again ? QDOT_OK : qdot_warnings_definition(c, start, entry);

@@ -1,4 +1,4 @@
-/* dissipation.c -- `dissipation`: a term of the Rayleigh function. */
+/* dissipation.c -- the statement `dissipation`: declares a term of the Rayleigh function. */
 #include "lang/declare/objects.h"
 
 static qdot_status

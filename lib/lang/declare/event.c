@@ -1,4 +1,4 @@
-/* event.c -- `event`: a moment of a run. */
+/* event.c -- the statement `event`: declares a condition at which a run stops or changes its state. */
 #include "lang/commands/set.h"
 #include "lang/session/measured.h"
 

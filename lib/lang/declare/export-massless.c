@@ -69,7 +69,7 @@ check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
     return qdot_hint("a small mass, or `save` of a run");
 }
 
-/* The time derivative of f_i that contains accelerations. */
+/* The time derivative of the equation f_i that contains accelerations. */
 static qdot_expr
 rate_of(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
@@ -78,7 +78,7 @@ rate_of(const qdot_scene *s, const bool *massless, qdot_expr f)
     return is_of_positions(s, massless, f) ? qdot_ddt(s->pool, rate) : rate;
 }
 
-/* Write row i of M and f from that derivative. accelerations [n], zeros [n] */
+/* Split `rate`, linear in the accelerations, into a row of M and f: rate = M q'' - f. zeros [n]: all 0. */
 static void
 put_rate(const qdot_scene *s, const qdot_expr *accelerations, const qdot_expr *zeros, qdot_expr rate, qdot_expr *M,
          qdot_expr *f)
@@ -122,7 +122,7 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
     return status;
 }
 
-/* --- events ------------------------------------------------------------------------------- */
+/* --- events of a scene with massless coordinates ------------------------------------------ */
 
 /* Set targets and values of `own`: the parameters that the event sets, and those q, q' that change. */
 static qdot_status

@@ -51,7 +51,7 @@ typedef struct {
     qdot_vec(size_t) targets; /* of all events */
 } description;
 
-/* --- expressions ------------------------------------------------------------------------ */
+/* --- expressions to be exported --------------------------------------------------------- */
 
 static qdot_status
 exprs_push(description *d, expressions *to, qdot_expr e)
@@ -222,7 +222,7 @@ equations(description *d)
     return status;
 }
 
-/* The residual f + A^T lambda - M q'' (row i < n), or gamma - A q''. */
+/* The left side of the equations of motion: f + A^T lambda - M q'' in row i < n, otherwise gamma - A q''. */
 static qdot_expr
 residual(const description *d, size_t i)
 {
@@ -272,7 +272,7 @@ energy(description *d)
     return exprs_push(d, &d->energy, qdot_mech_numeric_energy(d->scene));
 }
 
-/* Export f of position constraints, then df/dt of these and f of velocity constraints; 0 for the others. */
+/* Export f of position constraints, then the level of velocities: df/dt of these, f of velocity constraints. */
 static qdot_status
 positions(description *d)
 {
@@ -477,7 +477,7 @@ start_of_run(description *d, qdot_run *run)
     return status;
 }
 
-/* The number given by `start`; 0 if there is none, NaN if it has no numerical value yet. */
+/* Find the number given by `start`; 0 if there is none, NaN if it has no numerical value yet. */
 static qdot_status
 start_value(qdot_session *s, qdot_expr symbol, double *value)
 {
@@ -518,7 +518,7 @@ starts(description *d)
     return QDOT_OK;
 }
 
-/* --- tapes -------------------------------------------------------------------------------- */
+/* --- lowering to tapes -------------------------------------------------------------------- */
 
 static qdot_status
 description_lower(const description *d, const expressions *e, const qdot_tape **tape)
@@ -537,7 +537,7 @@ description_lower(const description *d, const expressions *e, const qdot_tape **
 
 /* The index of the element of y, or of the parameter, that an event sets. */
 static size_t
-target(const description *d, qdot_expr symbol)
+index_of_target(const description *d, qdot_expr symbol)
 {
     for (size_t i = 0; i < 2 * d->x.n; i++)
         if (jet(d, i % d->x.n, i >= d->x.n) == symbol)
@@ -556,7 +556,7 @@ lower_events(description *d)
 
     for (size_t i = 0; i < d->acts.n; i++)
         for (size_t k = 0; k < d->acts.at[i].targets.n; k++)
-            QDOT_TRY(qdot_vec_push(&d->targets, target(d, d->acts.at[i].targets.at[k])));
+            QDOT_TRY(qdot_vec_push(&d->targets, index_of_target(d, d->acts.at[i].targets.at[k])));
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *from = &s->events.at[i];
         qdot_export_event e = {.name = from->name,

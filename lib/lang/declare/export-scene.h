@@ -1,4 +1,4 @@
-/* export-scene.h -- the motion of a scene, or an expression, described for show/export.h. */
+/* export-scene.h -- describes the motion of a scene, or an expression, for export to another language. */
 #ifndef QDOT_LANG_EXPORT_SCENE_H
 #define QDOT_LANG_EXPORT_SCENE_H
 

@@ -13,7 +13,7 @@
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
 
-/* Append the scalars of e; an equation as left - right. */
+/* Append the scalar components of e; for an equation its left side minus its right side. */
 static qdot_status
 scalars(qdot_session *s, qdot_expr e, expressions *to)
 {

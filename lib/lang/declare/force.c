@@ -16,7 +16,7 @@ QDOT_STATEMENT(force) = {
     .handler = force_declare,
 };
 
-/* `at POINT`. */
+/* Read the point of `at POINT`, on which the force acts. */
 static qdot_status
 force_at(qdot_record *r, const qdot_filled *action, qdot_force *force)
 {
@@ -59,7 +59,7 @@ force_on(qdot_record *r, qdot_force *force)
     return qdot_warnings_twice(r->cursor.session, QDOT_FORCE);
 }
 
-/* A generalized force along a coordinate. */
+/* Add the force to the scene as a generalized force along a coordinate. */
 static qdot_status
 force_along(qdot_record *r, const qdot_force *force, bool vector, qdot_expr coordinate)
 {

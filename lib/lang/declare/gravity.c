@@ -1,4 +1,4 @@
-/* gravity.c -- `gravity`: a uniform field. */
+/* gravity.c -- the statement `gravity`: declares a uniform field. */
 #include "lang/answer/answer.h"
 #include "lang/declare/objects.h"
 #include "mech/scene/scene.h"

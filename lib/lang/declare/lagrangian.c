@@ -1,4 +1,4 @@
-/* lagrangian.c -- `lagrangian`: the Lagrangian itself. */
+/* lagrangian.c -- the statement `lagrangian`: states the Lagrangian. */
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"
 

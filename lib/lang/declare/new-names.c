@@ -9,14 +9,14 @@
 #include "lang/syntax/holes.h"
 #include "mech/scene/scene.h"
 
-/* --- reading ------------------------------------------------------------------------ */
+/* --- reading new names -------------------------------------------------------------- */
 
-/* What a bound of a domain may not depend on. */
+/* The kinds of symbols that the bounds of a domain may not contain. */
 #define MOVING                                                                           \
     (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM |    \
      QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA | QDOT_HAS_TIME)
 
-/* x < b gives hi, x > b gives lo. */
+/* Store the bound: x < b sets the upper end of the domain, x > b the lower one. */
 static qdot_status
 new_name_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
 {
@@ -124,7 +124,7 @@ qdot_new_names_read(qdot_record *r, bool params, qdot_new_names *list)
     return status;
 }
 
-/* --- declaring ---------------------------------------------------------------------- */
+/* --- declaring the names ------------------------------------------------------------ */
 
 static bool
 new_name_same_domain(const qdot_symbol *s, const qdot_new_name *x)

@@ -5,12 +5,12 @@
 #include "lang/syntax/record.h"
 #include "mech/scene/things.h"
 
-/* The label of `[NAME:]`; NULL: none. */
+/* Read the label of `[NAME:]`; NULL if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_object_label(qdot_record *r, const char **label);
 /* Add a potential or dissipation whose expression is the operand `term`. */
 QDOT_MUST_CHECK qdot_status qdot_object_term(qdot_record *r, const qdot_filled *term,
                                              qdot_scene_kind kind);
-/* The label if expression k of the operand is just the name of a particle or body; NULL otherwise. */
+/* Find the label if expression k of the operand is just the name of a particle or body; NULL otherwise. */
 QDOT_MUST_CHECK qdot_status qdot_object_particle_or_body(qdot_record *r, const qdot_filled *place,
                                                          size_t k, char **label);
 /* Read `[NAME] between A, B` as the ends of a spring, damper or rod. */

@@ -1,4 +1,4 @@
-/* param.c -- `param`: symbols, with their domains and values. */
+/* param.c -- the statement `param`: declares symbols with their domains and values. */
 #include "lang/commands/value-check.h"
 #include "lang/declare/new-names.h"
 #include "lang/session/bind.h"

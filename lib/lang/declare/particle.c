@@ -1,4 +1,4 @@
-/* particle.c -- `particle`: a mass point at r(q, t). */
+/* particle.c -- the statement `particle`: declares a mass point at a position r(q, t). */
 #include "lang/commands/warnings.h"
 #include "lang/syntax/record.h"
 #include "mech/scene/scene.h"

@@ -1,4 +1,4 @@
-/* potential.c -- `potential`: a term of the potential energy. */
+/* potential.c -- the statement `potential`: declares a term of the potential energy. */
 #include "lang/declare/objects.h"
 
 static qdot_status

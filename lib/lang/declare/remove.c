@@ -1,4 +1,4 @@
-/* remove.c -- things taken out of the scene again, by label or by kind and number. */
+/* remove.c -- the statement `remove`: removes things from the scene, by label or by kind and number. */
 #include <string.h>
 
 #include "base/spelling.h"
@@ -18,7 +18,7 @@ QDOT_STATEMENT(remove) = {
     .handler = remove_carry_out,
 };
 
-/* Notice of what was removed because it acted on a removed thing. */
+/* Give a notice of the things that were removed because they acted on a removed thing. */
 static qdot_status
 tell_removed(qdot_session *session, const char *label)
 {
@@ -53,7 +53,7 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 
 /* Fail with a list of candidates: "there are 2 potentials: 1: `potential x^2`, 2: ..." */
 static qdot_status
-which(const qdot_scene *scene, size_t row)
+refuse_ambiguous(const qdot_scene *scene, size_t row)
 {
     enum { LONGEST = 80, MOST = 380 };
     size_t n = qdot_scene_count(scene, kinds[row].kind);
@@ -86,7 +86,7 @@ which(const qdot_scene *scene, size_t row)
     return status;
 }
 
-/* `remove potential`, if there is only one; or `remove potential 2`. */
+/* Remove the only thing of a kind (`remove potential`), or one by its number (`remove potential 2`). */
 static qdot_status
 remove_kind(qdot_record *r, const qdot_filled *number, size_t row)
 {
@@ -100,11 +100,11 @@ remove_kind(qdot_record *r, const qdot_filled *number, size_t row)
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "the scene has no %s", kinds[row].plural);
     if (k < 1 || (size_t)k > n || (n > 1 && number == NULL))
-        return which(scene, row);
+        return refuse_ambiguous(scene, row);
     return qdot_scene_remove_at(scene, kinds[row].kind, (size_t)k - 1);
 }
 
-/* The failure, with the nearest of the labels and kinds. */
+/* Fail: nothing has this label; the nearest of the labels and kinds is the hint. */
 static qdot_status
 nothing_is_labelled(const qdot_scene *scene, const char *label)
 {

@@ -35,7 +35,7 @@ scene_file_put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
 }
 
-/* --- names ---------------------------------------------------------------------------- */
+/* --- writing definitions -------------------------------------------------------------- */
 
 /* Write `param m > 0`, `function x(s, t)`, `coord theta` in order of declaration, which is also
  * that of terms. */
@@ -175,9 +175,9 @@ put_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
     return QDOT_OK;
 }
 
-/* --- values --------------------------------------------------------------------------- */
+/* --- writing values and start --------------------------------------------------------- */
 
-/* Write one line, ended by `last`. */
+/* Write the line `WORD SYMBOL = VALUE`, ended by `last`. */
 static qdot_status
 put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, const char *last, bool remarks,
           qdot_text *out)
@@ -220,7 +220,7 @@ put_start(qdot_session *s, bool remarks, qdot_text *out)
     return QDOT_OK;
 }
 
-/* --- what is no scene ----------------------------------------------------------------- */
+/* --- settings of the session ---------------------------------------------------------- */
 
 static void
 put_settings(const qdot_session *s, qdot_text *out)
@@ -237,7 +237,7 @@ put_settings(const qdot_session *s, qdot_text *out)
 
 static const char history_header[] = "# statements typed in qdot\n";
 
-/* --- the file ------------------------------------------------------------------------- */
+/* --- writing the file ----------------------------------------------------------------- */
 
 static qdot_status
 put_all(qdot_session *s, bool session, qdot_text *lost, qdot_text *out)

@@ -18,7 +18,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/values.h"
 
-/* What `start` would be after the lines written so far. */
+/* The start that the lines written so far would give when they are read. */
 typedef struct {
     qdot_session *s;
     qdot_text *out, *lost;
@@ -40,7 +40,7 @@ put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 /* The value of q or q' in the start written so far; nil if none, or if it is the end of a run
  * without its error. */
 static qdot_expr
-said(const writer *w, qdot_expr jet)
+start_value_so_far(const writer *w, qdot_expr jet)
 {
     for (size_t i = 0; i < w->symbols.n; i++)
         if (w->symbols.at[i] == jet && w->values.at[i] != QDOT_NIL)
@@ -71,7 +71,7 @@ conditions_compare(const writer *w, const qdot_conditions *c)
                 qdot_symbol_jet(w->s->pool, w->s->scene->coordinates.at[i], (unsigned)order);
             const qdot_expr value = order == 0 ? c->q0.at[i] : c->v0.at[i];
             const bool named = order == 0 ? c->q_named.at[i] : c->v_named.at[i];
-            const qdot_expr there = said(w, jet);
+            const qdot_expr there = start_value_so_far(w, jet);
 
             if (named != is_written(w, jet) || (named && there == QDOT_NIL))
                 return NAMES;
@@ -119,7 +119,7 @@ goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
             return false;
         all = all && alike;
         some = some || (alike && qdot_session_file_is_long(s, value)
-                        && !(anew && said(w, qdot_symbol_jet(s->pool, q, i % 2)) == value));
+                        && !(anew && start_value_so_far(w, qdot_symbol_jet(s->pool, q, i % 2)) == value));
     }
     return all || some;
 }
@@ -156,9 +156,9 @@ session_put_start(writer *w, const qdot_conditions *c, size_t before)
     return QDOT_OK;
 }
 
-/* --- one run ----------------------------------------------------------------------------- */
+/* --- writing one run --------------------------------------------------------------------- */
 
-/* The options of a run's text but `with`: " tol 1e-9 method radau". */
+/* Append the options of a run's text, such as " tol 1e-9 method radau", without `with`. */
 static void
 put_options(const char *text, qdot_text *out)
 {
@@ -213,7 +213,7 @@ put_with(writer *w, const qdot_conditions *c, bool start, qdot_text *out)
     for (size_t i = 0; i < 2 * c->q0.n && start; i++) {
         const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
         const qdot_expr value = i % 2 == 0 ? c->q0.at[i / 2] : c->v0.at[i / 2];
-        const qdot_expr there = said(w, jet);
+        const qdot_expr there = start_value_so_far(w, jet);
 
         if (there == QDOT_NIL || there == value)
             continue;
@@ -311,7 +311,7 @@ reads_numbers(qdot_session *s, const qdot_name *name, size_t k, bool *is)
     return qdot_grave(status);
 }
 
-/* The latest run, from number `first` on, after which the name's text gives its value; runs.n if none. */
+/* Find the latest run, from number `first` on, after which the name's text gives its value; runs.n if none. */
 static qdot_status
 find_run(qdot_session *s, const qdot_name *name, size_t first, size_t *k)
 {
@@ -362,9 +362,9 @@ typedef struct {
 
 typedef qdot_vec(placed) placements;
 
-/* The run after which all names are written that the text of `name` mentions. */
+/* The earliest run after which all names are written that the text of `name` mentions. */
 static size_t
-earliest(const placements *list, const qdot_name *name)
+earliest_run_needed(const placements *list, const qdot_name *name)
 {
     size_t first = 0;
 
@@ -387,7 +387,7 @@ place_names(qdot_session *s, bool runs, placements *list)
         if (name->kind != QDOT_NAME_VALUE || !qdot_measured_occurs(s, name->value))
             continue;
         if (runs)
-            QDOT_TRY(find_run(s, name, earliest(list, name), &one.behind));
+            QDOT_TRY(find_run(s, name, earliest_run_needed(list, name), &one.behind));
         QDOT_TRY(qdot_vec_push(list, one));
     }
     return QDOT_OK;
@@ -412,7 +412,7 @@ put_names(writer *w, const placements *list, size_t behind)
     return QDOT_OK;
 }
 
-/* --- all of them -------------------------------------------------------------------------- */
+/* --- all runs and names ------------------------------------------------------------------- */
 
 qdot_status
 qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c)

@@ -20,7 +20,8 @@
  * nothing, and a notice for each name. */
 QDOT_MUST_CHECK qdot_status qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out);
 
-/* The present start as conditions: q0, v0, which are given, exactly or not. Clear c in any case. */
+/* The present start as conditions of a run: q0, v0, and which of them are given or exact. Clear c
+ * in any case. */
 QDOT_MUST_CHECK qdot_status qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c);
 
 #endif

@@ -36,7 +36,7 @@ put_error(double error, qdot_text *out)
         qdot_text_add(out, "unknown");
 }
 
-/* Write the comment that this session knows about a value. */
+/* Write a comment after the value if it is a long number from a run, with its error. */
 static void
 put_known(const qdot_session *s, qdot_expr value, size_t runs, qdot_text *out)
 {
@@ -83,7 +83,7 @@ qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t run
     qdot_text_char(out, '\n');
 }
 
-/* --- kept -------------------------------------------------------------------------------- */
+/* --- comments kept from files that were read --------------------------------------------- */
 
 static bool
 is_kept(const qdot_session *s, const char *line)

@@ -1,4 +1,4 @@
-/* torque.c -- `torque`: a generalized force on a coordinate, or a torque on a body. */
+/* torque.c -- the statement `torque`: declares a generalized force on a coordinate, or a torque on a body. */
 #include "expr/node.h"
 #include "lang/commands/warnings.h"
 #include "lang/declare/objects.h"

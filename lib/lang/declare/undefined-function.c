@@ -23,7 +23,7 @@ QDOT_STATEMENT(function) = {
     .handler = declare_functions,
 };
 
-/* --- undefined functions ------------------------------------------------------------ */
+/* --- declaring undefined functions -------------------------------------------------- */
 
 /* The symbol that an argument in `function x(s, t)` means: a declared one, the time,
  * else a symbol of its own. */
@@ -65,7 +65,7 @@ declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n
     return status;
 }
 
-/* NAME(u, v) */
+/* Declare the function of a part such as NAME(u, v), and return its name. */
 static qdot_status
 declare_call(qdot_record *r, const qdot_filled *part, const char **name)
 {
@@ -102,7 +102,7 @@ declare_functions(qdot_record *r)
     return status;
 }
 
-/* --- a name that comes after the function ------------------------------------------- */
+/* --- arguments declared after the function ------------------------------------------ */
 
 /* formals with the symbol of its own for NAME replaced by `symbol`; the same LIST if
  * there is none. */

@@ -1,4 +1,4 @@
-/* animate.c -- the statement `animate`: a moving picture of a run. */
+/* animate.c -- the statement `animate`: makes a moving picture of a run. */
 #include <math.h>
 #include <string.h>
 

@@ -33,7 +33,7 @@ typedef struct {
     qdot_vec(qdot_expr) columns; /* of the animation */
     qdot_vec(qdot_expr) places;  /* of its points, expanded */
     qdot_vec(qdot_expr) once;    /* wanted at the first frame only */
-    double *first;               /* their values */
+    double *first;               /* their values at the first frame */
 } builder;
 
 static uint32_t
@@ -136,7 +136,7 @@ add_links(builder *b)
     return status;
 }
 
-/* Add the arms of body i as points; in the plane also their constant position in the body frame. */
+/* Add the arms of body i as points; in the plane, also the constant positions of these in the body's frame. */
 static qdot_status
 add_arms(builder *b, size_t i, qdot_animation_body *one)
 {
@@ -200,7 +200,7 @@ want_gravity(builder *b)
     return QDOT_OK;
 }
 
-/* --- what the numbers of the first frame decide ------------------------------------- */
+/* --- choices that depend on the values at the first frame --------------------------- */
 
 static void
 use_masses(builder *b, const double **x)
@@ -246,7 +246,7 @@ use_gravity(builder *b, const double *x)
         b->a->up[d] = size > 0 ? 0 - x[d] / size : d == 2;
 }
 
-/* --- states, energies --------------------------------------------------------------- */
+/* --- phase portraits and energies --------------------------------------------------- */
 
 static qdot_status
 add_states(builder *b)
@@ -274,7 +274,7 @@ add_states(builder *b)
     return QDOT_OK;
 }
 
-/* v.v */
+/* The scalar product v.v; of a number its square. */
 static qdot_expr
 square(qdot_pool *pool, qdot_expr v)
 {
@@ -282,7 +282,7 @@ square(qdot_pool *pool, qdot_expr v)
                                                                 : qdot_mul(pool, v, v);
 }
 
-/* T without simplification, as only numbers are needed. */
+/* The kinetic energy T, not simplified, as only numbers are needed. */
 static qdot_expr
 kinetic(qdot_scene *s)
 {
@@ -350,7 +350,7 @@ add_energies(builder *b)
     QDOT_TRY(column(b, qdot_mech_numeric_energy(s), &h.column));
     return qdot_vec_push(&b->a->energies, h);
 }
-/* --- times -------------------------------------------------------------------------- */
+/* --- times of the frames ------------------------------------------------------------ */
 
 static qdot_status
 set_span(builder *b, const qdot_animated_options *o)
@@ -370,7 +370,7 @@ set_span(builder *b, const qdot_animated_options *o)
     return QDOT_OK;
 }
 
-/* 1, 2 or 5 times a power of ten, the nearest below. */
+/* The largest number at most x that is 1, 2 or 5 times a power of ten. */
 static double
 round_down(double x)
 {
@@ -431,7 +431,7 @@ frames_read_values(builder *b)
     return status;
 }
 
-/* --- the whole ---------------------------------------------------------------------- */
+/* --- making the animation ----------------------------------------------------------- */
 
 static qdot_status
 check_scene(builder *b, bool bare)
@@ -454,7 +454,7 @@ check_scene(builder *b, bool bare)
                                      : qdot_hint("particle bob mass m at (x, y)");
 }
 
-/* Add everything that is drawn. */
+/* Add everything that is drawn to the picture. */
 static qdot_status
 add_things(builder *b)
 {

@@ -27,7 +27,7 @@ QDOT_MUST_CHECK qdot_status qdot_animated_make(qdot_session *session,
                                                const qdot_animated_options *options,
                                                qdot_animation *a);
 
-/* Add only the lines about the run. */
+/* Add only the lines of text about the run. */
 QDOT_MUST_CHECK qdot_status qdot_animated_facts(qdot_session *session,
                                                 const qdot_named_run *run,
                                                 qdot_animation *a);

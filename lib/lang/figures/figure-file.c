@@ -14,9 +14,9 @@
 
 enum { SKETCH_COLUMNS = 100, SKETCH_ROWS = 16, MOST_FILES = 1000000 };
 
-/* --- a file with a number ------------------------------------------------------------- */
+/* --- numbered file names -------------------------------------------------------------- */
 
-/* "dir/NAME" of the script dir/NAME.lag, "qdot" elsewhere. */
+/* Append the path without number and ending: "dir/NAME" for the script dir/NAME.lag, else "qdot". */
 static void
 add_stem(const qdot_session *session, qdot_text *path)
 {
@@ -32,7 +32,7 @@ add_stem(const qdot_session *session, qdot_text *path)
         qdot_text_add(path, script);
 }
 
-/* The first of STEM-1.svg, STEM-2.svg ... that does not exist. */
+/* Choose the first of STEM-1.svg, STEM-2.svg ... that does not exist. */
 static qdot_status
 default_path(const qdot_session *session, qdot_text *path)
 {
@@ -50,7 +50,7 @@ default_path(const qdot_session *session, qdot_text *path)
     return qdot_fail(QDOT_ELIMIT, "there are figures enough: remove some of `%s`", path->at);
 }
 
-/* --- a sketch ------------------------------------------------------------------------- */
+/* --- sketch in the terminal ----------------------------------------------------------- */
 
 static bool
 has_terminal(const qdot_session *session)
@@ -58,7 +58,7 @@ has_terminal(const qdot_session *session)
     return !session->output->json && session->output->out == stdout && qdot_terminal_is(stdout);
 }
 
-/* Every panel in characters, as wide as the terminal. */
+/* Sketch every panel in characters, as wide as the terminal. */
 static qdot_status
 sketch(qdot_session *session, const qdot_figure *figure)
 {
@@ -96,7 +96,7 @@ expects_window(const qdot_session *session)
     return has_terminal(session) && (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
 }
 
-/* Show the figure in a window; *open: that worked. If no window can be opened, a notice says so. */
+/* Show the figure in a window; *open: a window was opened. If that is impossible, give a notice. */
 static qdot_status
 try_window(qdot_session *session, const qdot_figure *figure, bool *open)
 {

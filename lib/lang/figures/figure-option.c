@@ -31,7 +31,7 @@ abscissa_find(qdot_record *r, const qdot_filled *a, qdot_panel_choice *p)
     return range_find(r, a, least, most, &p->range[0]);
 }
 
-/* A..B */
+/* Take the range A..B of the vertical axis from a statement's parts. */
 static qdot_status
 ordinate_find(qdot_record *r, const qdot_filled *range, qdot_panel_choice *p)
 {
@@ -74,7 +74,7 @@ texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **t
     return QDOT_OK;
 }
 
-/* Whether the figure has it already, from a panel before. */
+/* Whether an earlier panel has already given this option of the whole figure. */
 static bool
 is_given(const qdot_figure_choice *f, const qdot_filled *word)
 {
@@ -82,7 +82,7 @@ is_given(const qdot_figure_choice *f, const qdot_filled *word)
            (qdot_filled_is(word, "to") && f->path != NULL && word[1].from->kind == QDOT_TOKEN_STRING);
 }
 
-/* The option whose word is the part, its hole the next. */
+/* Take one option: `word` is its word, the next part its value. */
 static qdot_status
 one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_panel_choice *p)
 {

@@ -29,7 +29,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,
                                                     const qdot_filled *to, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
-/* Put what was said of a panel into it. */
+/* Set the fields of the panel for which an option was given. */
 void qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel);
 
 #endif

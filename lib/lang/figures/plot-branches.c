@@ -32,7 +32,7 @@ add_point(qdot_curve *c, double *x, double *y, double px, double py)
     y[c->rows++] = py;
 }
 
-/* Collect the segments of one style, with gaps between them; y is column i. */
+/* Collect the segments of one line style, with gaps between them; column i gives the ordinate. */
 static void
 fill_kind(const qdot_row_table *t, size_t i, int kind, qdot_curve *c, double *x, double *y)
 {

@@ -9,16 +9,16 @@
 #include "lang/commands/loop.h"
 #include "lang/syntax/record.h"
 
-/* What was said of one panel: the parts [from, to) of the statement, behind its word `plot`. */
+/* The parts [from, to) of the statement that describe one panel, after its word `plot`. */
 typedef struct {
     qdot_record *record;
     const qdot_filled *from, *to;
 } qdot_plot_said;
 
-/* That word among them; NULL: it is not there. */
+/* The word `word` among the parts of the panel; NULL if it does not occur. */
 const qdot_filled *qdot_plot_find_word(const qdot_plot_said *said, const char *word);
 
-/* The present values of the loop indices as text: ", l = 1". */
+/* Append the present values of the loop indices as text: ", l = 1". */
 QDOT_MUST_CHECK qdot_status qdot_plot_indices(qdot_session *session, const qdot_loop *loop,
                                               qdot_text *label);
 

@@ -53,7 +53,7 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     return qdot_trace_begin(&one->source, FIRST_POINTS, s, &one->points);
 }
 
-/* One expression as a curve. */
+/* Make the curve of one expression over the variable. */
 static qdot_status
 curve_over(qdot_record *r, const qdot_filled *part, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
 {
@@ -87,7 +87,7 @@ typedef struct {
     qdot_plot_panel *panel;
 } repeated;
 
-/* The expressions, evaluated anew for each pass of the loop; a curve each. */
+/* Make the curves of this pass of the loop: each expression is evaluated with the present index values. */
 static qdot_status
 curves_over(const qdot_plot_said *said, const qdot_loop *loop, void *user)
 {
@@ -99,7 +99,7 @@ curves_over(const qdot_plot_said *said, const qdot_loop *loop, void *user)
     return QDOT_OK;
 }
 
-/* `NAME = A..B` behind `vs`. */
+/* Read the variable of `vs NAME = A..B`. */
 static qdot_status
 find_variable(qdot_record *r, const qdot_filled *name, variable *v)
 {
@@ -117,7 +117,7 @@ find_variable(qdot_record *r, const qdot_filled *name, variable *v)
     return qdot_session_number(session, to, &v->to, NULL);
 }
 
-/* The options, of axes in the plane. */
+/* Take the options of a figure with axes in the plane. */
 static qdot_status
 find_options(const qdot_plot_said *said, const qdot_filled *name, qdot_plot_panel *p, qdot_figure_choice *figure)
 {

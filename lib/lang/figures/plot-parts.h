@@ -46,10 +46,10 @@ void qdot_plot_panel_clear(qdot_plot_panel *panel);
 QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
                                                 const char *axis, qdot_plot_curve **added);
 
-/* `E, ... [vs E], ... [for ...]` with options, and the first points of each curve along its run. */
+/* Read `E, ... [vs E], ... [for ...]` and the options; compute the first points of each curve along its run. */
 QDOT_MUST_CHECK qdot_status qdot_plot_run(const qdot_plot_said *said, const qdot_plot_runs *runs,
                                           qdot_plot_panel *panel, qdot_figure_choice *figure);
-/* `E, ... vs NAME = A..B [for ...]` with options, and the first points of each curve. */
+/* Read `E, ... vs NAME = A..B [for ...]` and the options; compute the first points of each curve. */
 QDOT_MUST_CHECK qdot_status qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *panel,
                                            qdot_figure_choice *figure);
 

@@ -8,10 +8,11 @@
 #include "lang/figures/plot-branches.h"
 #include "lang/session/row-tables.h"
 
-/* FINE: points along an axis with uneven steps; MOST_PANELS: panels of a figure. */
+/* FINE: the number of points on an axis with uneven steps; MOST_PANELS: the panels that fit in a figure. */
 enum { FINE = 400, MOST_PANELS = 12 };
 
-/* The table that is named; of `plot` alone the branches of the latest `continue` without a name. NULL: there is none. */
+/* The table that the statement names; without a name the branches of the latest `continue`. NULL:
+ * there is none. */
 static const qdot_row_table *
 rows_find(const qdot_record *r)
 {
@@ -73,7 +74,7 @@ is_ordered(const qdot_row_table *t)
     return up || down;
 }
 
-/* --- over several names --------------------------------------------------------------- */
+/* --- maps of sweeps over several names ------------------------------------------------ */
 
 /* The values of one of the last two names; `shown` places even between their ends, and which value stands at each: that
  * nearest to it, so that a cell of an uneven axis ends halfway to the next. */
@@ -165,7 +166,7 @@ rows_are_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
     return true;
 }
 
-/* Find the last two swept names as axes, and how many rows there are for each set of values of the others. */
+/* Find the last two swept names as axes, and the number of rows for each set of values of the other names. */
 static qdot_status
 find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
 {
@@ -185,7 +186,7 @@ find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
     return place_values(t, &axes[1]);
 }
 
-/* "k = 1, m = 2": the values of the names before the last two. */
+/* Write a title such as "k = 1, m = 2": the values of the names before the last two. */
 static qdot_status
 write_title(const qdot_row_table *t, size_t row, qdot_text *out)
 {
@@ -209,7 +210,7 @@ fill_map(const qdot_row_table *t, const axis *axes, size_t row, size_t j, qdot_f
                                         t->n_swept + j];
 }
 
-/* A panel for each number, and each value of the names before the last two. */
+/* Draw a panel for each quantity, and for each set of values of the names before the last two. */
 static qdot_status
 draw_maps(const qdot_row_table *t, drawing *d)
 {
@@ -244,7 +245,7 @@ draw_maps(const qdot_row_table *t, drawing *d)
     return QDOT_OK;
 }
 
-/* --- the figure ----------------------------------------------------------------------- */
+/* --- drawing the figure --------------------------------------------------------------- */
 
 static qdot_status
 rows_draw(const qdot_row_table *t, drawing *d)
@@ -283,7 +284,7 @@ drawing_clear(drawing *d)
     qdot_free(d->numbers);
 }
 
-/* What a table has none of: a loop, panels. */
+/* Refuse what a figure of a table cannot have: a loop, several panels. */
 static qdot_status
 check_alone(qdot_record *r)
 {

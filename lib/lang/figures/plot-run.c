@@ -11,7 +11,7 @@ enum { LEAST_POINTS = 201, PARTS_OF_STEP = 8, MOST_AT_FIRST = 10001 };
 /* A drift of 0 has no logarithm: it is drawn at the rounding error. */
 static const double drift_floor = 0x1p-54;
 
-/* --- reading ------------------------------------------------------------------------ */
+/* --- reading expressions ------------------------------------------------------------ */
 
 static qdot_status
 push_item(qdot_plot_panel *p, bool drift)
@@ -22,7 +22,8 @@ push_item(qdot_plot_panel *p, bool drift)
     return QDOT_OK;
 }
 
-/* Expression k of the part as an operand; in a loop it is called as it was written: the indices stand behind all labels. */
+/* Add expression k of the part as an operand; in a loop its label is the typed text, since index
+ * values follow all labels. */
 static qdot_status
 operand_add(qdot_record *r, const qdot_filled *part, size_t k, qdot_plot_panel *p, qdot_operands *list)
 {
@@ -52,7 +53,7 @@ operand_add(qdot_record *r, const qdot_filled *part, size_t k, qdot_plot_panel *
     return status;
 }
 
-/* Read one item: E, or drift(E, ...). */
+/* Read one item of `plot`: an expression E, or drift(E, ...). */
 static qdot_status
 read_item(qdot_record *r, const qdot_filled *part, qdot_plot_panel *p)
 {
@@ -65,7 +66,7 @@ read_item(qdot_record *r, const qdot_filled *part, qdot_plot_panel *p)
     return QDOT_OK;
 }
 
-/* E, ... [vs E], ...: an abscissa is that of the items since the one before. */
+/* Read the list E, ... [vs E], ...: the abscissa after `vs` belongs to the items since the previous `vs`. */
 static qdot_status
 read_items(const qdot_plot_said *said, qdot_plot_panel *p)
 {
@@ -87,7 +88,7 @@ read_items(const qdot_plot_said *said, qdot_plot_panel *p)
     return QDOT_OK;
 }
 
-/* --- a loop: the run once more for each pass ----------------------------------------------- */
+/* --- loops: the run is repeated for each pass ---------------------------------------------- */
 
 typedef struct {
     const qdot_plot_runs *runs;
@@ -205,7 +206,7 @@ check_kinds(const qdot_plot_panel *p)
     return qdot_hint("plot y1 vs x1, y2 vs x2; `vs t` is the course");
 }
 
-/* --- numbers ------------------------------------------------------------------------ */
+/* --- computing points --------------------------------------------------------------- */
 
 static qdot_status
 path_values(void *user, size_t n, const double *s, double *values)
@@ -249,7 +250,8 @@ times_narrow(const qdot_operand *o, double *low, double *high)
     return o->mixed ? qdot_member_span(o->session, o->columns.at[0], low, high) : QDOT_OK;
 }
 
-/* The times of the first points: each step divided evenly, or, if there are many steps, evenly spaced. */
+/* Choose the times of the first points: each step divided evenly, or, if there are many steps,
+ * evenly spaced. */
 static qdot_status
 first_times(const qdot_plot_curve *curve, double low, double high, double **times, size_t *n)
 {
@@ -337,7 +339,7 @@ curve_begin(qdot_plot_panel *p, qdot_plot_curve *curve)
     return status;
 }
 
-/* "theta' vs theta" where the abscissae differ. */
+/* Write the label of curve i: "theta' vs theta" if the curves have different abscissae. */
 static qdot_status
 write_labels(const qdot_plot_panel *p, size_t i, qdot_text *label, qdot_text *axis)
 {

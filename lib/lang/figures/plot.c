@@ -61,9 +61,9 @@ qdot_plot_curve_add(qdot_plot_panel *p, const char *label, const char *axis,
     return QDOT_OK;
 }
 
-/* --- as a figure -------------------------------------------------------------------- */
+/* --- making the figure -------------------------------------------------------------- */
 
-/* What a figure borrows while it is drawn. */
+/* Objects of the session that a figure borrows while it is drawn. */
 typedef struct {
     qdot_panel *panels;
     qdot_curve *curves;
@@ -109,7 +109,7 @@ join_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
         qdot_text_truncate(x, 0);
 }
 
-/* Labels of paths are the axes of space, the path's name above. */
+/* Label the axes; a path has the axes x, y, z, and its label is the title. */
 static void
 label_panel(const qdot_plot_panel *p, qdot_text *labels, qdot_panel *panel)
 {
@@ -149,7 +149,7 @@ point_at(const qdot_plot_curve *from, qdot_curve *to)
 
 /* Build the figure from the points computed so far. */
 static qdot_status
-build(const panels *all, frame *f)
+build_figure(const panels *all, frame *f)
 {
     size_t n = 0, next = 0;
 
@@ -217,9 +217,9 @@ tell_left_out(qdot_session *session, const qdot_figure *figure)
     return QDOT_OK;
 }
 
-/* --- the statement ------------------------------------------------------------------ */
+/* --- the statement `plot` ----------------------------------------------------------- */
 
-/* A panel's parts, up to the next `|`. */
+/* Read the parts of one panel, up to the next `|`. */
 static qdot_status
 read_panel(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {
@@ -262,7 +262,7 @@ qdot_plot_figure(qdot_record *r, const qdot_plot_runs *runs)
     status = read_panels(r, runs, &choice, &all);
 
     if (status == QDOT_OK)
-        status = build(&all, &f);
+        status = build_figure(&all, &f);
     if (status == QDOT_OK) {
         const qdot_figure figure = {.panels = f.panels,
                                     .n = f.n,

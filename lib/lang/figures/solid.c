@@ -39,7 +39,8 @@ qdot_solid_plane(double mass, double inertia, const double (*arms)[2], size_t n,
     b->half[1] = root(3 * square - b->half[0] * b->half[0]);
 }
 
-/* One Jacobi rotation in the plane of axes i, j that makes a[i][j] 0; v: the principal axes so far, as rows. */
+/* Apply one Jacobi rotation in the plane of axes i, j that makes a[i][j] 0; v: the principal axes
+ * so far, as rows. */
 static void
 jacobi_turn(double a[3][3], double v[3][3], int i, int j)
 {

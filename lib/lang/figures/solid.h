@@ -19,7 +19,7 @@
 void qdot_solid_plane(double mass, double inertia, const double (*arms)[2], size_t n,
                       qdot_animation_body *b);
 
-/* The solid of a body in space: inertia [9], symmetric, about its centre. */
+/* Find the solid of a body in space from its mass and inertia [9] about its centre, a symmetric matrix. */
 void qdot_solid_space(double mass, const double inertia[9], qdot_animation_body *b);
 
 #endif

@@ -8,7 +8,7 @@
 #include "lang/runs/data-file.h"
 #include "lang/session/bind.h"
 
-/* TIMES: columns of time, one to be read by people, one for files. */
+/* TIMES: the number of columns of time, one for people and one for files. */
 enum { TIMES = 2 };
 
 typedef struct {
@@ -32,7 +32,7 @@ qdot_digits_table_of(const qdot_operands *list)
     return fewest;
 }
 
-/* The names of the components of all operands. */
+/* Append the names of the components of all operands. */
 static qdot_status
 name_components(digits_table *d, const qdot_operands *list)
 {

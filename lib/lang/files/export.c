@@ -32,7 +32,7 @@ static const struct language {
     {"latex", ".tex", NULL},
 };
 
-/* What is exported: the equations of motion, or an expression with its text. */
+/* The exported object: the equations of motion, or an expression with its text. */
 typedef struct {
     bool motion;
     qdot_expr value;

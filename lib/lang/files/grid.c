@@ -6,7 +6,7 @@
 #include "lang/answer/table-answer.h"
 #include "lang/runs/data-file.h"
 
-/* Significant digits of answers. */
+/* The number of significant digits in answers. */
 enum { DIGITS = 10 };
 
 void
@@ -34,7 +34,7 @@ new_grid(qdot_grid *g, size_t n, size_t rows)
     return QDOT_OK;
 }
 
-/* Column i: its label, "R" or "R[2]" for a component of several. */
+/* Write the label of column i: "R", or "R[2]" for one of several components. */
 static qdot_status
 label_column(qdot_grid *g, size_t i, const char *label, size_t component, size_t components)
 {

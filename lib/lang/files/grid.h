@@ -11,11 +11,12 @@ typedef struct {
     char **labels;
 } qdot_grid;
 
-/* t and every column of the operands at these times [rows]; free it in any case. */
+/* Evaluate t and every column of the operands at these times [rows]; free the grid in any case. */
 QDOT_MUST_CHECK qdot_status qdot_grid_fill(qdot_grid *g, const qdot_operands *list, size_t rows,
                                            const double *times);
 void qdot_grid_free(qdot_grid *g);
-/* To a file by its ending; path NULL: as an answer. run: that of all columns, or NULL. */
+/* Write the columns to a file, in the form of its ending; path NULL: as an answer. run: the run of
+ * all columns, or NULL. */
 QDOT_MUST_CHECK qdot_status qdot_grid_write(qdot_session *session, qdot_grid *g, qdot_run *run,
                                             const char *path);
 

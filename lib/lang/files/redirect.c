@@ -57,7 +57,7 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
     return end - 2;
 }
 
-/* File endings of figures and of tables, to which a formula cannot be written. */
+/* Fail if formulas cannot be written to a file of this ending, as that of a figure or table. */
 static qdot_status
 redirect_refuse(const char *path, const char *ending)
 {

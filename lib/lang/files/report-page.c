@@ -39,7 +39,7 @@ typedef struct {
     qdot_text page;
 } page;
 
-/* --- sections ----------------------------------------------------------------------- */
+/* --- sections of the page ----------------------------------------------------------- */
 
 static qdot_status
 add_answer(page *p, const char *title, const qdot_statement *statement)
@@ -128,9 +128,9 @@ write_sections(page *p)
     return add_script(p);
 }
 
-/* --- the statement ------------------------------------------------------------------ */
+/* --- the statement `report` --------------------------------------------------------- */
 
-/* No more runs are named than a page compares. */
+/* Fail if more runs are named than one page can compare. */
 static qdot_status
 check_number(qdot_record *r)
 {
@@ -145,7 +145,7 @@ check_number(qdot_record *r)
     return QDOT_OK;
 }
 
-/* The runs named, or the latest; none without a name is no failure. */
+/* Find the runs that are named, otherwise the latest one; it is no failure if there is none. */
 static qdot_status
 find_runs(qdot_record *r, page *p)
 {

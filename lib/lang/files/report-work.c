@@ -84,7 +84,7 @@ add_figure(const qdot_workprecision *w, qdot_text *page)
     return status;
 }
 
-/* The conditions of a run; if it failed or was interrupted, up to the time that it reached. */
+/* Take the conditions of a run; if it failed or was interrupted, up to the time that it reached. */
 static qdot_status
 take_conditions(qdot_session *session, const qdot_named_run *run, qdot_conditions *c)
 {
@@ -98,7 +98,7 @@ take_conditions(qdot_session *session, const qdot_named_run *run, qdot_condition
     return qdot_pool_check(session->pool);
 }
 
-/* The study under these conditions, which are taken over; *known: it existed. Borrowed. */
+/* Find the study under these conditions, which it takes over; *known: it was made before. Borrowed. */
 static qdot_status
 find_study(qdot_session *session, qdot_conditions *c, bool *known,
            const qdot_workprecision **study)

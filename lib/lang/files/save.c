@@ -1,4 +1,4 @@
-/* save.c -- the statement `save`: a run whole, the rows of many runs, the session, or what was typed. */
+/* save.c -- the statement `save`: writes a run, the rows of many runs, the session or the history to a file. */
 #include <string.h>
 
 #include "expr/symbol.h"
@@ -39,7 +39,7 @@ push_symbol(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operand
     return status;
 }
 
-/* Every coordinate, velocity and multiplier of the run as operands. */
+/* Append every coordinate, velocity and multiplier of the run as an operand. */
 static qdot_status
 whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
 {
@@ -56,7 +56,7 @@ whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
     return QDOT_OK;
 }
 
-/* A run with `digits`: its steps, the last the end as the run has it. */
+/* Save the steps of a run with `digits`; the last row is the end of the run. */
 static qdot_status
 exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
            const double *times, const char *path)
@@ -78,7 +78,7 @@ exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size
     return status;
 }
 
-/* Both sides of events: the earlier of two rows of one time has the state before it. */
+/* Fill the rows at events: of two rows with the same time the first has the state before the event. */
 static qdot_status
 fill_before_events(qdot_run *run, const qdot_operands *list, qdot_grid *g)
 {
@@ -92,7 +92,7 @@ fill_before_events(qdot_run *run, const qdot_operands *list, qdot_grid *g)
     return QDOT_OK;
 }
 
-/* To the file behind `to`: t, q, q' and multipliers at each step. */
+/* Write a run to the file behind `to`: t, q, q' and multipliers at each step. */
 static qdot_status
 save_run(qdot_record *r, qdot_run *run, const char *path)
 {

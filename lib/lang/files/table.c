@@ -84,7 +84,7 @@ only_run(const qdot_operands *list)
     return list->at[0].run;
 }
 
-/* What all the runs cover, in the direction of the first. */
+/* Find the time span that all the runs cover, in the direction of the first run. */
 static qdot_status
 common_span(const qdot_operands *list, double *from, double *to)
 {
@@ -107,7 +107,7 @@ common_span(const qdot_operands *list, double *from, double *to)
     return QDOT_OK;
 }
 
-/* The times t0, t0 + step, ... up to t1; if the runs go back in time they decrease. */
+/* Make the times t0, t0 + step, ... up to t1; they decrease if the runs go back in time. */
 static qdot_status
 ladder(const qdot_operands *list, double step, double **times, size_t *n)
 {
@@ -132,7 +132,7 @@ ladder(const qdot_operands *list, double step, double **times, size_t *n)
     return QDOT_OK;
 }
 
-/* The step behind `every`, and the file, NULL: none. */
+/* Read the step after `every`, and the path after `to`; NULL if there is no file. */
 static qdot_status
 table_find_options(qdot_record *r, qdot_expr *step, const char **path)
 {
@@ -146,7 +146,7 @@ table_find_options(qdot_record *r, qdot_expr *step, const char **path)
     return qdot_data_file_check(*path);
 }
 
-/* A table of runs with `digits`: its times are exact, counted from the first one. */
+/* Make a table of runs with `digits`; its times are exact, counted from the first one. */
 static qdot_status
 exact_table(qdot_session *session, const qdot_operands *list, const double *times,
             qdot_expr step, size_t rows, const char *path)
@@ -169,7 +169,7 @@ exact_table(qdot_session *session, const qdot_operands *list, const double *time
     return status;
 }
 
-/* A table along runs. */
+/* Answer or write a table of values along runs. */
 static qdot_status
 table_along(qdot_record *r)
 {

@@ -34,9 +34,9 @@ qdot_algebra_give_short(qdot_session *s, qdot_expr result, qdot_expr *value)
     return qdot_value_kind_give(s->pool, result, value);
 }
 
-/* --- derivatives --------------------------------------------------------------------- */
+/* --- derivatives: diff, ddt ---------------------------------------------------------- */
 
-/* Whether e changes only because coordinates move: it contains no explicit t and nothing else that moves. */
+/* Whether e depends on time only through coordinates: no explicit t, nothing else that moves. */
 static bool
 is_carried(const qdot_pool *pool, qdot_expr e)
 {
@@ -49,7 +49,7 @@ is_carried(const qdot_pool *pool, qdot_expr e)
                       QDOT_HAS_TIME));
 }
 
-/* Notice for diff(e, t) if e contains t only through coordinates: it is 0, and ddt was probably meant. */
+/* Give a notice for diff(e, t) = 0 where e contains t only through coordinates: ddt was probably meant. */
 static qdot_status
 tell_partial(qdot_session *session, qdot_expr e)
 {
@@ -115,7 +115,7 @@ qdot_algebra_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *
         s, qdot_ddt(s->pool, qdot_momenta_to_velocities(s, args[0])), value);
 }
 
-/* --- sides of equations, forms ------------------------------------------------------- */
+/* --- sides of equations; rewriting --------------------------------------------------- */
 
 typedef enum { LEFT, RIGHT, DIFFERENCE } side;
 
@@ -128,9 +128,9 @@ equation_side(qdot_pool *pool, qdot_expr equation, side which)
     return which == LEFT ? left : which == RIGHT ? right : qdot_sub(pool, left, right);
 }
 
-/* One side of an equation, or of each equation in a list or vector. */
+/* Find one side of an equation, or of each equation in a list or vector. */
 static qdot_status
-sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *value)
+find_equation_sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *value)
 {
     qdot_pool *pool = s->pool;
     qdot_kind kind = qdot_expr_kind(pool, e);
@@ -163,7 +163,7 @@ sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *val
                                     qdot_expr *value)                                    \
     {                                                                                    \
         (void)n;                                                                         \
-        return sides(s, #word, args[0], which, value);                                   \
+        return find_equation_sides(s, #word, args[0], which, value);                                   \
     }
 SIDE(lhs, LEFT)
 SIDE(rhs, RIGHT)
@@ -202,7 +202,7 @@ qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args,
 static const uint32_t of_motion =
     QDOT_HAS_MOMENTUM | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 
-/* --- subs --------------------------------------------------------------------------- */
+/* --- replacements: subs ------------------------------------------------------------- */
 
 qdot_status
 qdot_algebra_gather(qdot_session *s, const char *name, const char *usage, qdot_expr e,
@@ -255,7 +255,7 @@ qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
     return status;
 }
 
-/* --- factor, eigenvalues ----------------------------------------------------- */
+/* --- factorisation, eigenvalues ---------------------------------------------- */
 
 qdot_status
 qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -264,7 +264,7 @@ qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
 }
 
-/* All roots of det(M - x 1), repeated by multiplicity. */
+/* Find all roots of det(M - x 1), repeated by multiplicity. */
 static qdot_status
 roots_of(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *value)
 {

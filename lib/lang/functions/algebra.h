@@ -28,7 +28,7 @@ QDOT_MUST_CHECK qdot_status qdot_algebra_give_short(qdot_session *s, qdot_expr r
 
 #define QDOT_ALGEBRA_SUBS "subs(e, x = a, y = b)"
 
-/* x = a, y = b as replacements; the arrays are the caller's to drop. */
+/* Replacements x = a, y = b; the caller frees the arrays. */
 typedef struct {
     qdot_vec(qdot_expr) from, to;
 } qdot_replacements;

@@ -27,7 +27,7 @@
 #include "mech/study/geometry.h"
 #include "mech/study/hamilton.h"
 
-/* --- elementary functions ----------------------------------------------------------- */
+/* --- calls of elementary functions -------------------------------------------------- */
 
 static qdot_expr
 elementary_of(qdot_pool *pool, qdot_expr scalar, void *user)
@@ -39,8 +39,8 @@ elementary_of(qdot_pool *pool, qdot_expr scalar, void *user)
  * or vector are those of its members, of one number that moves those of its run, or
  * of the latest. */
 static qdot_status
-elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
-           qdot_expr *value)
+apply_elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
+                 qdot_expr *value)
 {
     qdot_kind kind = qdot_expr_kind(s->pool, args[0]);
     qdot_expr *members;
@@ -69,7 +69,7 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
     for (uint32_t i = 0; i < count; i++)
         members[i] = qdot_expr_arg(s->pool, args[0], i);
     qdot_status status = count == 1 ? qdot_value_kind_give(s->pool, members[0], value)
-                                    : elementary(s, id, count, members, value);
+                                    : apply_elementary(s, id, count, members, value);
     qdot_free(members);
     return status;
 }
@@ -78,7 +78,7 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
     static qdot_status call_##ID(qdot_session *s, uint32_t n, const qdot_expr *args,     \
                                  qdot_expr *value)                                       \
     {                                                                                    \
-        return elementary(s, QDOT_##ID, n, args, value);                                 \
+        return apply_elementary(s, QDOT_##ID, n, args, value);                                 \
     }
 #include "expr/function.def"
 #undef X
@@ -98,7 +98,7 @@ call_sqrt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
                                 value);
 }
 
-/* --- forms -------------------------------------------------------------------------- */
+/* --- size and LaTeX text of an expression ------------------------------------------- */
 
 static qdot_status
 call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -110,7 +110,7 @@ call_size(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
         s->pool, qdot_expr_int(s->pool, size > LONG_MAX ? LONG_MAX : (long)size), value);
 }
 
-/* The LaTeX text of an expression; for a list a list of texts. */
+/* Find the LaTeX text of an expression; for a list a list of texts. */
 static qdot_status
 call_latex(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
@@ -173,7 +173,7 @@ place_check(qdot_session *s, const char *name, qdot_expr R)
                      qdot_value_kind_words(s->pool, R));
 }
 
-/* --- rest ------------------------------------------------------------------------------ */
+/* --- stability of an equilibrium ------------------------------------------------------- */
 
 static qdot_status
 call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -268,7 +268,7 @@ over_place(qdot_session *s, uint32_t n, const qdot_expr *args)
     return qdot_mech_metric_coordinates(s->scene, args[n - 1]);
 }
 
-/* The label spelled by the symbol `carrier`: of a body, or of a particle if particles are allowed. */
+/* Find the label spelled by the symbol `carrier`: of a body, or of a particle if particles are allowed. */
 static qdot_status
 label_of(qdot_session *s, qdot_expr carrier, bool particles, const char **label)
 {
@@ -337,7 +337,7 @@ call_value(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     return qdot_along_value(s, NULL, n, args, value);
 }
 
-/* --- the table ---------------------------------------------------------------------- */
+/* --- the table of functions --------------------------------------------------------- */
 
 /* `sum` is evaluated by the parser's own form (lang/language/parse.c); this row is never called. */
 static qdot_status

@@ -23,7 +23,7 @@ qdot_entry_name(qdot_session *session, const char *name, uint32_t n,
     return qdot_text_status(member);
 }
 
-/* An index as a number from 1: an integer, or a coordinate if entries are indexed by coordinates. */
+/* Find an index as a number from 1: an integer, or a coordinate if entries are indexed by coordinates. */
 static qdot_status
 position(qdot_session *s, qdot_expr over, qdot_expr index, long *i)
 {

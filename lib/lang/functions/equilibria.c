@@ -47,7 +47,7 @@ qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e)
                                                      qdot_expr_args(pool, e->range));
 }
 
-/* The equations in a LIST, without the inequalities that describe a band. */
+/* A LIST of the equations in `list`, without the inequalities that describe a band. */
 static qdot_expr
 equations_of(qdot_pool *pool, qdot_expr list)
 {
@@ -76,7 +76,7 @@ qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_exp
     return qdot_pool_check(session->pool);
 }
 
-/* The conditions with the session's values inserted. */
+/* The conditions for the equilibrium, with the session's values inserted. */
 static qdot_expr
 exists_now(qdot_session *session, qdot_expr exists)
 {
@@ -186,7 +186,7 @@ is_numeric(qdot_session *session, qdot_expr equations)
     return false;
 }
 
-/* --- modes --------------------------------------------------------------------------------- */
+/* --- normal modes -------------------------------------------------------------------------- */
 
 static qdot_status
 none_to_swing_about(const qdot_equilibria *all)

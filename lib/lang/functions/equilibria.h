@@ -9,7 +9,7 @@
 /* As qdot_equilibrium_find, with the values of `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,
                                                  qdot_equilibria *out);
-/* The LIST of all equilibria, each a LIST of equations; that of a band also contains its range. */
+/* Make the LIST of all equilibria, each a LIST of equations; that of a band also contains its range. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
                                                  const qdot_equilibria *all,
                                                  qdot_expr *value);
@@ -17,7 +17,8 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
 qdot_expr qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e);
 /* When equilibrium k is used as a value: notice of its conditions, unless the session's values satisfy them. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e);
-/* The stability of one equilibrium, given as a LIST of equations: a word, or if(CONDITION, word, undecided). */
+/* Find the stability of one equilibrium, given as a LIST of equations: a word, or if(CONDITION,
+ * word, undecided). */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,
                                                       qdot_expr equations,
                                                       qdot_expr *value);

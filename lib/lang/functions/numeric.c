@@ -1,4 +1,4 @@
-/* numeric.c -- the numbers of constants, with their errors. */
+/* numeric.c -- evaluates constant expressions as numbers, with their errors. */
 #include "lang/functions/numeric.h"
 
 #include "expr/constant.h"
@@ -20,9 +20,9 @@ typedef struct {
     qdot_status status;
 } order;
 
-/* A constant as a number with its error. */
+/* Evaluate a constant as a number with its error. */
 static qdot_status
-number(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
+evaluate_number(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 {
     *m = (qdot_measured){.digits = o->digits, .plain = o->plain};
     QDOT_TRY(qdot_decimal(session->pool, e, o->digits, &m->exact, &m->error));
@@ -38,12 +38,12 @@ shortened(qdot_session *session, qdot_expr e, const order *o, qdot_measured *m)
 
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_session_number(session, e, &m->value, &error));
-    QDOT_TRY(number(session, exact, o, m));
+    QDOT_TRY(evaluate_number(session, exact, o, m));
     m->error += error;
     return QDOT_OK;
 }
 
-/* --- the function -------------------------------------------------------------------- */
+/* --- the function `numeric` ---------------------------------------------------------- */
 
 /* Whether e is a number, or a vector or list of numbers only, without nested lists or equations. */
 static bool
@@ -67,7 +67,7 @@ numbered(qdot_pool *pool, qdot_expr e, void *user)
     if (o->status != QDOT_OK || (o->plain && qdot_measured_occurs(o->session, e)))
         return e;
     o->status = qdot_measured_occurs(o->session, e) ? shortened(o->session, e, o, &m)
-                                                    : number(o->session, e, o, &m);
+                                                    : evaluate_number(o->session, e, o, &m);
     return o->status == QDOT_OK ? qdot_measured_add(o->session, m) : e;
 }
 

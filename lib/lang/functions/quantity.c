@@ -17,7 +17,7 @@
 #include "mech/study/noether.h"
 #include "mech/study/reactions.h"
 
-/* --- what a quantity asks of the scene ---------------------------------------------- */
+/* --- checks before a quantity is evaluated ------------------------------------------ */
 
 static qdot_status
 need_motion(const qdot_session *s)
@@ -50,7 +50,7 @@ coordinate(qdot_session *s, const char *name, qdot_expr index)
     return qdot_fail(QDOT_ETYPE, "%s[ ] takes a coordinate", name);
 }
 
-/* --- energies, and what else is one expression of the scene --------------------------- */
+/* --- energies and other single expressions of the scene ------------------------------- */
 
 static qdot_expr
 cyclic_routhian(qdot_scene *s)
@@ -85,7 +85,7 @@ get_V(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     return qdot_value_kind_give(s->pool, qdot_mech_potential(s->scene), value);
 }
 
-/* --- geometry: one value a particle, or body where there is no particle ------------- */
+/* --- geometry: one value for each particle (for each body if there are no particles) --- */
 
 static qdot_status
 each_position(qdot_session *s, qdot_expr (*of)(qdot_scene *, qdot_expr), qdot_expr *value)
@@ -140,7 +140,7 @@ get_mass_matrix(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *
 
 /* --- momenta, forces, equations ----------------------------------------------------- */
 
-/* Define a getter: name gives the LIST for all coordinates, name[q] the value for one. */
+/* Define the getter of a quantity: its name gives the LIST for all coordinates, name[q] the value for one. */
 #define BY_COORDINATE(word, all, one)                                                    \
     static qdot_status get_##word(qdot_session *s, uint32_t n, const qdot_expr *index,   \
                                   qdot_expr *value)                                      \
@@ -178,7 +178,7 @@ get_delta(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
                                 value);
 }
 
-/* --- multipliers -------------------------------------------------------------------- */
+/* --- multipliers of constraints ----------------------------------------------------- */
 
 /* Nothing is called `name`, "rod, 2": the constraint before the comma, if there is one, has
  * fewer components. */
@@ -204,7 +204,7 @@ no_component(qdot_session *s, const char *name)
                      (int)length, name, components, name);
 }
 
-/* lambda[rod], lambda[pin, 1], lambda[2] of a constraint without label. */
+/* Evaluate lambda[rod], lambda[pin, 1], or lambda[2] for a constraint without a label. */
 static qdot_status
 get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
@@ -244,7 +244,7 @@ get_lambda(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
     return status;
 }
 
-/* --- counting ----------------------------------------------------------------------- */
+/* --- cyclic coordinates, degrees of freedom ----------------------------------------- */
 
 /* List each cyclic coordinate with its momentum, p[phi] = dL/dphi'. */
 static qdot_status
@@ -272,7 +272,7 @@ get_cyclic(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value
     return qdot_value_kind_check(s->pool, *value);
 }
 
-/* The number of degrees of freedom. */
+/* Find the number of degrees of freedom. */
 static qdot_status
 get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
@@ -284,7 +284,7 @@ get_dof(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
                                 value);
 }
 
-/* --- rest and what is near it ------------------------------------------------------- */
+/* --- equilibria, stability, modes --------------------------------------------------- */
 
 static qdot_status
 get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -319,7 +319,7 @@ VERDICT(to_first_order, QDOT_STABLE_TO_FIRST_ORDER)
 VERDICT(undecided, QDOT_STABILITY_UNDECIDED)
 #undef VERDICT
 
-/* The frequencies; modes[k, x]: an amplitude. */
+/* Find the frequencies of the modes; modes[k, x]: the amplitude of x in mode k. */
 static qdot_status
 get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
 {
@@ -347,7 +347,7 @@ get_modes(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
     return status == QDOT_OK ? qdot_value_kind_check(s->pool, *value) : status;
 }
 
-/* --- constraints -------------------------------------------------------------------- */
+/* --- reactions of constraints ------------------------------------------------------- */
 
 static qdot_status
 get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *value)
@@ -360,7 +360,7 @@ get_reactions(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *va
     return qdot_hint("constraint rod: x^2 + y^2 = L^2");
 }
 
-/* --- what members of a list are called ---------------------------------------------- */
+/* --- names of list members ---------------------------------------------------------- */
 
 static qdot_expr
 momentum_symbol(qdot_pool *pool, qdot_expr q)
@@ -388,7 +388,7 @@ force_symbol(qdot_pool *pool, qdot_expr q)
     return symbol;
 }
 
-/* --- the table ---------------------------------------------------------------------- */
+/* --- the table of quantities -------------------------------------------------------- */
 
 static const qdot_quantity rows[] = {
     {"T", 0, 0, get_T, "T", "kinetic energy (also `kinetic`)", "T", false, NULL},

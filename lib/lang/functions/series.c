@@ -42,7 +42,7 @@ series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long 
     return status;
 }
 
-/* series(e, x = a, y = b, n); for a list member by member. */
+/* Evaluate series(e, x = a, y = b, n); a list member by member. */
 qdot_status
 qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {

@@ -1,4 +1,4 @@
-/* short-names.c -- in a declaration L, T, V are the scene's quantities: hints, since few users mean these. */
+/* short-names.c -- gives hints where a declaration uses L, T or V, which are quantities of the scene. */
 #include "lang/functions/short-names.h"
 
 #include <string.h>
@@ -45,7 +45,7 @@ qdot_short_names_forget(qdot_session *session)
 
 /* If a declaration failed after a short name was read as a quantity, explain that in the hint. */
 static qdot_status
-explain(const qdot_session *session, qdot_status status)
+explain_short_name(const qdot_session *session, qdot_status status)
 {
     if (session->evaluation->taken == NULL || qdot_last_error()->status != status ||
         qdot_last_error()->hint[0] != '\0')
@@ -59,7 +59,7 @@ qdot_short_names_tell(qdot_session *session, qdot_status status)
     const char *name = session->evaluation->taken;
 
     if (status != QDOT_OK)
-        return explain(session, status);
+        return explain_short_name(session, status);
     if (name == NULL)
         return QDOT_OK;
     return qdot_answer_notice_once(session,

@@ -54,7 +54,7 @@ qdot_solve_notice_conditions(qdot_session *session, qdot_expr solution, qdot_exp
     return status;
 }
 
-/* u != 0 for 0 < |u|. */
+/* The relation u != 0 if the given relation is 0 < |u|; otherwise the given one. */
 static qdot_expr
 relation_value(qdot_pool *pool, qdot_expr relation)
 {
@@ -89,9 +89,9 @@ qdot_solve_root_value(qdot_session *session, qdot_expr x, const qdot_root *root,
     return qdot_pool_check(pool);
 }
 
-/* --- special values ----------------------------------------------------------------------------------- */
+/* --- special values of parameters --------------------------------------------------------------------- */
 
-/* `for a = 0 and b = 1: x = V when C, x = W`. */
+/* Notice `for a = 0 and b = 1: x = V when C, x = W`, the solutions at special parameter values. */
 static qdot_status
 notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
 {

@@ -13,7 +13,7 @@
 #include "lang/session/parts.h"
 #include "normal/solve/solve-special.h"
 
-/* Notices of the solutions at special parameter values, and of values where these are not known. */
+/* Give notices of the solutions at special parameter values, and of values where these are not known. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qdot_expr x,
                                                        const qdot_specials *specials);
 
@@ -23,7 +23,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_e
 /* Notice `WORDS C and D` for conditions that concern all solutions; nothing if nil. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
 
-/* A root as a value: x, or relations that say which x are roots; with a notice of its conditions. */
+/* Give a root as a value: x, or relations that say which x are roots; with a notice of its conditions. */
 QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_session *session, qdot_expr x,
                                                   const qdot_root *root, qdot_expr *value);
 

@@ -1,4 +1,4 @@
-/* solve-numbers.c -- zeros in numbers, with the values of a session. */
+/* solve-numbers.c -- finds zeros numerically, with the session's values of parameters. */
 #include "lang/functions/solve-numbers.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ typedef struct {
     bool measured;              /* there are such */
 } question;
 
-/* --- the question ------------------------------------------------------------------------------------ */
+/* --- equations, unknowns and values ------------------------------------------------------------------ */
 
 static qdot_status
 question_add_unknown(question *q, qdot_expr x)
@@ -103,7 +103,7 @@ set_equation(question *q, size_t i, qdot_expr e)
     return need_values(q, q->F[i]);
 }
 
-/* The exact constant that e becomes with the session's values. */
+/* Find the exact constant that e becomes with the session's values. */
 static qdot_status
 constant_of(const question *q, qdot_expr e, qdot_expr *value)
 {
@@ -119,9 +119,9 @@ constant_of(const question *q, qdot_expr e, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* --- errors ---------------------------------------------------------------------------------------------- */
+/* --- numbers with errors --------------------------------------------------------------------------------- */
 
-/* The error of the zero z caused by errors of run results in the equations: |f'^-1| df, into error [n]. */
+/* Find the error of the zero z caused by errors of run results in the equations: |f'^-1| df, into error [n]. */
 static qdot_status
 add_errors(const question *q, const double *z, double *error)
 {
@@ -178,7 +178,7 @@ is_exact(const question *q, const double *z, bool *exact)
     return qdot_pool_check(pool);
 }
 
-/* The k-th zero as numbers with errors. */
+/* Find the k-th zero as numbers with errors. */
 static qdot_status
 numbers_of(const question *q, const qdot_zeros *z, size_t k, qdot_expr *numbers)
 {
@@ -251,13 +251,13 @@ tell_doubts(const question *q, const qdot_zeros *z)
     return QDOT_OK;
 }
 
-/* --- the domain of what was written ---------------------------------------------------------------------- */
+/* --- zeros at which the equation is defined -------------------------------------------------------------- */
 
 /* Whether the zero z fulfils a < b or a <= b: 1 yes, 0 no, -1 not decided. What depends on what has no value is not
  * asked. */
 static qdot_status
-fulfils(const question *q, qdot_expr relation, const double *z, const double *radius,
-        int *yes)
+zero_fulfils(const question *q, qdot_expr relation, const double *z, const double *radius,
+             int *yes)
 {
     qdot_pool *pool = q->session->pool;
     bool open = qdot_expr_node(pool, relation)->op == QDOT_LT, exact = false;
@@ -314,8 +314,8 @@ keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
         int yes = 1, one;
 
         for (uint32_t i = 0; i < n && yes != 0; i++) {
-            QDOT_TRY(fulfils(q, qdot_expr_arg(q->session->pool, domain, i),
-                             zeros->at + k * q->n, zeros->radius + k * q->n, &one));
+            QDOT_TRY(zero_fulfils(q, qdot_expr_arg(q->session->pool, domain, i),
+                                  zeros->at + k * q->n, zeros->radius + k * q->n, &one));
             yes = one < yes ? one : yes;
         }
         if (yes < 0)
@@ -338,14 +338,14 @@ keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
 
 /* --- over a range ----------------------------------------------------------------------------------------- */
 
-/* A constant as a double. */
+/* Evaluate a constant as a double. */
 static qdot_status
 double_of(const question *q, qdot_expr e, double *x)
 {
     return qdot_session_number(q->session, e, x, NULL);
 }
 
-/* One end of the range, or of the declared domain of x if that is narrower. */
+/* Find one end of the range, or of the declared domain of x if that is narrower. */
 static qdot_status
 narrow_end(const question *q, qdot_expr declared, bool open, bool upper, qdot_expr *end,
            bool *end_open)
@@ -381,7 +381,7 @@ find_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range,
     return status;
 }
 
-/* An exact solution as a number with its error. */
+/* Evaluate an exact solution as a number with its error. */
 static qdot_status
 number_of_root(const question *q, qdot_expr root, qdot_expr *number)
 {
@@ -393,7 +393,7 @@ number_of_root(const question *q, qdot_expr root, qdot_expr *number)
     return numbers_of(q, &one, 0, number);
 }
 
-/* A range of x with conditions in the internal symbol, converted to relations in the unknown's name. */
+/* Write a range of x with conditions in the internal symbol, converted to relations in the unknown's name. */
 static qdot_status
 value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
 {
@@ -508,7 +508,7 @@ qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_ex
 
 /* --- over the whole domain -------------------------------------------------------------------------------- */
 
-/* An end of the search window as a constant; *known: it is constant, or the window has no such end. */
+/* Find one end of the search window as a constant; *known: it is constant, or the window has no such end. */
 static qdot_status
 bind_end(const question *q, qdot_expr end, qdot_expr *constant, bool *known)
 {
@@ -560,7 +560,7 @@ qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domai
     return status;
 }
 
-/* The zeros as a LIST of LISTs u = number, and as numbers. */
+/* Make the zeros a LIST of LISTs u = number, and an array of numbers. */
 static qdot_status
 list_points(const question *q, const qdot_zeros *zeros, qdot_expr *list, double *at)
 {
@@ -627,7 +627,7 @@ qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_e
     return status;
 }
 
-/* --- from a guess ------------------------------------------------------------------------------------------ */
+/* --- solutions near a guess --------------------------------------------------------------------------------- */
 
 qdot_status
 qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,

@@ -17,7 +17,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_range(qdot_session *session, qdot_expr eq
                                              qdot_expr x, qdot_expr domain,
                                              const qdot_expr *ends, qdot_expr *value);
 
-/* solve(equation, x = guess): a number; of [n] equations, `list`: a LIST. */
+/* Evaluate solve(equation, x = guess): a number; of [n] equations, or with `list`: a LIST of numbers. */
 QDOT_MUST_CHECK qdot_status qdot_solve_near(qdot_session *session, uint32_t n,
                                             const qdot_expr *equations,
                                             const qdot_expr *unknowns, qdot_expr domain,

@@ -28,7 +28,7 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS };
 
-/* --- the question ------------------------------------------------------------------------------------ */
+/* --- reading equations and unknowns ------------------------------------------------------------------ */
 
 typedef struct {
     qdot_session *session;
@@ -203,7 +203,7 @@ solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where,
     return status;
 }
 
-/* --- the answer ----------------------------------------------------------------------------------------- */
+/* --- the answer of solve -------------------------------------------------------------------------------- */
 
 /* Notice `y may have any value of its domain in [x = y]`, for an unknown absent from the solution
  * and its conditions. */
@@ -367,7 +367,7 @@ qdot_solve_system(qdot_session *session, qdot_expr equations, qdot_expr unknowns
     return status;
 }
 
-/* --- from a guess ----------------------------------------------------------------------------------------- */
+/* --- solutions near a guess ----------------------------------------------------------------------------------------- */
 
 qdot_status
 qdot_solve_system_near(qdot_session *session, qdot_expr equations, qdot_expr guesses,

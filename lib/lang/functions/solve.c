@@ -74,7 +74,7 @@ read_written(qdot_session *session, qdot_written *w)
     return qdot_pool_check(pool);
 }
 
-/* --- one unknown ------------------------------------------------------------------------------------- */
+/* --- an equation in one unknown ---------------------------------------------------------------------- */
 
 /* A list of solutions in the making. */
 typedef struct {
@@ -206,7 +206,7 @@ notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_wr
     return status;
 }
 
-/* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
+/* Evaluate solve(a = b, x), or solve(e, x) for e = 0: the list of values of x. */
 static qdot_status
 one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *value)
 {
@@ -281,7 +281,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     return status == QDOT_OK ? qdot_value_kind_check(pool, *value) : status;
 }
 
-/* --- the function ------------------------------------------------------------------------------------ */
+/* --- the call of solve ------------------------------------------------------------------------------- */
 
 qdot_status
 qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,

@@ -7,7 +7,8 @@
 
 #include "expr/id.h"
 
-/* The relation a op b for op == < <= > >=. QDOT_ETYPE: an inequality between values that are not numbers. */
+/* Make the relation a op b for op == < <= > >=. QDOT_ETYPE: an inequality between values that are
+ * not numbers. */
 QDOT_MUST_CHECK qdot_status qdot_condition_relation(qdot_pool *pool, const char *op, qdot_expr a,
                                                     qdot_expr b, qdot_expr *value);
 /* Whether e is a relation, a logical combination of relations, or a truth value. */

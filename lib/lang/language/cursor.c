@@ -224,7 +224,7 @@ found(const char *what, const qdot_token *t)
     return qdot_fail(QDOT_ESYNTAX, "expected %s, found `%.*s`", what, 100, t->text);
 }
 
-/* A hint at the nearest of the words that `what` lists in backquotes. */
+/* Give a hint at the nearest of the words that `what` lists in backquotes. */
 static qdot_status
 hint_word(const char *what, const char *name)
 {

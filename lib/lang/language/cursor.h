@@ -1,4 +1,4 @@
-/* cursor.h -- a cursor over a statement's tokens. */
+/* cursor.h -- a reading position in the tokens of a statement. */
 #ifndef QDOT_LANG_CURSOR_H
 #define QDOT_LANG_CURSOR_H
 

@@ -22,7 +22,7 @@
 
 /* --- sums and products -------------------------------------------------------------- */
 
-/* The operand after `sign`: b of a - b is negated, b of a/b is left for the product. */
+/* Prepare the right operand of `sign` on the stack: b of a - b is negated; b of a/b stays as it is. */
 static qdot_status
 term(qdot_machine *m, const qdot_token *sign)
 {
@@ -88,7 +88,7 @@ product(qdot_machine *m, size_t n)
     return qdot_machine_push(m, at_once ? qdot_product(m->pool, n, m->args.at) : value);
 }
 
-/* --- logic -------------------------------------------------------------------------- */
+/* --- and, or, not ------------------------------------------------------------------- */
 
 static qdot_status
 logic(qdot_machine *m, qdot_logic_op op, size_t n)
@@ -167,7 +167,8 @@ put_along(qdot_machine *m, const char *run)
     return QDOT_OK;
 }
 
-/* The run along which the top n values are read: the one they name, or `a` in a.value(x, 2), a.max(x, 0..1). */
+/* Find the run along which the top n values are read: the one they name, or `a` in a.value(x, 2),
+ * a.max(x, 0..1). */
 static qdot_status
 run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **run)
 {
@@ -215,7 +216,7 @@ is_extremum(qdot_machine *m, const qdot_postfix *code)
            !qdot_resolve_is_function(m->session, code->token->text);
 }
 
-/* Assign the run around the call to its operand. */
+/* Give the operand of the call the run that surrounds the call. */
 static qdot_status
 extremum_along(qdot_machine *m, const qdot_postfix *code)
 {
@@ -395,7 +396,7 @@ member(qdot_machine *m, const char *run)
     return put_along(m, run);
 }
 
-/* --- the loop ----------------------------------------------------------------------- */
+/* --- running a program -------------------------------------------------------------- */
 
 static qdot_status
 step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)

@@ -11,7 +11,7 @@
 #include "lang/session/names.h"
 #include "lang/source/token.h"
 
-/* --- postfix code ------------------------------------------------------------------- */
+/* --- postfix code: parsing and evaluating ------------------------------------------- */
 
 typedef enum {
     QDOT_POSTFIX_NUMBER,     /* push the number of `token` */
@@ -78,7 +78,7 @@ QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_postfix_lis
 QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
                                                    const qdot_token **run);
 
-/* --- meaning ------------------------------------------------------------------------ */
+/* --- meaning of names and calls ----------------------------------------------------- */
 
 /* What a name with a subscript such as `x₁` may stand for if x1 is not declared: form 0 "x[1]",
  * form 1 "x_1". False: neither. */
@@ -93,7 +93,7 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_index(qdot_cursor *c, const qdot_token 
                                                const qdot_expr *index, qdot_expr *value);
 /* Fail with QDOT_ETYPE: `name` cannot have a prime. */
 qdot_status qdot_resolve_no_prime(const char *name, const char *why);
-/* x(args), x'(args) of an undefined function; primes are allowed only with one argument. */
+/* Evaluate x(args) or x'(args) of an undefined function; primes are allowed only with one argument. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
                                                    const qdot_name *entry, unsigned primes,
                                                    uint32_t n, const qdot_expr *args,

@@ -5,7 +5,7 @@
 
 #include "lang/language/pattern.h"
 
-enum { LONGEST = 400 }; /* tokens of a statement that are looked at */
+enum { LONGEST = 400 }; /* tokens of a statement that are compared with the patterns */
 
 typedef enum { WHOLE, BEGIN, PART } extent;
 

@@ -5,7 +5,7 @@
 #include "lang/language/cursor.h"
 #include "lang/source/token.h"
 
-/* `(a, b, c)`: the tokens [*n] of the names, owned by the caller. */
+/* Read `(a, b, c)`: the tokens [*n] of the names, owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c,
                                                     const qdot_token ***names, size_t *n);
 /* Arguments of a function while they hide outer names. */

@@ -14,7 +14,7 @@
 #include "lang/session/bind.h"
 #include "normal/calculus/closed-sum.h"
 
-/* Bind the next k, or finish the sum. */
+/* Bind the index k to its next value, or finish the sum. */
 static qdot_status
 sum_round(qdot_machine *m, uint32_t *pc, uint32_t body)
 {
@@ -85,7 +85,7 @@ qdot_forms_sum(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     return sum_round(m, pc, code->to);
 }
 
-/* The summand has been evaluated as a function of its index: sum it by formula. */
+/* Sum by formula, now that the summand has been evaluated as a function of its index. */
 static qdot_status
 sum_by_formula(qdot_machine *m, uint32_t *pc)
 {
@@ -164,7 +164,7 @@ qdot_forms_else(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     *pc = code->to;
 }
 
-/* Finish if(...) with an undecided condition; vectors of equal size component by component. */
+/* Finish if(...) with an undecided condition; for vectors of equal size, component by component. */
 qdot_status
 qdot_forms_end(qdot_machine *m)
 {

@@ -9,7 +9,7 @@ QDOT_MUST_CHECK qdot_status qdot_forms_sum(qdot_machine *m, const qdot_postfix *
 /* The summand has been evaluated: add it and go on. The SUM_BEGIN that began the sum stands before
  * frame.resume. */
 QDOT_MUST_CHECK qdot_status qdot_forms_sum_next(qdot_machine *m, uint32_t *pc);
-/* The failure of a sum with too many terms to be added one by one, for which no formula was found. */
+/* Report the failure of a sum with too many terms to be added one by one, for which no formula was found. */
 qdot_status qdot_forms_too_many_terms(const qdot_sum_frame *f, qdot_status status);
 QDOT_MUST_CHECK qdot_status qdot_forms_if(qdot_machine *m, const qdot_postfix *code,
                                           uint32_t *pc);

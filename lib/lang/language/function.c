@@ -39,7 +39,7 @@ is_captured(const qdot_function_body *body, const char *name)
 
 /* Store the present values of loop indices that the body mentions; the function keeps them. */
 static qdot_status
-capture(qdot_session *s, qdot_function_body *body, qdot_expr formals, qdot_expr *values)
+capture_loop_indices(qdot_session *s, qdot_function_body *body, qdot_expr formals, qdot_expr *values)
 {
     qdot_vec(qdot_expr) list = {0};
     qdot_status status = QDOT_OK;
@@ -88,7 +88,7 @@ enclose(qdot_session *s, const qdot_name *entry, const qdot_argument *args, size
     return status;
 }
 
-/* --- definitions -------------------------------------------------------------------- */
+/* --- reading definitions ------------------------------------------------------------ */
 
 /* Parse the body from the cursor to the end of the statement, and step over it. */
 static qdot_status
@@ -107,7 +107,7 @@ read_body(qdot_cursor *c, qdot_name *entry)
     QDOT_TRY(status);
     body->to = c->at;
     QDOT_TRY(qdot_cursor_expect_end(c));
-    return capture(c->session, body, entry->formals, &entry->value);
+    return capture_loop_indices(c->session, body, entry->formals, &entry->value);
 }
 
 qdot_status
@@ -127,7 +127,7 @@ qdot_function_read(qdot_cursor *c, qdot_name *entry)
     return entry->body != NULL ? read_body(c, entry) : QDOT_ENOMEM;
 }
 
-/* --- calls -------------------------------------------------------------------------- */
+/* --- calling functions -------------------------------------------------------------- */
 
 /* Add to the error where in the function's body it occurred; for nested calls the innermost. */
 static qdot_status
@@ -145,7 +145,7 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
     return error.hint[0] != '\0' ? qdot_hint("%s", error.hint) : status;
 }
 
-/* Parse and evaluate the body, with its arguments bound. */
+/* Parse the body and evaluate it; its arguments are bound to their values. */
 static qdot_status
 function_evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
 {
@@ -236,7 +236,7 @@ apply_to_members(mapping *m, qdot_expr list, qdot_expr *value)
     return status;
 }
 
-/* The body failed for a vector or list as a whole (see the last error): apply it to each member. */
+/* Apply the body to each member of a vector or list, as it failed for the whole (see the last error). */
 static qdot_status
 apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
 {
@@ -265,7 +265,7 @@ apply_to(mapping *m, const qdot_argument *arg, qdot_expr *value, qdot_expr *over
     return apply_inside(m, arg->value, value);
 }
 
-/* --- f'(a) -------------------------------------------------------------------------- */
+/* --- derivatives f'(a) -------------------------------------------------------------- */
 
 /* The derivative by the argument, at a scalar. The body is evaluated at a symbol and that
  * differentiated: right where the value at a is that at the symbol with a put in. It is not of

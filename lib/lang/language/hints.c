@@ -11,7 +11,7 @@
 #include "lang/session/labels.h"
 #include "lang/session/names.h"
 
-/* --- the nearest of everything known ------------------------------------------------ */
+/* --- the nearest of all known names ------------------------------------------------- */
 
 const char *
 qdot_hints_nearest(qdot_session *session, const char *name)
@@ -30,7 +30,7 @@ qdot_hints_nearest(qdot_session *session, const char *name)
     return nearest;
 }
 
-/* --- other systems' forms ----------------------------------------------------------- */
+/* --- syntax of other systems -------------------------------------------------------- */
 
 bool
 qdot_hints_is_foreign(const qdot_session *session, const char *name)
@@ -111,7 +111,7 @@ hint_derivative(const qdot_cursor *c, const char *name, bool sure)
 
 enum { LONGEST_NAME = 60, MOST_ARGUMENTS = 4, CLEAR = 5 /* letters */ };
 
-/* Hint `param NAME` or `coord NAME`; for a member x[3] the whole family up to it. */
+/* Give the hint `param NAME` or `coord NAME`; for a member x[3] with a loop over all members up to it. */
 static qdot_status
 hint_declaration(const qdot_token *token, const char *member, bool coordinate)
 {
@@ -165,10 +165,10 @@ hint_function(const qdot_token *token)
                      name, formals[n - 1], bodies[n - 1], name, formals[n - 1]);
 }
 
-/* --- the errors --------------------------------------------------------------------- */
+/* --- errors for unknown names ------------------------------------------------------- */
 
 static qdot_status
-unknown(qdot_cursor *c, const qdot_token *token, const char *member, bool coordinate)
+hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, bool coordinate)
 {
     const char *name = token->text, *nearest, *ours;
     char text[100];
@@ -207,13 +207,13 @@ unknown(qdot_cursor *c, const qdot_token *token, const char *member, bool coordi
 qdot_status
 qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
 {
-    return unknown(c, token, member, false);
+    return hint_unknown_name(c, token, member, false);
 }
 
 qdot_status
 qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member)
 {
-    return unknown(c, token, member, true);
+    return hint_unknown_name(c, token, member, true);
 }
 
 qdot_status

@@ -1,4 +1,4 @@
-/* machine.h -- the state of an expression's evaluation: the stack and unfinished sums. */
+/* machine.h -- the state while an expression is evaluated: the stack and unfinished sums. */
 #ifndef QDOT_LANG_MACHINE_H
 #define QDOT_LANG_MACHINE_H
 
@@ -27,7 +27,7 @@ typedef struct {
     qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
 } qdot_sum_frame;
 
-/* What a call with QDOT_BUILTIN_PASSED records while its arguments are evaluated. */
+/* The data that a call of a function of type QDOT_BUILTIN_PASSED records while its arguments are evaluated. */
 typedef struct qdot_passed_frame {
     qdot_passed passed;
     qdot_passed *outer; /* that of the session before */

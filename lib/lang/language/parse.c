@@ -13,7 +13,7 @@
 #include "lang/session/runs.h"
 #include "lang/source/lex.h"
 
-/* What waits on the parser's stack: operators by precedence, and open brackets. */
+/* Operators (by precedence) and open brackets that wait on the parser's stack. */
 typedef enum {
     OP_OR,
     OP_AND,
@@ -101,7 +101,7 @@ waiting_push(parser *p, waiting_kind kind, const qdot_token *token)
     return qdot_vec_push(&p->stack, w);
 }
 
-/* --- operators ---------------------------------------------------------------------- */
+/* --- waiting operators -------------------------------------------------------------- */
 
 /* Emit the operator on top, whose last operand is complete. */
 static qdot_status
@@ -185,9 +185,9 @@ binary(parser *p, waiting_kind kind, const qdot_token *token)
     return QDOT_OK;
 }
 
-/* --- operands ----------------------------------------------------------------------- */
+/* --- parsing operands --------------------------------------------------------------- */
 
-/* Step over the primes attached to what was just read; returns their number. */
+/* Skip the primes that follow what was just read; returns their number. */
 static unsigned
 primes(parser *p)
 {
@@ -200,7 +200,7 @@ primes(parser *p)
     return n;
 }
 
-/* A label, as an argument: NAME or NAME[...]. */
+/* Parse a label as an argument: NAME or NAME[...]. */
 static qdot_status
 parse_label(parser *p, const char *what)
 {
@@ -421,7 +421,7 @@ operand(parser *p)
     return qdot_cursor_expected(p->c, "an expression");
 }
 
-/* --- brackets ----------------------------------------------------------------------- */
+/* --- parsing brackets --------------------------------------------------------------- */
 
 static qdot_status
 usage(parser *p, const waiting *w)
@@ -433,7 +433,7 @@ usage(parser *p, const waiting *w)
     return fail_at(p, w->token, QDOT_ESYNTAX);
 }
 
-/* After the first comma of sum(EXPR, k, a, b): the index. */
+/* Parse the index k of sum(EXPR, k, a, b), after the first comma. */
 static qdot_status
 sum_index(parser *p, waiting *w)
 {
@@ -477,7 +477,7 @@ comma(parser *p)
     return QDOT_OK;
 }
 
-/* `;` in [a, b; c, d]. */
+/* Parse `;` in [a, b; c, d]: a row of the matrix is complete. */
 static qdot_status
 row(parser *p)
 {
@@ -578,7 +578,7 @@ takes_range(const char *word)
     return qdot_range_is_word(word) || (row != NULL && (row->flags & QDOT_BUILTIN_RANGE));
 }
 
-/* `a..b` among arguments: numbers over a range, of a run for some. */
+/* Parse `a..b` among the arguments of a call: a range of numbers, for some functions of times of a run. */
 static qdot_status
 argument_range(parser *p)
 {

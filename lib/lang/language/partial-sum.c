@@ -88,7 +88,7 @@ qdot_partial_sum_note(qdot_machine *m, const qdot_postfix *code)
         return;
     known = code->op == QDOT_POSTFIX_NAME ? qdot_names_find(m->session->names, code->token->text)
                                        : NULL;
-    /* mark all inner sums, out to the one that has this index */
+    /* mark all inner sums, out to the sum whose index this is */
     for (; i > 0 && !(known && known->kind == QDOT_NAME_INDEX
                       && strcmp(m->frames.at[i - 1].index, known->name) == 0);
          i--)

@@ -24,7 +24,7 @@ typedef struct qdot_partial_sum {
  * until the next is kept. */
 const qdot_partial_sum *qdot_partial_sum_find(const qdot_session *session,
                                               const qdot_token *place, long first, long last);
-/* Keep the sum, replacing a shorter one; only inside loops. QDOT_ENOMEM. */
+/* Store the sum for the next pass of a loop, in place of a shorter one; nothing outside of loops. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_partial_sum_keep(qdot_session *session, qdot_partial_sum sum);
 
 /* An instruction was carried out, its value on top: what the terms of the sums under way depend on

@@ -131,7 +131,7 @@ is_kind(const matcher *x, char kind, const qdot_token *t)
     }
 }
 
-/* Whether a token may occur in an expression outside of its brackets. */
+/* Whether a token may occur in an expression outside brackets. */
 static bool
 is_inner(const qdot_token *t)
 {
@@ -160,7 +160,7 @@ is_gap(const qdot_token *k)
     return true;
 }
 
-/* --- matching ------------------------------------------------------------------------- */
+/* --- matching a pattern --------------------------------------------------------------- */
 
 static bool match(matcher *x, const char *pattern, const qdot_token *t);
 
@@ -305,7 +305,7 @@ qdot_pattern_matches(const qdot_session *session, const char *pattern,
     return match(&x, pattern, from);
 }
 
-/* --- lines ---------------------------------------------------------------------------- */
+/* --- suggested lines ------------------------------------------------------------------ */
 
 /* Whether the tokens contain + or - between operands, outside of brackets. */
 static bool
@@ -346,7 +346,7 @@ add_held(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, bool strip
     qdot_text_add_n(out, text, length);
 }
 
-/* (0, -9.81): a field along the last axis, as the positions at hand have components. */
+/* Append a field such as (0, -9.81): along the last axis, with as many components as positions have. */
 static void
 add_field(const qdot_cursor *c, const qdot_pattern_match *m, size_t i, qdot_text *out)
 {

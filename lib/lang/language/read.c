@@ -1,4 +1,4 @@
-/* read.c -- the readers of statements: an operand of a kind, parsed and evaluated, at once or apart. */
+/* read.c -- reads operands of statements: parses an expression and evaluates it, at once or later. */
 #include "lang/language/read.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
 
-/* --- programs ------------------------------------------------------------------------ */
+/* --- parsed expressions, evaluated later --------------------------------------------- */
 
 qdot_status
 qdot_compiled_parse(qdot_cursor *c, qdot_parse_extent extent, qdot_compiled *program)
@@ -35,7 +35,7 @@ qdot_compiled_free(qdot_compiled *program)
     *program = (qdot_compiled){0};
 }
 
-/* Whether an expression may depend on the motion. */
+/* Whether an expression that is read may depend on the motion. */
 typedef enum { NOTHING, MOTION } course;
 
 /* Evaluate; along a motion a coordinate that a loop sets is still a variable, as the loop only sets
@@ -82,7 +82,7 @@ qdot_compiled_member(qdot_cursor *c, const qdot_compiled *program, qdot_expr *va
     return evaluate_program(c, program, MOTION, value, NULL, run);
 }
 
-/* Fail at `at`: a value of the wrong kind. */
+/* Fail at the token `at`: the value is not of the kind that is wanted. */
 static qdot_status
 wrong_kind(qdot_cursor *c, const qdot_token *at, const char *wanted, qdot_expr value)
 {
@@ -227,7 +227,7 @@ name_index_read(qdot_cursor *c, long *value)
 
 /* --- names -------------------------------------------------------------------------- */
 
-/* The indices after a name, [i, j]; the cursor is past `[`. */
+/* Read the indices [i, j] after a name; the cursor is past `[`. */
 static qdot_status
 read_indices(qdot_cursor *c, qdot_text *name)
 {

@@ -64,7 +64,7 @@ qdot_resolve_label(qdot_session *s, const char *name, uint32_t n, const qdot_exp
     return status;
 }
 
-/* --- primes ------------------------------------------------------------------------- */
+/* --- primes: time derivatives ------------------------------------------------------- */
 
 qdot_status
 qdot_resolve_no_prime(const char *name, const char *why)
@@ -109,9 +109,9 @@ qdot_resolve_undefined(qdot_session *s, const qdot_name *entry, unsigned primes,
     return qdot_value_kind_check(s->pool, *value);
 }
 
-/* Evaluate a declared or bound name with its primes. */
+/* Evaluate a name that is declared or bound, with `primes` primes. */
 static qdot_status
-named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value)
+resolve_declared(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value)
 {
     *value = entry->value;
     if (entry->kind == QDOT_NAME_FUNCTION) {
@@ -145,10 +145,10 @@ named(qdot_session *s, const qdot_name *entry, unsigned primes, qdot_expr *value
                         : "is no coordinate: a prime goes after a coordinate");
 }
 
-/* --- bare names --------------------------------------------------------------------- */
+/* --- names without index ------------------------------------------------------------ */
 
 static qdot_status
-reserved(const char *name, unsigned primes, bool *found, qdot_expr *value)
+resolve_reserved(const char *name, unsigned primes, bool *found, qdot_expr *value)
 {
     static const struct {
         const char *name;
@@ -166,7 +166,7 @@ reserved(const char *name, unsigned primes, bool *found, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* Evaluate dtheta, dtheta[1], dt; deltatheta, deltatheta[1]. */
+/* Evaluate a differential dtheta, dtheta[1] or dt, or a virtual displacement deltatheta, deltatheta[1]. */
 static qdot_status
 differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
 {
@@ -197,7 +197,7 @@ differential(qdot_session *s, const char *name, bool *found, qdot_expr *value)
     return QDOT_OK;
 }
 
-/* The position of a particle or body. */
+/* Evaluate the name of a particle or body: its position; with primes its velocity or acceleration. */
 static qdot_status
 labelled(qdot_session *s, const char *name, unsigned primes, bool *found,
          qdot_expr *value)
@@ -227,7 +227,7 @@ quantity(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
     return qdot_hint("write ddt(%s%s)", row->name, n > 0 ? "[...]" : "");
 }
 
-/* The coordinates by which the entries of a quantity are indexed; nil: by numbers only. */
+/* Find the coordinates by which the entries of a quantity are indexed; nil: by numbers only. */
 static qdot_status
 coordinates_of(qdot_session *s, const qdot_quantity *row, qdot_expr *over)
 {
@@ -267,7 +267,7 @@ member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
 
     *found = entry != NULL;
     if (entry != NULL)
-        return named(s, entry, primes, value);
+        return resolve_declared(s, entry, primes, value);
     QDOT_TRY(labelled(s, spelled, primes, found, value));
     if (*found)
         return QDOT_OK;
@@ -305,9 +305,9 @@ is_small(const qdot_source *source, const qdot_token *token)
     return false;
 }
 
-/* Evaluate x₁: x1 or, if that is not declared, x[1] or x_1. */
+/* Evaluate x₁: as x1; if that is not declared, as x[1] or x_1. */
 static qdot_status
-small(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdot_expr *value)
+resolve_subscript(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdot_expr *value)
 {
     qdot_text spelled = {0};
     qdot_status status = QDOT_OK;
@@ -360,15 +360,15 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
         entry = qdot_names_declared(s->names, name);
     if (entry != NULL) {
         if (entry->kind == QDOT_NAME_VALUE) {
-            QDOT_TRY(small(c, token, primes, &found, value));
+            QDOT_TRY(resolve_subscript(c, token, primes, &found, value));
             if (found)
                 return qdot_fail(QDOT_ENAME, "`%.200s`, or what is "
                                              "printed so?", name);
         }
         *over = entry->over;
-        return named(s, entry, primes, value);
+        return resolve_declared(s, entry, primes, value);
     }
-    QDOT_TRY(reserved(name, primes, &found, value));
+    QDOT_TRY(resolve_reserved(name, primes, &found, value));
     if (found)
         return QDOT_OK;
     QDOT_TRY(differential(s, name, &found, value));
@@ -385,7 +385,7 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     *value = argument_of(s, name);
     if (*value != QDOT_NIL)
         return primes > 0 ? qdot_resolve_no_prime(name, "is no coordinate") : QDOT_OK;
-    QDOT_TRY(small(c, token, primes, &found, value));
+    QDOT_TRY(resolve_subscript(c, token, primes, &found, value));
     if (found)
         return QDOT_OK;
     if (qdot_names_is_family(s->names, name)) {
@@ -401,9 +401,9 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     return qdot_hints_unknown(c, token, NULL);
 }
 
-/* --- name[...] ---------------------------------------------------------------------- */
+/* --- names with an index ------------------------------------------------------------ */
 
-/* Whether all are numbers, of parameters perhaps: no coordinates, no labels. */
+/* Whether all indices contain numbers and parameters only: no coordinates, no labels. */
 static bool
 all_integers(qdot_session *s, uint32_t n, const qdot_expr *index)
 {
@@ -493,7 +493,7 @@ beside_momenta(const qdot_cursor *c, const qdot_token *token)
     return false;
 }
 
-/* p[theta] as the independent variable of Hamilton's function. */
+/* Evaluate p[theta] as the independent variable of Hamilton's function. */
 static qdot_status
 independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
 {

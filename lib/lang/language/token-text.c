@@ -101,7 +101,7 @@ add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used
     return true;
 }
 
-/* indices: replace loop indices by their values. */
+/* Append tokens as text; with `indices` the present values of loop indices replace their names. */
 static void
 write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to,
              bool indices, qdot_text *out)

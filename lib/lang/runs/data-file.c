@@ -1,4 +1,4 @@
-/* data-file.c -- a table in a file by its ending, and the facts of its run. */
+/* data-file.c -- writes a table to a file in the form of its ending, with facts about its run. */
 #include "lang/runs/data-file.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ qdot_data_file_check(const char *path)
     return qdot_hint("as in \"run.csv\"");
 }
 
-/* --- what is known ------------------------------------------------------------------------ */
+/* --- facts about the run ------------------------------------------------------------------ */
 
 typedef qdot_vec(qdot_table_fact) facts;
 
@@ -106,7 +106,7 @@ add_parameters(const qdot_session *session, qdot_run *run, facts *to)
     return QDOT_OK;
 }
 
-/* --- the file ----------------------------------------------------------------------------- */
+/* --- writing the file --------------------------------------------------------------------- */
 
 static qdot_status
 write_facts(qdot_session *session, qdot_run *run, type type, qdot_table *table, const char *path)

@@ -15,7 +15,7 @@
 /* An error of 0 has no logarithm: it is drawn at the rounding error. */
 static const double least_error = 0x1p-60;
 
-/* The curves and their points x, y [n each]; how many curves. */
+/* Make the curves from their points x, y [n each]; returns the number of curves. */
 static size_t
 fill_curves(const qdot_error_time *of, double *x, double *y, qdot_curve *curves)
 {
@@ -185,6 +185,6 @@ qdot_error_time_tell(qdot_session *session, const qdot_error_study *of)
         return tell_file(session, of, path);
     QDOT_TRY(tell_table(session, of));
     if (of->interrupted && path == NULL)
-        return QDOT_OK; /* who stopped it does not wait for a figure */
+        return QDOT_OK; /* no figure is made for a user who interrupted the run */
     return tell_figure(session, of);
 }

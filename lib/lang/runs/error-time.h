@@ -24,10 +24,10 @@ typedef struct {
     const qdot_panel_choice *panel;
 } qdot_error_time;
 
-/* The options of such a statement; its file is a figure or one of numbers. Errors: QDOT_EINVAL. */
+/* Take the options of the statement; its file may be a figure or hold numbers. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
-/* The tolerance after `tol`, 1e-16 to 1; 0 if not given. */
+/* Read the tolerance after `tol`, 1e-16 to 1; 0 if not given. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_tolerance(qdot_record *r, double *tol);
 
 /* The answer of `workprecision` or `longtime`: methods left out, a table and a figure, or a file. */
@@ -36,13 +36,13 @@ typedef struct {
     const void *study; /* what the functions take */
     const qdot_methods_left_out *left_out;
     bool interrupted;
-    qdot_status (*table)(const void *study, qdot_table *t); /* filled, from {0}, for people */
+    qdot_status (*table)(const void *study, qdot_table *t); /* fills a table {0} for people */
     void (*words)(const void *study, qdot_text *out);       /* below it */
     qdot_status (*data)(const void *study, qdot_table *t);  /* the same for .csv */
-    qdot_status (*rows)(qdot_session *session, const void *study); /* as JSON */
+    qdot_status (*rows)(qdot_session *session, const void *study); /* writes the rows as JSON */
     qdot_error_time figure; /* without n, points, note, which these write: */
     size_t most_points;
-    size_t (*points)(const void *study, qdot_error_point *points); /* how many */
+    size_t (*points)(const void *study, qdot_error_point *points); /* writes the points; returns how many */
     void (*note)(const void *study, qdot_text *out);
 } qdot_error_study;
 QDOT_MUST_CHECK qdot_status qdot_error_time_tell(qdot_session *session, const qdot_error_study *of);

@@ -97,7 +97,7 @@ list_exact(qdot_session *session, const qdot_run *run, const qdot_run_occurrence
     return QDOT_OK;
 }
 
-/* "cross[2]  t = 3.1234 ± 2e-15  rising" */
+/* Append a line such as "cross[2]  t = 3.1234 ± 2e-15  rising". */
 static qdot_status
 add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occurrence *o,
          size_t k)

@@ -1,4 +1,4 @@
-/* longtime.c -- the error of the energy over a long time, every method: a table, a figure, a file. */
+/* longtime.c -- the statement `longtime`: the energy error of every method over a long time. */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ typedef struct {
     qdot_panel_choice panel;
 } choices;
 
-/* --- what is told ------------------------------------------------------------------- */
+/* --- tables and words --------------------------------------------------------------- */
 
 /* Fill a table with the windows of methods k .. end - 1: the rms error in each. */
 static qdot_status
@@ -58,7 +58,7 @@ windows(const void *study, qdot_table *t)
 
 /* Write the growth of the error as a power of t: "t^1.00 +- 0.02". */
 static void
-growth(const qdot_longtime_row *r, qdot_table *t)
+write_growth(const qdot_longtime_row *r, qdot_table *t)
 {
     qdot_text text = {0};
 
@@ -71,7 +71,7 @@ growth(const qdot_longtime_row *r, qdot_table *t)
 
 /* Fill a table with one row for each method. */
 static qdot_status
-summary(const void *study, qdot_table *t)
+fill_summary(const void *study, qdot_table *t)
 {
     static const qdot_table_column columns[] = {
         {.name = "method", .kind = QDOT_CELL_TEXT, .left = true, .width = 12},
@@ -94,7 +94,7 @@ summary(const void *study, qdot_table *t)
         qdot_table_add_number(t, (double)r->evals, 0);
         qdot_table_add_number(t, r->cpu, NAN);
         qdot_table_add_number(t, r->largest, NAN);
-        growth(r, t);
+        write_growth(r, t);
         qdot_table_add_text(t, r->status);
     }
     return qdot_table_status(t);
@@ -102,7 +102,7 @@ summary(const void *study, qdot_table *t)
 
 /* Write which method and tolerance `auto` would use, and why. */
 static void
-chosen(const qdot_longtime *l, qdot_text *out)
+write_choice_of_auto(const qdot_longtime *l, qdot_text *out)
 {
     qdot_text_format(out, "auto would take %s, tol %.0e: %s", l->chosen->name, l->chosen_tol,
                      l->chosen_long ? "more than 20000 steps are foreseen, and truncation is to "
@@ -119,7 +119,7 @@ words(const void *study, qdot_text *out)
                        "windows of time,\nfitted to the later half of them, with twice the standard "
                        "error\n");
     if (l->chosen != NULL) {
-        chosen(l, out);
+        write_choice_of_auto(l, out);
         qdot_text_char(out, '\n');
     }
 }
@@ -140,7 +140,7 @@ windows_json(qdot_session *session, const qdot_longtime *l, size_t k)
     return status;
 }
 
-/* The windows and the growth, a number, of each method. */
+/* Answer the windows of each method, and its growth as a number, as JSON rows. */
 static qdot_status
 rows_json(qdot_session *session, const void *study)
 {
@@ -158,7 +158,7 @@ rows_json(qdot_session *session, const void *study)
     }
     qdot_text_clear(&text);
     if (status == QDOT_OK && l->chosen != NULL) {
-        chosen(l, &text);
+        write_choice_of_auto(l, &text);
         status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
     }
     qdot_text_clear(&text);
@@ -191,7 +191,7 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
                                  .study = l,
                                  .left_out = &l->left_out,
                                  .interrupted = l->interrupted,
-                                 .table = summary,
+                                 .table = fill_summary,
                                  .words = words,
                                  .data = windows,
                                  .rows = rows_json,
@@ -208,7 +208,7 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
     return qdot_error_time_tell(session, &of);
 }
 
-/* --- the statement ------------------------------------------------------------------ */
+/* --- the statement `longtime` ------------------------------------------------------- */
 
 static qdot_status
 longtime_measure(qdot_record *r)
@@ -230,7 +230,7 @@ longtime_measure(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_longtime_measure(session->scene, &order.request, &l);
     if (l.interrupted)
-        qdot_interrupt_clear(); /* heard: the rows so far are told */
+        qdot_interrupt_clear(); /* the interruption has been handled: the rows so far are reported */
     if (status == QDOT_OK)
         status = longtime_tell(session, &l, &chosen);
     if (status == QDOT_OK && l.interrupted)

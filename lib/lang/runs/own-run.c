@@ -57,7 +57,7 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
 
 /* The statement's own run if it exists; NULL otherwise. */
 static qdot_named_run *
-own(qdot_session *session)
+find_own_run(qdot_session *session)
 {
     qdot_named_run *latest = session->runs->at + session->runs->n - 1;
 
@@ -67,7 +67,7 @@ own(qdot_session *session)
 void
 qdot_own_run_drop(qdot_session *session)
 {
-    if (own(session) != NULL)
+    if (find_own_run(session) != NULL)
         qdot_named_run_release(&session->runs->at[--session->runs->n]);
 }
 
@@ -75,18 +75,18 @@ qdot_status
 qdot_own_run_lend(qdot_session *session, const qdot_request *request, qdot_run *run)
 {
     QDOT_TRY(qdot_runs_keep(session, run_name, "", &request->request, NULL));
-    own(session)->run = run;
+    find_own_run(session)->run = run;
     return QDOT_OK;
 }
 
 void
 qdot_own_run_take_back(qdot_session *session)
 {
-    own(session)->run = NULL;
+    find_own_run(session)->run = NULL;
     qdot_own_run_drop(session);
 }
 
-/* --- how long ------------------------------------------------------------------------------ */
+/* --- the duration of the run --------------------------------------------------------------- */
 
 /* Read a time, or the end of a range A..B, at the cursor; if it is farther from `from` than *t it
  * replaces *latest and *t. */

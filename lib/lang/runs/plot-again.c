@@ -24,7 +24,7 @@ QDOT_STATEMENT(plot) = {
 
 typedef struct {
     qdot_session *session;
-    char *text;           /* of the run, "0..20 tol 1e-9"; owned */
+    char *text;           /* the text of the latest run's options, "0..20 tol 1e-9"; owned */
     qdot_source *source;  /* the same with its tokens */
     qdot_record record;   /* of these */
     qdot_run_options run; /* as the values in force have them */

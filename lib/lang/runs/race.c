@@ -24,7 +24,7 @@ QDOT_STATEMENT(race) = {
     .handler = race_hold,
 };
 
-/* Formulation, method, tolerance, error, drifts, CPU seconds. */
+/* Fill a table: formulation, method, tolerance, error, drifts, CPU seconds. */
 static qdot_status
 race_fill(const qdot_race *race, qdot_table *t)
 {
@@ -153,7 +153,7 @@ race_hold(qdot_record *r)
         status = qdot_race_hold(session->scene, &order.request, &race);
         if (status == QDOT_OK) {
             if (race.interrupted)
-                qdot_interrupt_clear(); /* heard: the rows so far are told */
+                qdot_interrupt_clear(); /* the interruption has been handled: the rows so far are reported */
             status = race_answer(session, &race, &figure, &panel);
             if (status == QDOT_OK && race.interrupted)
                 status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");

@@ -107,7 +107,7 @@ is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
     return false;
 }
 
-/* Values that depend on parameters set by events keep their symbols, so that they change with these. */
+/* Let values that depend on parameters set by events keep their symbols, so that they change with these. */
 static qdot_status
 follow_events(qdot_session *session, qdot_request *o)
 {
@@ -135,7 +135,7 @@ follow_events(qdot_session *session, qdot_request *o)
     return qdot_pool_check(session->pool);
 }
 
-/* The values and the start of the moment. */
+/* Set the session's present values and start. */
 qdot_status
 qdot_request_fill(qdot_session *session, qdot_request *o)
 {
@@ -190,7 +190,7 @@ qdot_request_between(qdot_session *session, qdot_expr from, qdot_expr to, qdot_r
 
 /* --- why it failed -------------------------------------------------------------------- */
 
-/* The error of a negative mass: "the mass of p is negative: m - 2 = -1". */
+/* Fail because a mass is negative: "the mass of p is negative: m - 2 = -1". */
 static qdot_status
 negative(qdot_session *session, const char *what, const char *name, qdot_expr e,
          double value)
@@ -218,7 +218,7 @@ negative(qdot_session *session, const char *what, const char *name, qdot_expr e,
     return status;
 }
 
-/* QDOT_ESINGULAR if e, a scalar or the moments of inertia of a body, is negative with these values. */
+/* QDOT_ESINGULAR if the mass, or a moment of inertia of the body, is negative with these values. */
 static qdot_status
 refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
                 const char *name, qdot_expr e)

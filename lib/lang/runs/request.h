@@ -6,7 +6,7 @@
 #include "lang/session/parts.h"
 #include "sim/model/request.h"
 
-/* A request with the arrays that it borrows. */
+/* The request of a run, with the arrays to which it points. */
 typedef struct {
     qdot_pairs values;
     qdot_vec(qdot_expr) q0, v0;
@@ -15,7 +15,7 @@ typedef struct {
     qdot_run_request request;
 } qdot_request;
 
-/* Fill in the session's present values and start. */
+/* Set the values and the start of the request to those of the session. */
 QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
 /* Set the time limits, which must be constants of the session. */
 QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr from,

@@ -26,7 +26,7 @@ add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
     qdot_token_text(c->session, from, to, &o->text);
 }
 
-/* Append the values that loops set as `with l = 1`. */
+/* Append ` with l = 1`: the values that loops set at present. */
 static qdot_status
 add_held(qdot_cursor *c, qdot_run_options *o)
 {
@@ -44,7 +44,7 @@ add_held(qdot_cursor *c, qdot_run_options *o)
     return session->evaluation->held.n > 0 ? qdot_value_check(c, &o->with) : QDOT_OK;
 }
 
-/* NAME = VALUE of a parameter or of a coordinate or velocity. */
+/* Take NAME = VALUE of `with`: a parameter, a coordinate or a velocity. */
 static qdot_status
 with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
 {
@@ -83,7 +83,7 @@ tolerance_find(qdot_record *r, const qdot_filled *part, qdot_run_options *o)
     return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
 }
 
-/* project, baumgarte or none: how drift off the constraints is treated. */
+/* Take the treatment of drift off the constraints: project, baumgarte or none. */
 static qdot_status
 treatment_find(qdot_record *r, const qdot_filled *word, qdot_run_options *o)
 {

@@ -27,7 +27,7 @@ typedef struct {
  * a name. From {.tol = 1e-12}; free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_find(qdot_record *r, const qdot_filled *from,
                                                   const qdot_filled *to, qdot_run_options *o);
-/* Whether a start is among the values of `with`. */
+/* Whether `with` gives a start value. */
 bool qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o);
 /* Set the values of `with`; the caller saves and restores the session's values. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_put(qdot_session *session, const qdot_run_options *o);

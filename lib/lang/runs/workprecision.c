@@ -1,4 +1,4 @@
-/* workprecision.c -- error against time, every method: a table, a figure, a file. */
+/* workprecision.c -- the statement `workprecision`: error against CPU time of every method. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -27,7 +27,7 @@ typedef struct {
     qdot_panel_choice panel;
 } choices;
 
-/* --- a table ------------------------------------------------------------------------- */
+/* --- table of results ---------------------------------------------------------------- */
 
 enum { EXCEPT_PEOPLE = QDOT_IN_ANSWERS | QDOT_IN_DATA };
 
@@ -102,7 +102,7 @@ rows_json(qdot_session *session, const void *study)
     return status;
 }
 
-/* --- a figure ------------------------------------------------------------------------ */
+/* --- figure of results --------------------------------------------------------------- */
 
 static size_t
 points_of(const void *study, qdot_error_point *points)
@@ -124,7 +124,7 @@ workprecision_note(const void *study, qdot_text *out)
     qdot_number_text_bound(out, w->ref_err);
 }
 
-/* --- the statement ------------------------------------------------------------------- */
+/* --- the statement `workprecision` --------------------------------------------------- */
 
 static qdot_status
 workprecision_tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
@@ -180,7 +180,7 @@ workprecision_measure(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);
     if (w.interrupted)
-        qdot_interrupt_clear(); /* heard: the rows so far are told */
+        qdot_interrupt_clear(); /* the interruption has been handled: the rows so far are reported */
     if (status == QDOT_OK)
         status = workprecision_tell(session, &w, &chosen);
     if (status == QDOT_OK && w.interrupted)

@@ -43,7 +43,7 @@ any_member(const qdot_session *session, const qdot_runs_columns *columns)
     return false;
 }
 
-/* Record in m what the numbers are of the run, for sensitivities (of momenta written as velocities). */
+/* Record from which runs the numbers m come, for sensitivities (with momenta written as velocities). */
 static void
 note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
              qdot_expr time, qdot_measured *m)
@@ -75,7 +75,7 @@ measure_columns(qdot_session *session, const char *run, const qdot_runs_columns 
     return QDOT_OK;
 }
 
-/* The value of e at time t, along the runs that it names, otherwise along `run`. */
+/* Evaluate e at time t, along the runs that it names, otherwise along `run`. */
 static qdot_status
 along_value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
 {
@@ -113,7 +113,7 @@ add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, 
     return QDOT_OK;
 }
 
-/* Add such errors for all components of args [n], whose numbers are m. */
+/* Add such errors for all components of args [n], in which the numbers m occur. */
 static qdot_status
 add_errors_within(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
                   qdot_expr time, qdot_measured *m)

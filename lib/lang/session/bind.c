@@ -21,7 +21,7 @@
 
 /* --- values of parameters and functions --------------------------------------------- */
 
-/* D1^o1 ... Dn^on f (args) with f(formals) = body. */
+/* Apply f(formals) = body to the arguments of an application, with the derivatives that it takes. */
 static qdot_expr
 apply_function(qdot_pool *pool, qdot_expr application, qdot_expr head, qdot_expr body)
 {
@@ -112,7 +112,7 @@ qdot_session_bind(qdot_session *session, qdot_expr e)
     return qdot_pool_fail(pool);
 }
 
-/* --- numbers ------------------------------------------------------------------------ */
+/* --- expressions as numbers --------------------------------------------------------- */
 
 /* List the symbols in e that stand for results of runs. */
 static qdot_status
@@ -190,7 +190,7 @@ measured_evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measu
     return status;
 }
 
-/* QDOT_ETYPE where e is no scalar. */
+/* Fail with QDOT_ETYPE: e is not a scalar. */
 static qdot_status
 not_a_number(qdot_session *session, qdot_expr e)
 {

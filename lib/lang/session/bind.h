@@ -11,10 +11,10 @@ qdot_expr qdot_session_bind(qdot_session *session, qdot_expr e);
  * NULL) is propagated from theirs. */
 QDOT_MUST_CHECK qdot_status qdot_session_number(qdot_session *session, qdot_expr e,
                                                 double *value, double *error);
-/* As qdot_session_number, and *low = the exact value minus the double; 0 if e contains results of runs. */
+/* As qdot_session_number; *low is the exact value minus the double, 0 if e contains results of runs. */
 QDOT_MUST_CHECK qdot_status qdot_session_split(qdot_session *session, qdot_expr e,
                                                double *value, double *low);
-/* As an integer: QDOT_ETYPE with the value otherwise. */
+/* Evaluate e as an integer; QDOT_ETYPE names the value if it is none. */
 QDOT_MUST_CHECK qdot_status qdot_session_integer(qdot_session *session, qdot_expr e,
                                                  long *value);
 /* QDOT_EDOMAIN where the value is a number already and lies outside the symbol's

@@ -80,7 +80,7 @@ qdot_conditions_same(const qdot_conditions *a, const qdot_conditions *b)
            SAME(q_named) && SAME(v_named);
 }
 
-/* --- studies ------------------------------------------------------------------------ */
+/* --- work-precision studies kept for reports ---------------------------------------- */
 
 const qdot_workprecision *
 qdot_studies_find(const qdot_kept_studies *studies, const qdot_conditions *conditions)

@@ -1,4 +1,4 @@
-/* evaluation.h -- what is known while a statement is read: loops, calls, the sides of a check. */
+/* evaluation.h -- the context in which a statement is read: loops, calls, the sides of a check. */
 #ifndef QDOT_LANG_EVALUATION_H
 #define QDOT_LANG_EVALUATION_H
 

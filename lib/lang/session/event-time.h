@@ -8,10 +8,10 @@
 /* Whether the scene, or that run (NULL: the latest), has an event of that name. */
 bool qdot_event_is(const qdot_session *session, const char *run, const char *name);
 
-/* The digits of a time; 0: a double. */
+/* The number of digits with which a time is known; 0 for a double. */
 int qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o);
 
-/* The time of occurrence k of the event, counted from 1; for k = 0 a list of all. */
+/* Find the time of occurrence k of the event, counted from 1; for k = 0 a list of all. */
 QDOT_MUST_CHECK qdot_status qdot_event_time(qdot_session *session, const char *run,
                                             const char *name, long k, qdot_expr *value);
 

@@ -11,9 +11,9 @@
 
 /* --- values of `set` and `start` --------------------------------------------------------- */
 
-/* The index of the symbol in one of the two lists; n if it is not there. */
+/* The index of the symbol in a list [n]; n if it is not in the list. */
 static size_t
-find(const qdot_expr *symbols, size_t n, qdot_expr symbol)
+index_of_symbol(const qdot_expr *symbols, size_t n, qdot_expr symbol)
 {
     size_t i = 0;
 
@@ -29,7 +29,7 @@ qdot_held_begin(qdot_session *session, qdot_expr symbol, qdot_expr value)
     const qdot_expr *symbols = starts ? session->values->start_symbols.at : session->values->set_symbols.at;
     const qdot_expr *values = starts ? session->values->start_values.at : session->values->set_values.at;
     const size_t n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
-    const size_t i = find(symbols, n, symbol);
+    const size_t i = index_of_symbol(symbols, n, symbol);
     const qdot_held held = {symbol, value, i < n ? values[i] : QDOT_NIL};
 
     QDOT_TRY(qdot_vec_push(&session->evaluation->held, held));
@@ -54,7 +54,8 @@ qdot_held_end(qdot_session *session)
     held = session->evaluation->held.at[--session->evaluation->held.n];
     starts = qdot_expr_is_class(session->pool, held.symbol, QDOT_COORD);
     n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
-    i = find(starts ? session->values->start_symbols.at : session->values->set_symbols.at, n, held.symbol);
+    i = index_of_symbol(starts ? session->values->start_symbols.at : session->values->set_symbols.at, n,
+                        held.symbol);
     if (i == n) /* taken out by the statement, `reset start` */
         return;
     if (held.before != QDOT_NIL) {
@@ -68,7 +69,7 @@ qdot_held_end(qdot_session *session)
     }
 }
 
-/* --- expressions ------------------------------------------------------------------------- */
+/* --- expressions with the values set by loops -------------------------------------------- */
 
 qdot_expr
 qdot_held_apply(qdot_session *session, qdot_expr e)
@@ -107,7 +108,7 @@ qdot_held_check(qdot_session *session)
     return QDOT_OK;
 }
 
-/* --- the scene --------------------------------------------------------------------------- */
+/* --- the scene with the values set by loops ---------------------------------------------- */
 
 static qdot_expr
 put_in(qdot_expr e, void *user)

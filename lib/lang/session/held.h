@@ -18,13 +18,14 @@ QDOT_MUST_CHECK qdot_status qdot_held_begin(qdot_session *session, qdot_expr sym
 /* Undo the most recent qdot_held_begin that is still in force. */
 void qdot_held_end(qdot_session *session);
 
-/* e with all values that loops set inserted. Nil: the pool keeps the failure. */
+/* e with the values that loops set at present, of parameters and coordinates. Nil: the pool keeps
+ * the failure. */
 qdot_expr qdot_held_apply(qdot_session *session, qdot_expr e);
-/* e with those values of parameters only. */
+/* e with the values of parameters that loops set at present. */
 qdot_expr qdot_held_parameters(qdot_session *session, qdot_expr e);
 /* Whether a loop sets a coordinate at present. */
 bool qdot_held_coordinate(const qdot_session *session);
-/* QDOT_EDOMAIN where a value is outside the declared domain. */
+/* QDOT_EDOMAIN if a value that a loop sets is outside the declared domain. */
 QDOT_MUST_CHECK qdot_status qdot_held_check(qdot_session *session);
 
 /* Insert the loop values of parameters into the scene; kept is {0} before. Call _end in any case,

@@ -24,7 +24,7 @@ qdot_member_find(const qdot_session *session, qdot_expr symbol)
     return NULL;
 }
 
-/* The symbol of the scalar e along the run. */
+/* Make the symbol that represents the scalar e along the run. */
 static qdot_expr
 member_symbol(qdot_session *session, const char *run, qdot_expr e)
 {
@@ -110,7 +110,7 @@ qdot_member_refuse(const qdot_session *session, qdot_expr e)
     return QDOT_OK;
 }
 
-/* --- one run ------------------------------------------------------------------------- */
+/* --- values along a single run ------------------------------------------------------- */
 
 /* Whether e refers to one run only; *run its name, NULL if no run is named. */
 static bool

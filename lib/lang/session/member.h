@@ -6,7 +6,7 @@
 #include "expr/symbol.h"
 #include "lang/session/parts.h"
 
-/* a.EXPR within an expression, represented by a FORMAL symbol. */
+/* A value a.EXPR along run a within an expression, where a FORMAL symbol represents it. */
 typedef struct {
     qdot_expr symbol, value;
     char *run;
@@ -39,7 +39,7 @@ typedef struct {
     const double *times, *lows; /* [n]; lows: what the exact times are beyond these, NULL: 0 */
     double *values, *errors;    /* [n]; errors NULL: not wanted */
 } qdot_samples;
-/* Values of an expression of several runs; parts that name no run belong to `run` (NULL: the latest). */
+/* Evaluate an expression of several runs; parts that name no run belong to `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,
                                                qdot_expr e, const qdot_samples *at);
 /* An expression of several runs at a time: *value has numbers of these runs in the place of its

@@ -15,7 +15,7 @@
 struct qdot_mixture {
     qdot_expr e;                       /* with the values of `set` */
     qdot_vec(qdot_run *) runs;         /* each once */
-    qdot_vec(qdot_run_member) members; /* also what moves beside those of named runs */
+    qdot_vec(qdot_run_member) members; /* also the latest run, if something that moves names no run */
     qdot_vec(qdot_expr) symbols;       /* of the members */
     qdot_tape *tape;                   /* from the symbols */
     size_t room;                 /* in values and errors */
@@ -38,7 +38,7 @@ qdot_mixture_free(qdot_mixture *x)
     qdot_free(x);
 }
 
-/* The index of a run in the list; it is appended if new. */
+/* Find the index of a run in the list; it is appended if new. */
 static qdot_status
 mixture_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
 {
@@ -111,7 +111,7 @@ mixture_make_room(qdot_mixture *x, size_t times)
     return x->room > 0 ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The value at time j and its error, by shifting each symbol by its own error. */
+/* Evaluate the value at time j and its error, by shifting each symbol by its own error. */
 static void
 combine(const qdot_mixture *x, const qdot_samples *at, size_t j)
 {
@@ -159,7 +159,7 @@ qdot_mixture_range(const qdot_mixture *x, qdot_range_kind kind, const double *ra
     return qdot_run_range_along(&along, kind, range, value, error);
 }
 
-/* --- at once ------------------------------------------------------------------------- */
+/* --- several times at once ----------------------------------------------------------- */
 
 qdot_status
 qdot_member_values(qdot_session *session, const char *run, qdot_expr e,

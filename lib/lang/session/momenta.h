@@ -12,7 +12,7 @@
 
 #include "lang/session/parts.h"
 
-/* e with every momentum as dL/dq'. Nil: the pool keeps the failure, as below. */
+/* e with dL/dq' for every momentum p[q]. Nil: the pool keeps the failure, also in the functions below. */
 qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);
 
 /* e in the variables of `symbol`: in momenta for p[x]; in velocities if p[q] and q' of one coordinate q

@@ -96,7 +96,7 @@ qdot_names_free(qdot_names *names)
     qdot_free(names);
 }
 
-/* --- finding ------------------------------------------------------------------------ */
+/* --- finding names ------------------------------------------------------------------ */
 
 static entry *
 find_declared(const qdot_names *names, const char *name)
@@ -155,7 +155,7 @@ qdot_names_at(const qdot_names *names, size_t i)
     return i < names->order.n ? &names->order.at[i]->name : NULL;
 }
 
-/* --- clashes ------------------------------------------------------------------------ */
+/* --- names that clash --------------------------------------------------------------- */
 
 static const char *
 kind_words(qdot_name_kind kind)
@@ -171,7 +171,7 @@ kind_words(qdot_name_kind kind)
 }
 
 static qdot_status
-taken(const char *name, const qdot_name *before)
+fail_name_taken(const char *name, const qdot_name *before)
 {
     if (before->file != NULL)
         return qdot_fail(QDOT_ENAME, "`%.200s` is already %s, declared at %.200s:%u",
@@ -234,7 +234,7 @@ check_differential(const qdot_names *names, const qdot_name *entry)
     if (e == NULL)
         return QDOT_OK;
     other = &e->name;
-    taken(differential, other);
+    fail_name_taken(differential, other);
     return qdot_hint("`%.100s` would be the differential of the coordinate `%.100s`",
                      differential, entry->name);
 }
@@ -259,7 +259,7 @@ may_replace(const qdot_name *old, const qdot_name *new)
            old->value == new->value;
 }
 
-/* x and x[1] cannot both be declared. */
+/* Fail if both x and a member x[1] would be declared. */
 static qdot_status
 check_family(const qdot_names *names, const char *name)
 {
@@ -280,11 +280,11 @@ check_family(const qdot_names *names, const char *name)
     plain = find_declared(names, base);
     if (plain == NULL)
         return QDOT_OK;
-    taken(base, &plain->name);
+    fail_name_taken(base, &plain->name);
     return qdot_hint("a name is either plain or a family %.100s[k]", base);
 }
 
-/* --- changing ----------------------------------------------------------------------- */
+/* --- adding and replacing names ----------------------------------------------------- */
 
 /* Double the slots if both tables are full; on failure they stay unchanged. */
 static qdot_status
@@ -406,7 +406,7 @@ link_to(qdot_names *names, const entry *e)
     return link;
 }
 
-/* Where e is in the order: entries only ever move towards the front. */
+/* The position of an entry in the order of declaration; entries only ever move towards the front. */
 static size_t
 name_place(const qdot_names *names, const entry *e)
 {
@@ -465,7 +465,7 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
     QDOT_TRY(check_reserved(entry->name));
     old = find_declared(names, entry->name);
     if (old != NULL && !may_replace(&old->name, entry))
-        return taken(entry->name, &old->name);
+        return fail_name_taken(entry->name, &old->name);
     if (old == NULL) {
         QDOT_TRY(check_family(names, entry->name));
         QDOT_TRY(check_differential(names, entry));
@@ -507,7 +507,7 @@ qdot_names_remove(qdot_names *names, const char *name)
     entry_free(e);
 }
 
-/* --- states kept -------------------------------------------------------------------- */
+/* --- saving and restoring all names ------------------------------------------------- */
 
 const qdot_name *
 qdot_names_keep(const qdot_name *declared)
@@ -551,7 +551,7 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
         size_t length = family_length(e->name.name);
 
         e->order = i;
-        names->order.at[i] = e; /* as many were there before */
+        names->order.at[i] = e; /* as the saved state has at least as many */
         put_in_slot(names, e);
         if (length > 0)
             find_family(names, e->name.name, length)->members++;
@@ -560,7 +560,7 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
     qdot_names_settle(names);
 }
 
-/* --- bound names -------------------------------------------------------------------- */
+/* --- temporary bindings ------------------------------------------------------------- */
 
 static qdot_status
 bound_push(qdot_names *names, qdot_name bound)

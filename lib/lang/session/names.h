@@ -49,11 +49,11 @@ bool qdot_names_is_family(const qdot_names *names, const char *name);
  * QDOT_ENAME with where it was declared. `entry` is copied, with one more use of
  * its body. */
 QDOT_MUST_CHECK qdot_status qdot_names_declare(qdot_names *names, const qdot_name *entry);
-/* Replace the expressions of a declared name, whose meaning stays. QDOT_ENOMEM. */
+/* Replace the expressions of a declared name, which keeps its kind. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_names_update(qdot_names *names, const char *name,
                                               qdot_expr value, qdot_expr formals);
 void qdot_names_remove(qdot_names *names, const char *name);
-/* Bind and unbind an index or formal, innermost first. */
+/* Bind an index or formal argument, hiding outer meanings; pop: end the innermost binding. */
 QDOT_MUST_CHECK qdot_status qdot_names_push(qdot_names *names, const char *name,
                                             qdot_expr value);
 void qdot_names_pop(qdot_names *names);
@@ -70,7 +70,8 @@ void qdot_names_disclose(qdot_names *names, size_t outer);
 const qdot_name *qdot_names_keep(const qdot_name *declared);
 void qdot_names_release(const qdot_name *declared);
 void qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list);
-/* The number of names, in order, unchanged since the last call of settle or restore; mark all as unchanged. */
+/* How many names at the beginning have not changed since the last call of settle or restore; mark
+ * all as unchanged. */
 size_t qdot_names_settled(const qdot_names *names);
 void qdot_names_settle(qdot_names *names);
 /* Name number i in order of declaration (without loop indices); NULL past the end. */

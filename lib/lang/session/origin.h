@@ -1,4 +1,4 @@
-/* origin.h -- what a number is of a run: where its slopes are to be found (lang/slopes/slopes.h). */
+/* origin.h -- from which run a number comes and how it was read, so that its derivatives can be found. */
 #ifndef QDOT_LANG_ORIGIN_H
 #define QDOT_LANG_ORIGIN_H
 

@@ -1,4 +1,4 @@
-/* outcome.h -- how what was read so far has ended. */
+/* outcome.h -- the outcome of all statements read so far. */
 #ifndef QDOT_LANG_OUTCOME_H
 #define QDOT_LANG_OUTCOME_H
 

@@ -11,7 +11,7 @@
 #include "expr/print-name.h"
 #include "lang/session/parts.h"
 
-/* What is written to a terminal that shows colours. */
+/* The kinds of output that are coloured on a terminal. */
 typedef enum { QDOT_COLOURS_ANSWERS = 1, QDOT_COLOURS_ERRORS = 2 } qdot_colours;
 
 typedef struct qdot_output {

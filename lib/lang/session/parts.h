@@ -10,7 +10,7 @@
 #include "expr/id.h"
 
 typedef struct qdot_session {
-    /* What `reset` forgets. */
+    /* Fields that `reset` clears. */
     qdot_pool *pool;
     struct qdot_scene *scene;              /* mech/scene/things.h */
     struct qdot_names *names;              /* names.h */
@@ -25,7 +25,7 @@ typedef struct qdot_session {
     struct qdot_text_list *told;           /* notices that are given once: text-list.h */
     struct qdot_text_list *remarks;        /* lines with remarks of files of sessions that were read
                                               (lang/declare/session-remarks.h) */
-    /* What stays. */
+    /* Fields that `reset` keeps. */
     struct qdot_output *output;            /* where answers go, and in what form: output.h */
     struct qdot_outcome *outcome;          /* of what was read so far: outcome.h */
     struct qdot_typed *typed;              /* the statement under way, and all before it: typed.h */

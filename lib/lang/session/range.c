@@ -1,4 +1,4 @@
-/* range.c -- max, min, mean, drift over a range of a run. */
+/* range.c -- finds the maximum, minimum, mean and drift over a time range of a run. */
 #include "lang/session/range.h"
 
 #include <string.h>

@@ -1,11 +1,11 @@
-/* range.h -- max, min, mean, drift over a range of a run. */
+/* range.h -- finds the maximum, minimum, mean and drift over a time range of a run. */
 #ifndef QDOT_LANG_RANGE_H
 #define QDOT_LANG_RANGE_H
 
 #include "lang/session/parts.h"
 
 bool qdot_range_is_word(const char *word);
-/* Whether the word is one of these or `value`, which read a run at intermediate times. */
+/* Whether the word is max, min, mean, drift or `value`: functions that read a run at intermediate times. */
 bool qdot_range_is_of_way(const char *word);
 /* Of each expression [n] along the run (NULL: the latest) between range [2], NULL: all of
  * it. A list where there are several. */

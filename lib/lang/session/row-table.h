@@ -24,7 +24,7 @@ typedef struct qdot_row_table {
     char **parameters;       /* [n_parameters] their names */
     double *parameter_values; /* [n_parameters] */
     size_t rows, room;
-    double *values, *errors; /* [rows x n]; NaN: there is no number; its error is unknown */
+    double *values, *errors; /* [rows x n] NaN: no number, or unknown error */
     char **reasons;          /* [rows] why a row failed; NULL: it did not */
     const char *note;        /* the texts in `reasons` are no failures, but this of the rows: "type"; or
                                 NULL */

@@ -10,7 +10,7 @@
 #include "lang/session/names.h"
 #include "lang/session/values.h"
 
-/* The index of the table of that name; the number of tables if there is none. */
+/* The index of the table with the given name; the number of tables if there is none. */
 static size_t
 index_of(const qdot_session *session, const char *name)
 {

@@ -16,9 +16,9 @@ typedef struct qdot_row_table_list {
 
 /* Keep a table, taking over its reference; an older one of that name is dropped. Takes it even on failure. */
 QDOT_MUST_CHECK qdot_status qdot_row_tables_keep(qdot_session *session, qdot_row_table *table);
-/* The table of that name; NULL if there is none. */
+/* The table with this name; NULL if there is none. */
 qdot_row_table *qdot_row_tables_find(const qdot_session *session, const char *name);
-/* The first unused name among sweep1, sweep2, ... */
+/* Find the first unused name among sweep1, sweep2, ... */
 void qdot_row_tables_next_name(const qdot_session *session, char *name, size_t size);
 
 /* Record the present values of parameters in the table, except those that depend on the symbols open [n]. */

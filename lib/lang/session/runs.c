@@ -198,7 +198,7 @@ qdot_runs_flatten(qdot_session *session, qdot_expr e, qdot_runs_columns *columns
     return QDOT_OK;
 }
 
-/* The columns at a time as numbers m [columns]. */
+/* Evaluate columns at a time, with their errors: numbers m [columns]. */
 static qdot_status
 columns_measure_at(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
                    qdot_expr time, qdot_measured *m)

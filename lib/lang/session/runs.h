@@ -15,13 +15,13 @@ typedef struct {
     qdot_conditions *conditions; /* that it was made under; NULL: nobody told */
     unsigned *uses;
 } qdot_named_run;
-void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
+void qdot_named_run_release(qdot_named_run *run); /* give up one use; the last one frees it */
 
 typedef struct qdot_run_list {
     qdot_vec(qdot_named_run);
 } qdot_run_list;
 
-/* The run of that name; the latest one for NULL. QDOT_ENAME if there is none. */
+/* Find the run of that name; the latest one for NULL. QDOT_ENAME if there is none. */
 QDOT_MUST_CHECK qdot_status qdot_runs_find(qdot_session *session, const char *name,
                                            qdot_named_run **run);
 /* The same, for numbers along it: QDOT_EINVAL where a loop holds a parameter or a start at another value
@@ -35,10 +35,10 @@ bool qdot_runs_is_family(const qdot_session *session, const char *name);
 QDOT_MUST_CHECK qdot_status qdot_runs_keep(qdot_session *session, const char *name,
                                            const char *text,
                                            const qdot_run_request *request, qdot_run *run);
-/* The first unused name among run1, run2, ..., counting from the number of runs. */
+/* Find the first unused name among run1, run2, ..., counting from the number of runs. */
 void qdot_runs_next_name(const qdot_session *session, char *name, size_t size);
 
-/* Append the components of vectors and lists to columns, *n of them. */
+/* Append the components of an expression (of a vector or list) to columns; *n: how many. */
 typedef qdot_vec(qdot_expr) qdot_runs_columns;
 QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e,
                                               qdot_runs_columns *columns);
@@ -48,7 +48,7 @@ QDOT_MUST_CHECK qdot_status qdot_runs_flatten(qdot_session *session, qdot_expr e
 QDOT_MUST_CHECK qdot_status qdot_runs_measure(qdot_session *session, const char *run,
                                               const qdot_runs_columns *columns,
                                               qdot_expr time, qdot_measured *m);
-/* The value of one expression of a single run at a time, in doubles or with the digits of the run. */
+/* Evaluate one expression of a single run at a time, with the run's number of digits or in doubles. */
 QDOT_MUST_CHECK qdot_status qdot_runs_measure_one(qdot_session *session, const char *run,
                                                   qdot_expr e, qdot_expr time,
                                                   qdot_measured *m);

@@ -25,7 +25,7 @@ qdot_scales_set(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return QDOT_ENOMEM;
 }
 
-/* The value of a scale; QDOT_EINVAL if it is not positive. */
+/* Evaluate the scale of a symbol; QDOT_EINVAL if it is not positive. */
 static qdot_status
 number_of(qdot_session *session, qdot_expr symbol, qdot_expr value, double *number)
 {
@@ -50,7 +50,7 @@ qdot_scales_check(qdot_session *session, qdot_expr symbol, qdot_expr value)
     return number_of(session, symbol, value, &number);
 }
 
-/* The scale given for a symbol; 0 if there is none. */
+/* Find the scale that was given for a symbol; 0 if there is none. */
 static qdot_status
 said_of(qdot_session *session, qdot_expr symbol, double *scale)
 {

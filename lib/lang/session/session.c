@@ -1,4 +1,4 @@
-/* session.c -- a session begun and ended, and what it is given. */
+/* session.c -- creates and frees a session. */
 #include "lang/session/session.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* session.h -- a session begun and ended. Its parts: lang/session/parts.h. */
+/* session.h -- creates and frees a session. Its parts: lang/session/parts.h. */
 #ifndef QDOT_LANG_SESSION_H
 #define QDOT_LANG_SESSION_H
 
@@ -13,7 +13,7 @@ void qdot_session_free(qdot_session *session);
 /* Append the path of a file that is read, `name` as the present script says it: "dir/other.lag" for
  * "other.lag" in "dir/this.lag". */
 void qdot_session_path(const qdot_session *session, const char *name, qdot_text *path);
-/* Exchange all that `reset` forgets; what is no part of a scene stays: style, files ... */
+/* Exchange everything that `reset` forgets; settings such as style and files stay. */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 
 #endif

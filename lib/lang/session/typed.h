@@ -15,11 +15,11 @@
 
 typedef struct qdot_typed {
     size_t texts;   /* being carried out, one within the other */
-    size_t number;  /* of the statement; 0: there was none yet */
-    uint32_t line;  /* where it begins, with JSON */
+    size_t number;  /* number of the present statement; 0: there was none yet */
+    uint32_t line;  /* the line where the statement begins, for JSON */
     bool under_way;
-    bool told;      /* with JSON: say when it is done, with what status */
-    bool refuted;   /* whether a check was, before it */
+    bool told;      /* for JSON: report the end of the statement with its status */
+    bool refuted;   /* whether a check had been refuted before the statement */
     qdot_text all;  /* statements that succeeded, a line each or as many as they had */
 } qdot_typed;
 

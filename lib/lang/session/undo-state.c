@@ -48,7 +48,7 @@ qdot_undo_single_of(const qdot_session *s)
                     .start_exactly = s->values->start_exactly};
 }
 
-/* --- items ---------------------------------------------------------------------------- */
+/* --- arrays of items ------------------------------------------------------------------ */
 
 void
 qdot_undo_count(int part, const unsigned char *at, size_t n, bool more)

@@ -53,7 +53,7 @@ qdot_undo_single qdot_undo_single_of(const qdot_session *s);
 
 /* Raise, or lower, the reference count of each item of a part by one. */
 void qdot_undo_count(int part, const unsigned char *at, size_t n, bool more);
-/* *to becomes a copy, owned by the caller, with references of its own. QDOT_ENOMEM. */
+/* Copy one item of a part into *to, which the caller owns, with references of its own. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_undo_copy(int part, const unsigned char *from, size_t n,
                                            size_t size, unsigned char **to);
 /* Make room for n items in a part. QDOT_ENOMEM. */

@@ -22,10 +22,10 @@ typedef struct {
     unsigned char *items[2];
 } change;
 
-/* What one statement changed: [0] before it, [1] after it. */
+/* The changes made by one statement; in pairs, [0] is the state before it and [1] the state after it. */
 typedef struct {
     char *text;
-    bool joined; /* it goes with the record before it */
+    bool joined; /* undone together with the record before it */
     uint64_t version[2]; /* of the scene */
     qdot_vec(change) changes;
     qdot_undo_single single[2];
@@ -39,7 +39,7 @@ typedef qdot_vec(record) records;
 
 struct qdot_undo {
     qdot_undo_state now; /* as the latest statement left it */
-    bool known;          /* it is */
+    bool known;          /* `now` is up to date */
     records done, undone;
     size_t floor;     /* records that the text under way cannot take back */
     bool moved;       /* the statement under way is `undo` or `redo` */
@@ -63,7 +63,7 @@ same_single(const qdot_undo_single *a, const qdot_undo_single *b)
            a->timing == b->timing && a->start_exactly == b->start_exactly;
 }
 
-/* --- records -------------------------------------------------------------------------- */
+/* --- records of changes --------------------------------------------------------------- */
 
 static void
 clear_record(record *r)
@@ -113,9 +113,9 @@ undo_free(qdot_undo *u)
     qdot_free(u);
 }
 
-/* --- comparing ------------------------------------------------------------------------ */
+/* --- finding what a statement changed ------------------------------------------------- */
 
-/* The names of the session as an array. */
+/* List the names of the session as an array. */
 static qdot_status
 list_names(qdot_session *s)
 {
@@ -423,7 +423,7 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
         let_go(s, &error);
 }
 
-/* --- back and forth ------------------------------------------------------------------- */
+/* --- undo and redo -------------------------------------------------------------------- */
 
 /* Hide the symbols of names that are removed, and show those of names that return. */
 static void
@@ -491,7 +491,7 @@ record_prepare(qdot_session *s, const record *r, int to)
     return QDOT_OK;
 }
 
-/* Bring the session to the state before (to = 0) or after (to = 1) the statement. */
+/* Bring the session to the state before the statement of the record (to = 0), or after it (to = 1). */
 static qdot_status
 apply(qdot_session *s, record *r, int to)
 {
@@ -532,7 +532,7 @@ apply(qdot_session *s, record *r, int to)
 
 /* Apply the latest record of `from` and move it to the list `into`. */
 static qdot_status
-move(qdot_session *s, records *from, records *into, int to)
+apply_and_move(qdot_session *s, records *from, records *into, int to)
 {
     QDOT_TRY(qdot_grow(&into->at, &into->capacity, into->n + 1, sizeof *into->at));
     QDOT_TRY(apply(s, &from->at[from->n - 1], to));
@@ -541,7 +541,7 @@ move(qdot_session *s, records *from, records *into, int to)
     return QDOT_OK;
 }
 
-/* --- whole statements ----------------------------------------------------------------- */
+/* --- counting and taking back statements ---------------------------------------------- */
 
 size_t
 qdot_undo_statements(const qdot_session *s, bool again)
@@ -577,7 +577,7 @@ qdot_undo_step(qdot_session *s, bool again, const char **text)
 
         *text = r->joined ? *text : r->text;
         more = again ? from->n > 1 && from->at[from->n - 2].joined : r->joined;
-        status = move(s, from, into, again);
+        status = apply_and_move(s, from, into, again);
     }
     return status;
 }

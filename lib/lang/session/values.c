@@ -1,4 +1,4 @@
-/* values.c -- values given, and kept while others are tried. */
+/* values.c -- the values of `set`, `start` and `scale`; saves them while others are tried. */
 #include "lang/session/values.h"
 
 #include <string.h>

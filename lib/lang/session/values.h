@@ -24,17 +24,17 @@ typedef struct qdot_values {
  * that stand in `value`) has this value for numbers. *status: QDOT_ENOMEM; unchanged if all is well. */
 void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
                       qdot_status *status);
-/* From now on a run starts with this value of q or q'. */
+/* Set the value of q or q' with which runs start from now on. */
 QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
                                                qdot_expr value);
-/* The one or the other, by what the symbol is. */
+/* Set a value as `set` or `start` does, depending on the kind of symbol. */
 QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
                                              qdot_expr value);
-/* The values of `set` and `start`, kept while others are tried. */
+/* Saved values of `set` and `start`, while others are tried. */
 typedef struct {
     qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values;
 } qdot_kept_values;
-/* Copy them; QDOT_ENOMEM: nothing is kept. restore: put them back and let go of the copy. */
+/* Save the values; QDOT_ENOMEM: none are saved. restore: set them again and free the copy. */
 QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
                                                      qdot_kept_values *kept);
 void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);

@@ -1,4 +1,4 @@
-/* free-request.c -- values and start in the unknowns. */
+/* free-request.c -- makes the request of a run whose values and start depend on unknowns. */
 #include "lang/slopes/free-request.h"
 
 #include "expr/symbol.h"
@@ -6,7 +6,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/values.h"
 
-/* Fill values and start of the request; unknown parameters keep their symbols as values. */
+/* Set values and start of the request; parameters that are unknowns keep their symbols as values. */
 static qdot_status
 request_fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
              qdot_expr *values, qdot_expr *start, bool *named)

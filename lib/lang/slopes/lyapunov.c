@@ -32,9 +32,9 @@ typedef struct {
     qdot_panel_choice panel;
 } choices;
 
-/* --- what is told ------------------------------------------------------------------------ */
+/* --- answers and figures ----------------------------------------------------------------- */
 
-/* The name of exponent k: "lyapunov" if only the largest is computed, otherwise "lyapunov[k]". */
+/* Write the name of exponent k: "lyapunov" if only the largest is computed, otherwise "lyapunov[k]". */
 static void
 exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
 {
@@ -56,7 +56,7 @@ exponents_answer(qdot_session *session, const qdot_exponents *x)
     return QDOT_OK;
 }
 
-/* A row for each time: t, then the exponents up to there. */
+/* Write a row for each time t: the estimates of the exponents from the run up to t. */
 static qdot_status
 write_course(qdot_session *session, const qdot_exponents *x, const char *path)
 {
@@ -112,7 +112,7 @@ figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
     return status;
 }
 
-/* The numbers; a figure or data where a file is named, or a person looks on. */
+/* Answer the exponents; write a figure or data to the named file, or show a figure at the prompt. */
 static qdot_status
 exponents_tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 {
@@ -124,7 +124,7 @@ exponents_tell(qdot_session *session, const qdot_exponents *x, const choices *ch
     return qdot_data_file_is(path) ? write_course(session, x, path) : figure(session, x, chosen);
 }
 
-/* --- the statement --------------------------------------------------------------------------- */
+/* --- the statement `lyapunov` ---------------------------------------------------------------- */
 
 static qdot_status
 lyapunov_find(qdot_record *r)
@@ -146,7 +146,7 @@ lyapunov_find(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_exponents_find(session->scene, &order.request, &x);
     if (x.interrupted)
-        qdot_interrupt_clear(); /* heard: what is known so far is told */
+        qdot_interrupt_clear(); /* the interruption has been handled: what is known so far is reported */
     if (status == QDOT_OK)
         status = exponents_tell(session, &x, &chosen);
     if (status == QDOT_OK && x.interrupted)

@@ -25,7 +25,7 @@ is_within_error(const qdot_named_run *named, double off)
     return off <= fmin(inexact, qdot_run_get_report(named->run)->scaled_error);
 }
 
-/* A hint how to find a periodic orbit, with a coordinate of this scene. */
+/* Give a hint how to find a periodic orbit, with a coordinate of this scene. */
 static qdot_status
 hint_to_find_one(const qdot_session *session)
 {

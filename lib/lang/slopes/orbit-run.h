@@ -8,9 +8,9 @@
 #include "lang/session/parts.h"
 #include "lang/session/runs.h"
 
-/* The latest run of the scene that is a periodic orbit. QDOT_EINVAL: there is none. */
+/* Find the latest run of the scene that is a periodic orbit. QDOT_EINVAL: there is none. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit);
-/* The run of that name, which must be a periodic orbit. */
+/* Find the run of that name, which must be a periodic orbit. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_run_named(qdot_session *session, const char *name,
                                                  qdot_named_run **orbit);
 

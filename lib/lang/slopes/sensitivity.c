@@ -22,7 +22,7 @@ QDOT_STATEMENT(sensitivity) = {
     .handler = sensitivity_tell,
 };
 
-/* --- the slopes ------------------------------------------------------------------------------ */
+/* --- computing the slopes -------------------------------------------------------------------- */
 
 static qdot_status
 slope_answer(qdot_session *session, const char *of, const char *by, qdot_expr slope)
@@ -60,7 +60,7 @@ tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
     return status;
 }
 
-/* The run from which numbers in e come, of those measured from index `first` on; NULL: the latest. */
+/* The run from which the numbers in e come, of the results from index `first` on; NULL: the latest run. */
 static const char *
 run_of(const qdot_session *session, size_t first)
 {

@@ -16,7 +16,7 @@
  * latest time. */
 static const double most_back = 1e-8;
 
-/* An expression of the scene with slopes at a time, as a number. */
+/* Evaluate an expression of the scene with slopes at a time, as a number. */
 static qdot_status
 at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
 {
@@ -41,7 +41,7 @@ slope_along(const qdot_slopes *s, qdot_expr e, size_t k)
     return qdot_variation_of(&s->variation, qdot_measured_as_rationals(s->session, e), k);
 }
 
-/* value(e, time) */
+/* Find the derivative of value(e, time), whose time may vary, too. */
 static qdot_status
 slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
                qdot_expr *slope)
@@ -124,7 +124,7 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
     return add_way_to_event(s, qdot_ddt(pool, Dg), qdot_ddt(pool, dg), time, way, up, down, slope);
 }
 
-/* The derivative of the k-th end of a range, as typed, or as the limit of the run was given. */
+/* Find the derivative of the k-th end of a range, as typed, or as the limit of the run was given. */
 static qdot_status
 slope_of_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size_t k, qdot_expr *slope)
 {
@@ -170,7 +170,7 @@ slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t 
     return qdot_pool_check(s->session->pool);
 }
 
-/* mean(e, a..b): the mean of De, and ((e(b) - mean) db/ds - (e(a) - mean) da/ds)/(b - a). */
+/* Find the derivative of mean(e, a..b): mean(De) + ((e(b) - mean) db/ds - (e(a) - mean) da/ds)/(b - a). */
 static qdot_status
 slope_of_mean(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k, qdot_expr *slope)
 {
@@ -207,7 +207,7 @@ slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k, q
     return (m->origin.range == QDOT_RANGE_MEAN ? slope_of_mean : slope_of_extremum)(s, m, named->run, first, k, slope);
 }
 
-/* The slope of the i-th number measured. */
+/* Find the derivative of the i-th number measured in direction k. */
 static qdot_status
 slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
 {

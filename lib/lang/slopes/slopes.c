@@ -23,7 +23,7 @@ static const double beyond = 0.001, apart = 1e-6;
 
 const char qdot_slopes_run[] = "the slopes";
 
-/* --- names ------------------------------------------------------------------------------ */
+/* --- the names by which derivatives are taken ------------------------------------------- */
 
 qdot_status
 qdot_slope_name_find(qdot_record *r, const qdot_filled *part, qdot_slope_name *x)
@@ -69,7 +69,7 @@ qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s)
     return QDOT_OK;
 }
 
-/* --- what each name moves --------------------------------------------------------------- */
+/* --- how each name changes parameters and start ----------------------------------------- */
 
 bool
 qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
@@ -231,7 +231,7 @@ find_scales(qdot_slopes *s)
     return status;
 }
 
-/* The start after its projection onto the constraints. */
+/* Find the start after its projection onto the constraints. */
 static qdot_status
 find_start(qdot_slopes *s, const char *name)
 {
@@ -257,7 +257,7 @@ find_start(qdot_slopes *s, const char *name)
     return qdot_pool_check(session->pool);
 }
 
-/* --- the run ------------------------------------------------------------------------------ */
+/* --- the run with derivatives ------------------------------------------------------------- */
 
 static qdot_status
 find_run(qdot_slopes *s, const char *name)
@@ -321,7 +321,7 @@ find_values(const qdot_slopes *s, size_t first, indices *values)
     return QDOT_OK;
 }
 
-/* Whether the number occurs in e, or in the expressions of those values. */
+/* Whether the symbol occurs in e, or in the expressions and times from which the listed values were read. */
 static bool
 is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symbol)
 {
@@ -390,7 +390,7 @@ shorten(qdot_slopes *s, qdot_expr e, size_t first)
 
 /* Whether two values of a coordinate agree within their errors, so that both may come from the same motion. */
 static bool
-agree(const double *value, const double *error)
+values_agree(const double *value, const double *error)
 {
     const double size = fmax(fabs(value[0]), fabs(value[1])), off = error[0] + error[1];
 
@@ -411,7 +411,7 @@ compare_ends(qdot_slopes *s, qdot_run *run)
 
         QDOT_TRY(qdot_run_values(s->run, 1, &q, 1, &t, value, error));
         QDOT_TRY(qdot_run_values(run, 1, &q, 1, &t, value + 1, error + 1));
-        if (!agree(value, error))
+        if (!values_agree(value, error))
             return qdot_fail(QDOT_EFAILED,
                              "the run with slopes goes another way: %.80s = %.6g at t = "
                              "%.6g, not %.6g",

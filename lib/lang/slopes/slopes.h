@@ -35,7 +35,7 @@ typedef struct {
     qdot_run *run;               /* borrowed */
     qdot_run_request request;
     qdot_variation_by *by;     /* [names] */
-    qdot_expr *values, *start; /* [names x values], [names x 2n] */
+    qdot_expr *values, *start; /* [names x values], [names x 2n] derivatives of parameter values and start */
     qdot_expr *settled;        /* [2n] the run's start, on its constraints */
     double *scales;            /* [2n] of the request, where the run shows that 1 is none; else NULL */
     qdot_variation variation;
@@ -53,7 +53,7 @@ QDOT_MUST_CHECK qdot_status qdot_slope_names_take(qdot_cursor *c, qdot_slope_nam
                                                   qdot_status read);
 /* Whether the k-th name is a parameter, not a coordinate or a velocity. */
 bool qdot_slopes_is_parameter(const qdot_slopes *s, size_t k);
-/* Take the holes NAME after that word of the usage into slopes, which is {0}. Free them in any case. */
+/* Take the names after that word of the usage into slopes, which is {0}. Free them in any case. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s);
 /* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,
  * measured from the first-th on, need it. Errors: those of qdot_variation_make and of the run; QDOT_EFAILED

@@ -53,7 +53,7 @@ qdot_trial_close(qdot_trial *t)
     t->run = NULL;
 }
 
-/* --- numbers ------------------------------------------------------------------------------- */
+/* --- results of the run as numbers --------------------------------------------------------- */
 
 qdot_status
 qdot_trial_at_time(qdot_session *session, qdot_expr e, qdot_expr time, qdot_expr *number)
@@ -95,7 +95,7 @@ qdot_trial_numbers(qdot_trial *t, size_t m, const qdot_expr *e, double *value,
     return QDOT_OK;
 }
 
-/* --- slopes -------------------------------------------------------------------------------- */
+/* --- derivatives of the results ------------------------------------------------------------ */
 
 static qdot_status
 name_directions(qdot_trial *t)

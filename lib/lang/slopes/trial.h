@@ -27,7 +27,7 @@ typedef struct {
     const qdot_run_options *options; /* NULL: those of a bare `run` */
     qdot_expr from, to;              /* limits; they may hold unknowns */
 
-    /* set while the trial is open: */
+    /* Fields that are set while the trial is open: */
     bool open;
     qdot_run *run; /* borrowed: the session's */
     qdot_expr end; /* its last time, exact */
@@ -46,13 +46,13 @@ QDOT_MUST_CHECK qdot_status qdot_trial_put(qdot_session *session, size_t n,
 QDOT_MUST_CHECK qdot_status qdot_trial_open(qdot_trial *t, const qdot_expr *values);
 void qdot_trial_close(qdot_trial *t);
 
-/* Replace what moves in *e by its value at the end of the run. QDOT_EINVAL: the run ended at an event. */
+/* Replace moving symbols in *e by their values at the end of the run. QDOT_EINVAL: an event stopped the run. */
 QDOT_MUST_CHECK qdot_status qdot_trial_at_end(qdot_session *session, qdot_expr *e);
-/* The value of a moving expression e at a time, as a result of the run. */
+/* Evaluate a moving expression e at a time, as a result of the run. */
 QDOT_MUST_CHECK qdot_status qdot_trial_at_time(qdot_session *session, qdot_expr e,
                                                qdot_expr time, qdot_expr *number);
 
-/* Expressions e [m] of numbers as doubles, with their errors (NaN: unknown). */
+/* Evaluate expressions e [m] of run results as doubles, with their errors (NaN: unknown). */
 QDOT_MUST_CHECK qdot_status qdot_trial_numbers(qdot_trial *t, size_t m,
                                                const qdot_expr *e, double *value,
                                                double *error);

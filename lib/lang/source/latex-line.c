@@ -61,7 +61,7 @@ add_factor(reader *r, qdot_text *out)
     qdot_text_clear(&text);
 }
 
-/* The argument of a function without brackets: \sin\theta. */
+/* Translate the argument of a function without brackets, as in \sin\theta. */
 static void
 add_call(reader *r, const char *name, qdot_text *out)
 {
@@ -148,7 +148,7 @@ command(reader *r, bool operand, qdot_text *out)
 
 /* Translate one letter or sign that begins no command; returns whether an operand ends with it. */
 static bool
-sign(reader *r, bool operand, qdot_text *out)
+translate_sign(reader *r, bool operand, qdot_text *out)
 {
     const char c = *r->at++;
 
@@ -193,7 +193,7 @@ sequence(reader *r, char closer, qdot_text *out)
                 qdot_text_char(out, *r->at++);
             operand = true;
         } else {
-            operand = sign(r, operand, out);
+            operand = translate_sign(r, operand, out);
         }
     }
     r->at += r->at < r->to;

@@ -66,7 +66,7 @@ qdot_letters_superscript(uint32_t c)
     return c == 0x2070 || (c >= 0x2074 && c <= 0x2079) ? (int)(c - 0x2070) : -1;
 }
 
-/* Letters with dots for time derivatives; ä, ë, ï, ö, ü, ÿ are missing because they occur in words. */
+/* Letters with dots for time derivatives; ä, ë, ï, ö, ü and ÿ are left out because words contain them. */
 static const struct {
     const char *letter, *base;
     unsigned dots;

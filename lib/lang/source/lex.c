@@ -1,4 +1,4 @@
-/* lex.c -- from bytes to tokens. */
+/* lex.c -- splits the bytes of a source into tokens. */
 #include "lang/source/lex.h"
 
 #include <string.h>
@@ -137,7 +137,7 @@ push_end(lexer *x, size_t start, size_t end)
     return token_push(x, QDOT_TOKEN_END, "", start, end);
 }
 
-/* Whether a newline is only a blank here: inside ( ) or [ ]. */
+/* Whether a newline counts as a blank at this place, because a ( or [ is open. */
 static bool
 in_bracket(const lexer *x)
 {
@@ -231,9 +231,9 @@ lex_number(lexer *x)
     return QDOT_OK;
 }
 
-/* Append the letter or digit at the next byte to `name`, spelled; false: none. */
+/* Append the letter or digit at the next byte to `name`, Greek ones spelled out; false if there is none. */
 static bool
-spell(lexer *x, qdot_text *name, bool first)
+append_letter(lexer *x, qdot_text *name, bool first)
 {
     const char *text = x->source->text + x->i;
     size_t length;
@@ -256,7 +256,7 @@ spell(lexer *x, qdot_text *name, bool first)
     return true;
 }
 
-/* Dots over the letter just read: as many primes; 0: none. */
+/* The number of dots over the letter just read, which become primes. */
 static unsigned
 lex_dots(lexer *x)
 {
@@ -290,12 +290,12 @@ lex_name(lexer *x, qdot_text *name)
     if (dots > 0) {
         qdot_text_char(name, *copy);
         x->i += (size_t)qdot_utf8_length(x->source->text + x->i);
-    } else if (spell(x, name, true)) {
+    } else if (append_letter(x, name, true)) {
         dots = lex_dots(x);
     } else {
         return QDOT_OK;
     }
-    while (spell(x, name, false))
+    while (append_letter(x, name, false))
         ;
     QDOT_TRY(qdot_text_status(name));
     copy = qdot_arena_strndup(x->source->arena, name->at, name->n);

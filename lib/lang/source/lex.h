@@ -1,4 +1,4 @@
-/* lex.h -- from bytes to tokens. */
+/* lex.h -- splits the bytes of a source into tokens. */
 #ifndef QDOT_LANG_LEX_H
 #define QDOT_LANG_LEX_H
 

@@ -33,7 +33,7 @@ static const struct {
     {"`", "a text in double quotes: \"text\""},
 };
 
-/* The line that contains the byte: [*from, *to), without blanks at its ends. */
+/* Find the line that contains the byte: [*from, *to), without blanks at its ends. */
 static void
 line_of(const char *text, size_t at, size_t *from, size_t *to)
 {
@@ -58,7 +58,7 @@ trimmed(const char *text, size_t *from, size_t to)
     return (int)(to - *from);
 }
 
-/* “text”: the line with our quotes. */
+/* Refuse “text”; the hint is the line with straight quotes. */
 static qdot_status
 refuse_quotes(const char *text, size_t at)
 {
@@ -112,7 +112,7 @@ refuse_partial(const char *text, size_t at)
                      (int)name_length(text, by), text + by);
 }
 
-/* f = @(x) x^2, a function; theta@5, a value at a time. */
+/* Refuse @: f = @(x) x^2 is meant as a function, theta@5 as a value at a time. */
 static qdot_status
 refuse_at(const char *text, size_t at)
 {
@@ -154,7 +154,7 @@ refuse_degrees(const char *text, size_t at)
     return qdot_hint("write %.*s*pi/180", (int)(at - from), text + from);
 }
 
-/* ?word, or A ? B : C. */
+/* Refuse a question mark, as in ?word or A ? B : C. */
 static qdot_status
 refuse_question(const char *text, size_t at)
 {

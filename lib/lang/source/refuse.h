@@ -14,7 +14,7 @@ qdot_status qdot_refuse_open(const char *text, size_t open);
 qdot_status qdot_refuse_close(const char *text, size_t close);
 /* Fail for a text without closing quote, which opens at `open`. QDOT_ESYNTAX. */
 qdot_status qdot_refuse_text(const char *text, size_t open);
-/* A backslash inside a line: LaTeX. QDOT_ESYNTAX. */
+/* Refuse a backslash inside a line, a command of LaTeX. QDOT_ESYNTAX. */
 qdot_status qdot_refuse_backslash(const char *text, size_t at);
 
 #endif

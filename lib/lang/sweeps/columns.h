@@ -21,7 +21,7 @@ void qdot_columns_free(qdot_columns *x);
 /* Read column i as a scalar expression. */
 QDOT_MUST_CHECK qdot_status qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i,
                                               qdot_expr *e);
-/* The value of column i for the session's latest run, which ends at `end`, with its error. */
+/* Evaluate column i for the session's latest run, which ends at `end`, with its error. */
 QDOT_MUST_CHECK qdot_status qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i,
                                                  qdot_expr end, double *value, double *error);
 /* Whether column i uses value, max, min, mean or drift, which read a run at intermediate times, but

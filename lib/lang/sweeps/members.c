@@ -6,7 +6,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/values.h"
 
-/* --- reading ---------------------------------------------------------------------------- */
+/* --- reading the statement -------------------------------------------------------------- */
 
 qdot_status
 qdot_members_find(qdot_record *r, qdot_members *m)
@@ -34,7 +34,7 @@ qdot_members_free(qdot_members *m)
     qdot_run_options_free(&m->run);
 }
 
-/* --- a member --------------------------------------------------------------------------- */
+/* --- the run of one member -------------------------------------------------------------- */
 
 /* Make the run up to `to` and pass it to `use`; the session keeps it meanwhile. */
 static qdot_status

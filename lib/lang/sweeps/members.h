@@ -21,7 +21,8 @@ typedef struct {
 
 /* The usage of a sweep's parameters and run, before the columns. */
 #define QDOT_MEMBERS_USAGE QDOT_SWEEP_AXES " run T0..T1 " QDOT_RUN_USAGE " : "
-/* Take them from the statement. m starts as {.run.tol = 1e-12}; free it in any case. */
+/* Take the parameters and the run of a sweep from the statement. m starts as {.run.tol = 1e-12};
+ * free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_members_find(qdot_record *r, qdot_members *m);
 void qdot_members_free(qdot_members *m);
 

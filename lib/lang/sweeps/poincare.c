@@ -54,7 +54,7 @@ typedef struct {
     double lost;   /* the last such time */
 } poincare;
 
-/* --- what was read ---------------------------------------------------------------------- */
+/* --- the operands of the section -------------------------------------------------------- */
 
 static qdot_status
 surface_find(qdot_record *r, poincare *p)
@@ -101,7 +101,7 @@ run_end(const qdot_record *r, const qdot_filled *run, bool behind)
     return part;
 }
 
-/* Find the run or sweep of the section, which may be given before the colon or after the columns. */
+/* Find the run, or the sweep, of the section; it may be named before the colon or after the columns. */
 static qdot_status
 whose_find(qdot_record *r, poincare *p)
 {
@@ -159,7 +159,7 @@ poincare_find_all(qdot_record *r, poincare *p)
     return name_find(r, p);
 }
 
-/* --- the points ------------------------------------------------------------------------- */
+/* --- points of the section -------------------------------------------------------------- */
 
 /* Append a row for each point: the swept values [n_swept - 1], the time, the columns. */
 static qdot_status
@@ -251,7 +251,7 @@ make_table(qdot_session *session, poincare *p)
     return status;
 }
 
-/* --- of a sweep ------------------------------------------------------------------------- */
+/* --- the section of a sweep ------------------------------------------------------------- */
 
 typedef struct {
     poincare *p;
@@ -292,7 +292,7 @@ go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
     for (size_t k = 0; k < p->members.axes.members && status == QDOT_OK; k++) {
         status = qdot_members_run(c, &p->members, k, swept, use_member, &m);
         if (status == QDOT_EINTR && p->table->rows > 0) {
-            qdot_interrupt_clear(); /* heard: the points that are found are kept */
+            qdot_interrupt_clear(); /* the interruption has been handled: the points found are kept */
             *interrupted = true;
             status = QDOT_OK;
             break;
@@ -323,7 +323,7 @@ find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
     return status;
 }
 
-/* --- what is told ----------------------------------------------------------------------- */
+/* --- answers and the statement ---------------------------------------------------------- */
 
 static qdot_status
 poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
@@ -399,7 +399,7 @@ poincare_make(qdot_record *r)
     if (status == QDOT_OK) {
         qdot_row_table *table = p.table;
 
-        p.table = NULL; /* the session's from now on */
+        p.table = NULL; /* the session owns the table from now on */
         status = qdot_row_tables_keep(c->session, table);
         if (status == QDOT_OK)
             status = poincare_tell(c->session, &p, table);

@@ -17,7 +17,7 @@
 
 static const double most_members = 1e7;
 
-/* The generator takes 32 bits of a seed, and no more. */
+/* The largest seed: the generator uses only 32 bits of it. */
 static const long most_seed = 0xffffffff;
 
 /* Seed used instead of 0, which GSL replaces by 4357; GSL uses the lower 32 bits, and those of this
@@ -34,7 +34,7 @@ qdot_sweep_axes_free(qdot_sweep_axes *axes)
     *axes = (qdot_sweep_axes){0};
 }
 
-/* e as a constant of the session, exact. */
+/* Evaluate e as an exact constant of the session. */
 static qdot_status
 constant(qdot_session *session, qdot_expr e, qdot_expr *value, double *number)
 {
@@ -196,7 +196,7 @@ random_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot
     return refuse_option(r, o->step);
 }
 
-/* The name in front of `=`. */
+/* Take the name before `=` as the parameter, coordinate or velocity to vary. */
 static qdot_status
 symbol_find(qdot_record *r, qdot_sweep_axis *x)
 {

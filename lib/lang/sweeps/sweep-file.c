@@ -13,9 +13,9 @@
 
 static const char fact[] = "sweep";
 
-/* --- its checksum --------------------------------------------------------------------- */
+/* --- checksum of the sweep ------------------------------------------------------------ */
 
-/* FNV-1a, 64 bits (Fowler, Noll & Vo). */
+/* The hash FNV-1a of an empty text, with 64 bits (Fowler, Noll & Vo). */
 static const uint64_t sum_of_nothing = 14695981039346656037u;
 
 static void
@@ -32,7 +32,7 @@ add_number(uint64_t *sum, double x)
 {
     uint64_t bits;
 
-    x = isnan(x) ? NAN : x; /* of many representations */
+    x = isnan(x) ? NAN : x; /* NaN has many representations */
     memcpy(&bits, &x, sizeof bits);
     for (int k = 0; k < 64; k += 8) {
         const unsigned char byte = (unsigned char)(bits >> k);
@@ -43,14 +43,14 @@ add_number(uint64_t *sum, double x)
 
 /* Write the text of the sweep, with the checksum of it and of the rows. */
 static qdot_status
-sign(const char *said, uint64_t sum, qdot_text *out)
+write_signature(const char *said, uint64_t sum, qdot_text *out)
 {
     add_bytes(&sum, said, strlen(said));
     qdot_text_format(out, "%s\nchecksum %016" PRIx64, said, sum);
     return qdot_text_status(out);
 }
 
-/* --- written -------------------------------------------------------------------------- */
+/* --- writing the file ----------------------------------------------------------------- */
 
 static uint64_t
 sum_columns(const qdot_table *t)
@@ -81,7 +81,7 @@ qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said
     qdot_status status = qdot_row_columns_of(t, done, &x);
 
     if (status == QDOT_OK)
-        status = sign(said, sum_columns(&x.table), &signed_text);
+        status = write_signature(said, sum_columns(&x.table), &signed_text);
     if (status == QDOT_OK) {
         const qdot_table_fact facts[] = {{"program", PACKAGE_STRING, 0},
                                          {fact, qdot_text_str(&signed_text), 0}};
@@ -96,7 +96,7 @@ qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said
     return status;
 }
 
-/* --- read ----------------------------------------------------------------------------- */
+/* --- reading the file ----------------------------------------------------------------- */
 
 static qdot_status
 take_rows(const qdot_hdf5_columns *from, const char *path, qdot_row_table *t, bool *done)
@@ -163,7 +163,7 @@ file_check(const qdot_hdf5_columns *from, const char *path, const char *said, co
         (void)qdot_fail(QDOT_EINVAL, "%.200s holds the rows of another sweep, or of another scene", path);
         return qdot_hint("give another name, or remove the file");
     }
-    status = sign(said, sum_read(from), &signed_text);
+    status = write_signature(said, sum_read(from), &signed_text);
     if (status == QDOT_OK && strcmp(text, signed_text.at) != 0) {
         (void)qdot_fail(QDOT_EINVAL, "%.200s is damaged: its rows are not those that were written", path);
         status = qdot_hint("remove the file; its rows are made anew");

@@ -55,9 +55,9 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
     qdot_free(x);
 }
 
-/* --- columns ---------------------------------------------------------------------------- */
+/* --- columns that lanes can compute ----------------------------------------------------- */
 
-/* NAME[K] of an event of the scene. */
+/* Whether column i is the time NAME[K] of an event of the scene; *k: its number K. */
 static const qdot_event *
 as_event(const qdot_sweep *s, size_t i, long *k)
 {
@@ -102,7 +102,7 @@ is_of_states(qdot_session *session, qdot_expr e)
            && !qdot_measured_occurs(session, e);
 }
 
-/* Read the columns, expressions into e [columns]; `why` stays empty if lanes can compute them all. */
+/* Read the columns as expressions e [columns]; `why` stays empty if runs in lanes can compute them all. */
 static qdot_status
 lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
 {
@@ -154,7 +154,7 @@ lower_columns(qdot_sweep_lanes *x, qdot_expr *e)
     return x->in && x->work && x->out ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* --- members ---------------------------------------------------------------------------- */
+/* --- members in lanes ------------------------------------------------------------------- */
 
 qdot_status
 qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
@@ -166,7 +166,7 @@ qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept, qdot_request *r
     return qdot_run_options_fill(session, &m->run, m->run.from, m->run.to, request);
 }
 
-/* Whether something of the session but the equations and the start reads a swept parameter. */
+/* Whether a swept parameter occurs in something other than the equations and the start. */
 static bool
 is_read_elsewhere(const qdot_sweep *s, qdot_expr symbol)
 {
@@ -360,13 +360,13 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
         return qdot_text_status(why);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
-    qdot_text_add(why, qdot_last_error()->message); /* a run alone says more of it */
+    qdot_text_add(why, qdot_last_error()->message); /* a single run reports more about it */
     if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* it is told of once */
         return QDOT_ENOMEM;
     return qdot_text_status(why);
 }
 
-/* The start y [2n] and the parameters of member k as numbers. */
+/* Evaluate the start y [2n] and the parameters of member k as numbers. */
 static qdot_status
 number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
 {
@@ -462,7 +462,7 @@ run_together(qdot_sweep_lanes *x, const size_t *rows, size_t count)
         if (status == QDOT_OK)
             first.row[first.n++] = rows[k];
         else if (status != QDOT_ENOMEM && status != QDOT_EINTR)
-            status = QDOT_OK; /* a run alone tells what is wrong with its values */
+            status = QDOT_OK; /* a single run reports what is wrong with its values */
     }
     if (status == QDOT_OK && first.n > 0)
         status = run_members(x, x->least, &first, &again);

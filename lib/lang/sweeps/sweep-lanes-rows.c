@@ -21,7 +21,7 @@ enum { PLACES = 16 };
  * far less at the end than before may be so by chance. Then one companion does not tell enough. */
 static const double roundings = 64;
 
-/* The median of the distances before the end counts up to this many times that at the end (ode/companion.h). */
+/* The error between steps counts as at most this many times the error at the end (ode/companion.h). */
 static const double most_between = 30;
 
 /* Coordinates between `nothing` and `small` may need a scale of their own (sim/run/scales.h). */
@@ -39,7 +39,7 @@ member_evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double
     return true;
 }
 
-/* The errors of all expressions at a stored time, into errors [outputs]; x->out gets their values. */
+/* Find the errors of all expressions at a stored time: errors [outputs]; x->out gets their values. */
 static bool
 member_errors(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
@@ -80,7 +80,7 @@ is_good(double value, double error)
            && error <= largest_error * fmax(1, fabs(value));
 }
 
-/* Values and errors of the expressions of a member at its end, [outputs] each. */
+/* Evaluate the expressions of a member at its end: values and errors [outputs]. */
 static qdot_status
 read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
 {
@@ -126,7 +126,7 @@ member_is_small(const qdot_sweep_lanes *x, size_t m)
     return false;
 }
 
-/* The time of an event and its error; *there false: a single run must decide. */
+/* Find the time of an event and its error; *there false: a single run must decide. */
 static qdot_status
 read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, size_t k, double *to, bool *there)
 {
@@ -140,7 +140,7 @@ read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, siz
         *error = qdot_ensemble_error_of(t[0], x->companions, t + 1);
         x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
         *error += DBL_EPSILON * fabs(t[0]);
-        *there = isfinite(*error); /* a run alone compares the same times */
+        *there = isfinite(*error); /* a single run compares the same times */
         return QDOT_OK;
     }
     if (x->reasons[k] != NULL)
@@ -173,7 +173,7 @@ measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, 
     return QDOT_OK;
 }
 
-/* As measure_way, for row k of the sweep with its parameter values set, into values and errors [columns]. */
+/* As measure_way, for row k of the sweep, whose parameter values are set; gives values and errors [columns]. */
 static qdot_status
 read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
 {

@@ -34,7 +34,7 @@ QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes
                                                  qdot_text *why);
 void qdot_sweep_lanes_free(qdot_sweep_lanes *lanes);
 
-/* Run these members [n]; or those of first ... first + count - 1 that are not finished. */
+/* Run these members [n]; _run: those of first ... first + count - 1 that are not finished. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run_rows(qdot_sweep_lanes *lanes, const size_t *rows,
                                                       size_t n);
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run(qdot_sweep_lanes *lanes, size_t first,

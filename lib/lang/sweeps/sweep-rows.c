@@ -15,16 +15,16 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 
-/* The least work (s) for which further processes are started. */
+/* The least remaining work (s) for which it pays to start further processes. */
 static const double worth = 0.05;
 
 /* The largest and the smallest number of rows that this process makes together in lanes. */
 enum { MOST = 256, LEAST = 32 };
 
-/* The aim for the duration (s) of such a group of rows, which an interruption would lose. */
+/* The desired duration (s) of such a group of rows, which an interruption would lose. */
 static const double soon = 0.5;
 
-/* --- a row ------------------------------------------------------------------------------ */
+/* --- making a row ----------------------------------------------------------------------- */
 
 /* The columns of the latest run, behind what was swept in its row; of those that fail the first is
  * told. */
@@ -67,7 +67,7 @@ qdot_sweep_fill_row(qdot_sweep *s, size_t k)
     return qdot_members_run(s->c, &s->members, k, t->values + k * t->n, fill_columns, s);
 }
 
-/* --- the file ------------------------------------------------------------------------- */
+/* --- storing rows in a file ----------------------------------------------------------- */
 
 /* Write the finished rows to the file if the last write was long ago, or now if `at_once`. */
 static qdot_status
@@ -86,7 +86,7 @@ keep_rows(qdot_sweep *s, bool at_once)
     return QDOT_OK;
 }
 
-/* --- a row that is done ----------------------------------------------------------------- */
+/* --- finished rows of the sweep --------------------------------------------------------- */
 
 /* Answer the next rows as JSON as far as they are finished; `all`: including the rest. */
 static qdot_status
@@ -127,7 +127,7 @@ typedef struct {
     size_t error_at, message, hint;
 } row_head;
 
-/* Run those rows in lanes that can be; a failure will be reported by the single runs. */
+/* Run the rows in lanes if they allow it; a failure will be reported by the single runs. */
 static void
 begin_rows_there(size_t first, size_t count, void *user)
 {
@@ -182,7 +182,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
     return rows_take_row(s, k, h.status);
 }
 
-/* --- the sweep -------------------------------------------------------------------------- */
+/* --- making all rows -------------------------------------------------------------------- */
 
 /* The number of rows for the next group, if `before` rows took this number of seconds. */
 static size_t
@@ -246,7 +246,7 @@ run_all(qdot_sweep *s)
     return job.workers > 1 ? qdot_workers_run(&job) : run_here(s, job.first, members);
 }
 
-/* Remove the rows that are not finished from the table. */
+/* Remove the rows of unfinished members from the table. */
 static void
 drop_others(qdot_sweep *s)
 {
@@ -263,7 +263,7 @@ drop_others(qdot_sweep *s)
     t->rows = n;
 }
 
-/* Begin the table, with the rows that are in the file. */
+/* Begin the table, with the rows that a file has kept. */
 static qdot_status
 begin_rows(qdot_sweep *s)
 {
@@ -283,7 +283,7 @@ begin_rows(qdot_sweep *s)
         s->resumed += s->done[k];
     }
     s->n_done = s->resumed;
-    return keep_rows(s, true); /* a file that cannot be written is better known now */
+    return keep_rows(s, true); /* better report now a file that cannot be written */
 }
 
 qdot_status
@@ -304,7 +304,7 @@ qdot_sweep_make_rows(qdot_sweep *s)
     qdot_text_clear(&why);
     s->lanes = NULL;
     if (status == QDOT_EINTR && s->n_done > 0) {
-        qdot_interrupt_clear(); /* heard: the rows that are done are kept */
+        qdot_interrupt_clear(); /* the interruption has been handled: the finished rows are kept */
         s->interrupted = true;
         status = QDOT_OK;
     }

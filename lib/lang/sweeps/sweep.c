@@ -34,7 +34,7 @@ QDOT_STATEMENT(sweep) = {
 
 enum { MOST_THREADS = 1024 };
 
-/* --- reading ---------------------------------------------------------------------------- */
+/* --- reading the statement -------------------------------------------------------------- */
 
 static qdot_status
 threads_find(qdot_record *r, qdot_sweep *s)
@@ -252,7 +252,7 @@ sweep_carry_out(qdot_cursor *c, qdot_sweep *s)
 
     QDOT_TRY(note_parameters(c->session, &s->members, table));
     QDOT_TRY(qdot_sweep_make_rows(s));
-    s->table = NULL; /* the session's from now on */
+    s->table = NULL; /* the session owns the table from now on */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
     QDOT_TRY(sweep_tell(c->session, s, table, qdot_wall_now() - begun));
     if (!names_start(c->session, &s->members))

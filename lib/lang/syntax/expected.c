@@ -101,7 +101,8 @@ qdot_expected_add(qdot_expected *list, int node, uint64_t taken)
         expected_collect(list, at->next, true);
 }
 
-/* The first node of that kind, by the order of the usage; open: of no option that is taken. NULL: none. */
+/* The first node of this kind in the order of the usage; open: only if its option may still come.
+ * NULL: none. */
 static const qdot_usage_node *
 expected_first(const qdot_expected *list, int kind, bool open)
 {
@@ -126,7 +127,7 @@ is_said(const qdot_expected *list, int node)
     return false;
 }
 
-/* `a`, `b` or `c`, in the order of the usage. */
+/* List the expected words, `a`, `b` or `c`, in the order of the usage. */
 static void
 list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
 {

@@ -25,7 +25,7 @@ typedef struct {
     bool open;  /* a hole may stand there */
 } qdot_expected;
 
-/* Add what may come at that node of the usage. */
+/* Add the words and signs that may come at this node of the usage. */
 void qdot_expected_add(qdot_expected *list, int node, uint64_t taken);
 /* Write the words after "expected", such as "`at`, `mass` or the end", to what; returns a fitting
  * hint, or NULL. */

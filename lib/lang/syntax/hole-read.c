@@ -1,4 +1,4 @@
-/* hole-read.c -- the tokens of a hole, read as its class says. */
+/* hole-read.c -- parses the tokens of a hole (a placeholder of a usage text) as its class says. */
 #include "lang/syntax/hole-read.h"
 
 #include <string.h>
@@ -26,7 +26,7 @@ qdot_usage_node_is(const qdot_usage_node *node, const qdot_token *token)
            (node->kind == QDOT_USAGE_SIGN && qdot_token_is(token, node->text));
 }
 
-/* Whether a sign or word that may follow the node is the token. */
+/* Whether the token is a sign or word that may come after this node in the usage. */
 static bool
 leads_to(const qdot_usage *u, int node, const qdot_token *token)
 {
@@ -54,7 +54,7 @@ behind_name(const qdot_token *t)
     return t;
 }
 
-/* --- one hole ------------------------------------------------------------------------ */
+/* --- parsing one hole ---------------------------------------------------------------- */
 
 static qdot_status
 read_expression(const reader *m, qdot_parse_extent extent, qdot_filled *part)
@@ -70,7 +70,7 @@ read_expression(const reader *m, qdot_parse_extent extent, qdot_filled *part)
     return status;
 }
 
-/* name, name[i, j], with primes if it is a coordinate */
+/* Parse name or name[i, j], with primes if it is a coordinate. */
 static qdot_status
 read_name(const reader *m, const qdot_hole *hole, qdot_filled *part)
 {
@@ -100,7 +100,7 @@ is_relation(const qdot_token *t)
     return t->kind == QDOT_TOKEN_OPERATOR && strchr("<>", t->text[0]) != NULL;
 }
 
-/* Whether the name is declared, or stands in the statement already. */
+/* Whether the name is declared, or occurs earlier in the statement. */
 static bool
 is_declared(const reader *m, const char *name)
 {
@@ -130,7 +130,7 @@ begins_with_bound(const reader *m)
            !is_declared(m, next[1].text);
 }
 
-/* name, LO < name, name > LO, LO < name < HI */
+/* Parse a new name with bounds: name, LO < name, name > LO, LO < name < HI. */
 static qdot_status
 read_domain(const reader *m, const qdot_hole *hole, qdot_filled *part)
 {
@@ -157,7 +157,7 @@ read_domain(const reader *m, const qdot_hole *hole, qdot_filled *part)
     return QDOT_OK;
 }
 
-/* --- a hole -------------------------------------------------------------------------- */
+/* --- parsing a hole by its class ----------------------------------------------------- */
 
 /* Where what is read of the part so far is a name that means nothing, or that of a function without
  * its argument, that is told. */
@@ -173,7 +173,7 @@ tell_unknown(const reader *m, const qdot_filled *part)
                : QDOT_OK;
 }
 
-/* SIDE = SIDE, or an equation by its name; of a comparison any relation */
+/* Parse SIDE = SIDE, or an equation given by name; for a comparison any relation. */
 static qdot_status
 read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
 {
@@ -192,7 +192,7 @@ read_equation(const reader *m, const qdot_usage_node *node, qdot_filled *part)
     return qdot_cursor_expected(c, comparison ? "`==` and the other side" : "`=` and the other side");
 }
 
-/* SIDE = SIDE, or `returns after SIDE` */
+/* Parse one condition: SIDE = SIDE, or `returns after SIDE`. */
 static qdot_status
 read_one_condition(const reader *m, const qdot_hole *hole, qdot_filled *part)
 {
@@ -211,7 +211,7 @@ read_one_condition(const reader *m, const qdot_hole *hole, qdot_filled *part)
     return read_expression(m, QDOT_PARSE_SIDE, part);
 }
 
-/* (SIDE, SIDE): as many as the usage names */
+/* Parse a tuple (SIDE, SIDE) with as many components as the usage names. */
 static qdot_status
 read_tuple(const reader *m, const char *names, qdot_filled *part)
 {
@@ -224,7 +224,7 @@ read_tuple(const reader *m, const char *names, qdot_filled *part)
     return qdot_cursor_expect_op(m->c, ")");
 }
 
-/* SIDE..SIDE */
+/* Parse a range SIDE..SIDE. */
 static qdot_status
 read_range(const reader *m, const qdot_hole *hole, qdot_filled *part)
 {
@@ -248,7 +248,7 @@ read_call(const reader *m, const qdot_hole *hole, qdot_filled *part)
     return status;
 }
 
-/* An expression in which the arguments of the call before it hide other names. */
+/* Parse an expression in which the arguments of the preceding call NAME(u, v) hide other names. */
 static qdot_status
 read_body(const reader *m, qdot_filled *part)
 {
@@ -277,7 +277,7 @@ read_text(const reader *m, const qdot_usage_node *node)
     return QDOT_OK;
 }
 
-/* SIDE; of a mere drift(SIDE, ...) then each SIDE too */
+/* Parse SIDE; if it is just drift(SIDE, ...), record each of these sides, too. */
 static qdot_status
 read_curve(const reader *m, qdot_filled *part)
 {
@@ -342,7 +342,7 @@ qdot_hole_suits(const qdot_usage *u, const qdot_record *r, const qdot_usage_node
     }
 }
 
-/* Whether `to "FILE"`, which comes behind the expression or the name of the hole, stands in its place. */
+/* Whether `to "FILE"` stands where the expression or name of the hole should be. */
 static bool
 is_file_in_place(const reader *m, const qdot_usage_node *node)
 {

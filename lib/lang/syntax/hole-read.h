@@ -1,4 +1,4 @@
-/* hole-read.h -- the tokens of a hole, read as its class says (holes.h). */
+/* hole-read.h -- parses the tokens of a hole (a placeholder of a usage text) as its class says (holes.h). */
 #ifndef QDOT_LANG_HOLE_READ_H
 #define QDOT_LANG_HOLE_READ_H
 

@@ -1,4 +1,4 @@
-/* holes.c -- the table of what the holes of usage texts accept. */
+/* holes.c -- the table of placeholders ("holes") in usage texts and what each accepts. */
 #include "lang/syntax/holes.h"
 
 #include <stdbool.h>
@@ -25,7 +25,7 @@ qdot_hole_find(const char *statement, const char *before, const char *text)
 
     while (!hole_fits(rows[i].statement, statement) || !hole_fits(rows[i].before, before) ||
            !hole_fits(rows[i].text, kind))
-        i++; /* the last row fits all */
+        i++; /* the last row fits any hole */
     return i;
 }
 

@@ -29,7 +29,7 @@ typedef struct {
     size_t first; /* of those at the present token */
 } matcher;
 
-/* --- places -------------------------------------------------------------------------- */
+/* --- positions in the usage ---------------------------------------------------------- */
 
 /* Add everything that may come at the node to the current positions. */
 static qdot_status
@@ -61,9 +61,9 @@ node_class(const qdot_usage_node *node)
     return qdot_hole_at(node->hole)->class;
 }
 
-/* --- which hole ---------------------------------------------------------------------- */
+/* --- choosing the hole at a token ---------------------------------------------------- */
 
-/* The hole to be read at the token, a name before an expression; NULL: none may stand there. */
+/* Choose the hole to be read at the token, preferring a name to an expression; NULL: none is possible here. */
 static const qdot_usage_node *
 hole_choose(const matcher *m)
 {
@@ -81,9 +81,9 @@ hole_choose(const matcher *m)
     return suits != NULL ? suits : found;
 }
 
-/* --- the statement ------------------------------------------------------------------- */
+/* --- matching a statement ------------------------------------------------------------ */
 
-/* Record the part, and advance from the positions whose node matches it: the token, or a hole of that class. */
+/* Record the part, and move the positions over it: those whose node is the token, or a hole of its class. */
 static qdot_status
 go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
 {

@@ -30,7 +30,7 @@ qdot_record_alone(const qdot_cursor *c, const qdot_statement *row)
     return r;
 }
 
-/* --- what was read ------------------------------------------------------------------- */
+/* --- parts of the statement ---------------------------------------------------------- */
 
 bool
 qdot_filled_is(const qdot_filled *part, const char *text)
@@ -83,7 +83,7 @@ qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text
     return NULL;
 }
 
-/* --- values -------------------------------------------------------------------------- */
+/* --- evaluating parts ---------------------------------------------------------------- */
 
 qdot_status
 qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value)
@@ -161,7 +161,7 @@ qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion, qdot_
     return QDOT_OK;
 }
 
-/* name[i,j], in the arena of the source. */
+/* Spell name[i,j] with evaluated indices, in the arena of the source. */
 static qdot_status
 spell_name(const qdot_record *r, const char *name, size_t n, const long *index, const char **spelled)
 {
@@ -349,7 +349,7 @@ qdot_record_text(const qdot_filled *part)
     return part->from->text;
 }
 
-/* --- failures ------------------------------------------------------------------------ */
+/* --- reporting errors ---------------------------------------------------------------- */
 
 void
 qdot_record_blame(qdot_record *r, const qdot_filled *part)

@@ -54,9 +54,9 @@ void qdot_record_free(qdot_record *r);
  * nothing to free. Its errors stand at the end of the statement at the cursor. */
 qdot_record qdot_record_alone(const qdot_cursor *c, const qdot_statement *row);
 
-/* --- what was read ------------------------------------------------------------------- */
+/* --- parts of the statement ---------------------------------------------------------- */
 
-/* The first such word or hole; NULL if there is none. before or text NULL: any. */
+/* The first part that is this word, or this hole; NULL if there is none. before or text NULL: any. */
 const qdot_filled *qdot_record_word(const qdot_record *r, const char *word);
 const qdot_filled *qdot_record_hole(const qdot_record *r, const char *before, const char *text);
 /* The next hole of that name after `part`, as in a list; NULL if there is none. */
@@ -66,59 +66,60 @@ bool qdot_filled_is(const qdot_filled *part, const char *text);
 /* Whether an operator outside brackets begins with the sign. */
 bool qdot_filled_holds_sign(const qdot_filled *part, char sign);
 
-/* --- values -------------------------------------------------------------------------- */
+/* --- evaluating parts ---------------------------------------------------------------- */
 
 QDOT_MUST_CHECK qdot_status qdot_record_value(qdot_record *r, const qdot_filled *part, qdot_expr *value);
-/* The value for an answer with a name. *over: the coordinates by which its entries are indexed, or nil. */
+/* Evaluate an answer that has a name. *over: the coordinates by which its entries are indexed, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_record_named(qdot_record *r, const qdot_filled *part, qdot_expr *value,
                                               qdot_expr *over);
 QDOT_MUST_CHECK qdot_status qdot_record_scalar(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_point(qdot_record *r, const qdot_filled *part, qdot_expr *value);
 QDOT_MUST_CHECK qdot_status qdot_record_number(qdot_record *r, const qdot_filled *part, double *value);
 QDOT_MUST_CHECK qdot_status qdot_record_integer(qdot_record *r, const qdot_filled *part, long *value);
-/* The exact ends of a range a..b. */
+/* Evaluate the exact ends of a range a..b. */
 QDOT_MUST_CHECK qdot_status qdot_record_range(qdot_record *r, const qdot_filled *part, qdot_expr *from,
                                               qdot_expr *to);
-/* The scalar k of a tuple. */
+/* Evaluate component k of a tuple, a scalar. */
 QDOT_MUST_CHECK qdot_status qdot_record_item(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
-/* The value of expression k of an operand, one side of a comparison. */
+/* Evaluate expression k of an operand, such as one side of a comparison. */
 QDOT_MUST_CHECK qdot_status qdot_record_side(qdot_record *r, const qdot_filled *part, size_t k,
                                              qdot_expr *value);
 /* The sides of an equation; of a motion: what a loop holds moves there. `A = B` or an equation by its
  * name, else a failure behind it. */
 QDOT_MUST_CHECK qdot_status qdot_record_equation(qdot_record *r, const qdot_filled *part, bool motion,
                                                  qdot_expr *left, qdot_expr *right);
-/* A name with its indices evaluated, stored in the arena of the source. */
+/* Spell a name with its indices evaluated, in the arena of the source. */
 QDOT_MUST_CHECK qdot_status qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name);
 /* The same, of something new: QDOT_ENAME at the part if a declaration or definition has the name. */
 QDOT_MUST_CHECK qdot_status qdot_record_new_name(qdot_record *r, const qdot_filled *part, const char **name);
 /* Bound k of a name with bounds, in the order typed; *is: the name has a bound k. */
 QDOT_MUST_CHECK qdot_status qdot_record_bound(qdot_record *r, const qdot_filled *part, size_t k,
                                               qdot_bound *bound, bool *is);
-/* The arguments of NAME(u, v); an expression in which they hide other names. Leave f in any case. */
+/* Read the arguments of NAME(u, v); evaluate an expression in which they hide other names. Leave f
+ * in any case. */
 QDOT_MUST_CHECK qdot_status qdot_record_formals(qdot_record *r, const qdot_filled *call, qdot_formals *f);
 QDOT_MUST_CHECK qdot_status qdot_record_body(qdot_record *r, const qdot_filled *part, qdot_formals *f,
                                              qdot_expr *body);
-/* A declared coordinate with its primes. */
+/* Find a declared coordinate with its primes. */
 QDOT_MUST_CHECK qdot_status qdot_record_coordinate(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *jet);
 /* The name that expression k of the part is, NAME or NAME[i, j] and nothing else; *name NULL: it is
  * more than a name. */
 QDOT_MUST_CHECK qdot_status qdot_record_bare_name(qdot_record *r, const qdot_filled *part, size_t k,
                                                   const char **name);
-/* The label in FUNCTION(LABEL, ...), if the part is just such a call; otherwise *label is NULL. */
+/* Find the label in FUNCTION(LABEL, ...), if the part is just such a call; otherwise *label is NULL. */
 QDOT_MUST_CHECK qdot_status qdot_record_label_in(qdot_record *r, const qdot_filled *part,
                                                  const char *function, const char **label);
-/* The arguments of FUNCTION(A, B) as numbers, if the part is just such a call; *is: whether it is. */
+/* Find the arguments of FUNCTION(A, B) as numbers, if the part is just such a call; *is: whether it is. */
 QDOT_MUST_CHECK qdot_status qdot_record_call_of_two(qdot_record *r, const qdot_filled *part,
                                                     const char *function, double *values, bool *is);
 /* The text of a hole in quotes. */
 const char *qdot_record_text(const qdot_filled *part);
 
-/* --- failures ------------------------------------------------------------------------ */
+/* --- reporting errors ---------------------------------------------------------------- */
 
-/* Set the position of an error to the beginning of the part. */
+/* Set the position of an error to the beginning of this part. */
 void qdot_record_blame(qdot_record *r, const qdot_filled *part);
 /* Fail at the primes of a name that cannot have any; what: what should follow the name. */
 QDOT_MUST_CHECK qdot_status qdot_record_no_prime(qdot_record *r, const qdot_filled *part,

@@ -1,4 +1,4 @@
-/* usage-read.c -- what may stand next in a statement, by its usage and the tokens so far. */
+/* usage-read.c -- finds what may come next in a statement, from its usage and the tokens so far. */
 #include "lang/syntax/usage.h"
 
 static void
@@ -45,9 +45,9 @@ is_connective(const qdot_token *token)
            qdot_token_is_word(token, "not");
 }
 
-/* Whether a token that goes on with an operand, or follows an operator, belongs to the hole. */
+/* Whether a token belongs to the hole because it continues an operand or follows an operator. */
 static bool
-continues(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
+continues_expression(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
 {
     if (token->kind == QDOT_TOKEN_END || qdot_token_is(token, ",") ||
         qdot_token_is(token, ":") || qdot_token_is(token, "|"))
@@ -81,7 +81,7 @@ operand_ends_with(const qdot_token *token)
     return strchr("([{)]}'%", token->text[0]) != NULL;
 }
 
-/* Whether the state is before a word or sign that the token is. */
+/* Whether the token is the word or sign that the state expects. */
 static bool
 is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *token)
 {
@@ -98,7 +98,7 @@ usage_take(qdot_usage *u, const qdot_token *token)
     qdot_usage_state old[QDOT_USAGE_STATES];
     const int n = u->states;
     const bool operand = u->operand, after = operand_ends_with(token);
-    bool word = false; /* a word of the usage is that, and begins no operand */
+    bool word = false; /* a word of the usage counts as such, not as the beginning of an operand */
 
     memcpy(old, u->state, sizeof *old * (size_t)n);
     u->states = 0;

@@ -1,4 +1,4 @@
-/* usage.c -- the usage text of a row, compiled to an automaton. */
+/* usage.c -- compiles the usage text of a statement to an automaton that follows its tokens. */
 #include "lang/syntax/usage.h"
 
 #include <ctype.h>
@@ -23,8 +23,8 @@ typedef struct {
     int n;
     char before[QDOT_USAGE_TEXT]; /* the last word compiled */
     unsigned options;
-    int depth;          /* of brackets around what is compiled */
-    int tail, tail_end; /* the alternatives that end what is compiled; equal: none */
+    int depth;          /* depth of brackets around the present piece */
+    int tail, tail_end; /* the alternatives that end the present piece; equal: none */
     int alternative;
     int again;          /* node behind the statement's word, where `[| plot ...]` goes on */
     bool failed;
@@ -94,7 +94,7 @@ next_piece(compiler *c, const char *at, bool blank)
     return end;
 }
 
-/* --- the automaton ------------------------------------------------------------------- */
+/* --- making the automaton ------------------------------------------------------------ */
 
 static int
 emit(compiler *c, int kind, const char *text)
@@ -149,7 +149,7 @@ lead_to_end(compiler *c, int start, int last)
             c->u->node[i].next = c->u->n;
 }
 
-/* Alternatives: [from, to) cut at each separator. */
+/* Compile the alternatives in [from, to), cut at each separator. */
 static void
 compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separator)
 {
@@ -171,7 +171,7 @@ compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separato
     lead_to_end(c, start, last);
 }
 
-/* Options and clauses that may come in any order. */
+/* The most options and clauses that may come in any order. */
 enum { MEMBERS = 24 };
 typedef struct {
     struct {
@@ -459,7 +459,7 @@ compile_sequence(compiler *c, int i, int to)
     }
 }
 
-/* Alternatives from the last word before the first bar on. */
+/* Compile the alternatives that begin at the last word before the first bar. */
 static void
 compile_tail(compiler *c, int from, int to)
 {

@@ -1,4 +1,4 @@
-/* branches.c -- prints branches of solutions as rows, and in words: their extent and stability. */
+/* branches.c -- answers with branches of solutions: rows, and in words their extent and stability. */
 #include "lang/unknowns/branches.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 /* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
  * words. */
 static const double small = 1e-9, nothing = 1e-20, digits = 5e-7;
-/* An extent below this, relative to the sizes, is not described. */
+/* Changes smaller than this, relative to the sizes of the coordinates, are not described. */
 static const double tiny = 1e-5;
 
 static const char *
@@ -22,7 +22,7 @@ name_of(const qdot_branches *b, size_t i)
     return b->names[i];
 }
 
-/* --- tables -------------------------------------------------------------------------------- */
+/* --- tables of branches -------------------------------------------------------------------- */
 
 static qdot_status
 fill_branches(const qdot_branches *b, qdot_row_table *t)
@@ -117,7 +117,7 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     return qdot_row_tables_keep(session, all);
 }
 
-/* --- JSON ---------------------------------------------------------------------------------- */
+/* --- branches as JSON ---------------------------------------------------------------------- */
 
 /* Set the columns for p and the unknowns of points y, which are `stride` numbers apart: columns [1
  * + b->n_columns]. */
@@ -131,7 +131,7 @@ fill_columns(const qdot_branches *b, const double *y, size_t stride, qdot_table_
     }
 }
 
-/* The points of branch i; columns [2 + b->n_columns] are work space. */
+/* Write the points of branch i; columns [2 + b->n_columns] are work space. */
 static qdot_status
 branch_json(qdot_session *session, const qdot_branches *b, size_t i, qdot_table_column *columns)
 {
@@ -208,7 +208,7 @@ answer_json(qdot_session *session, const qdot_branches *b)
     return status;
 }
 
-/* --- words --------------------------------------------------------------------------------- */
+/* --- branches in words --------------------------------------------------------------------- */
 
 static void
 write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
@@ -223,7 +223,7 @@ write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
 /* The value of unknown i at points k ... end of a branch that is farthest outside the range of its
  * end values. */
 static double
-furthest(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
+farthest_outside(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
 {
     const size_t m = b->found->width;
     const double first = branch->y[k * m + i], last = branch->y[end * m + i];
@@ -259,17 +259,17 @@ write_range(const qdot_branches *b, size_t i, const double *from, const double *
     write_place(b, i, to[i], out);
 }
 
-/* The verdict between points k and k + 1. */
+/* The stability of the branch between its points k and k + 1. */
 static qdot_stability
-between(const qdot_branch *b, size_t k)
+stability_between(const qdot_branch *b, size_t k)
 {
     return b->mark[k] > 0 || b->stability[k] == QDOT_STABILITY_UNDECIDED ? b->stability[k + 1]
                                                                          : b->stability[k];
 }
 
-/* Whether p turns at point k of a branch, a bifurcation. */
+/* Whether the parameter p turns back at point k of a branch, a bifurcation. */
 static bool
-turns(const qdot_branches *b, const qdot_branch *branch, size_t k)
+turns_back_at(const qdot_branches *b, const qdot_branch *branch, size_t k)
 {
     const size_t m = b->found->width;
     const double *p = branch->y + k * m + b->found->n;
@@ -301,18 +301,18 @@ part_end(const qdot_branches *b, const qdot_branch *branch, size_t k, qdot_stabi
 {
     size_t from = k;
 
-    *verdict = between(branch, k);
+    *verdict = stability_between(branch, k);
     for (k++; k + 1 < branch->n; k++) {
-        const qdot_stability here = between(branch, k);
+        const qdot_stability here = stability_between(branch, k);
         size_t next = k + 1;
 
-        if (here == *verdict && !turns(b, branch, k))
+        if (here == *verdict && !turns_back_at(b, branch, k))
             continue;
         if (is_short(b, branch, from, k)) {
             *verdict = here;
             continue;
         }
-        while (next + 1 < branch->n && between(branch, next) == here && !turns(b, branch, next))
+        while (next + 1 < branch->n && stability_between(branch, next) == here && !turns_back_at(b, branch, next))
             next++;
         if (next + 1 < branch->n || !is_short(b, branch, k, next))
             break;
@@ -362,14 +362,14 @@ add_branch(const qdot_branches *b, size_t i, qdot_table *t)
         for (size_t q = 0; q < b->n_told; q++) {
             const size_t i_q = b->columns[q];
 
-            write_range(b, i_q, from, to, furthest(b, branch, k, end, i_q), &cell);
+            write_range(b, i_q, from, to, farthest_outside(b, branch, k, end, i_q), &cell);
             qdot_table_add_written(t, &cell);
         }
         qdot_table_add_text(t, word_of(verdict));
     }
 }
 
-/* Whether p is constant along the branch. */
+/* Whether the parameter p is constant along the branch. */
 static bool
 is_upright(const qdot_branches *b, const qdot_branch *branch)
 {
@@ -554,7 +554,7 @@ say_degenerate(const qdot_branches *b, qdot_text *out)
         qdot_text_add(out, "other branches that begin at a degenerate point are not followed\n");
 }
 
-/* List equilibria from which no branch is followed. */
+/* List the equilibria from which no branch was followed. */
 static void
 say_left(const qdot_branches *b, qdot_text *out)
 {

@@ -1,4 +1,4 @@
-/* continue-orbit.c -- branches of periodic orbits, starting from the latest run that is one. */
+/* continue-orbit.c -- follows branches of periodic orbits, starting from the latest run that is one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,7 +32,7 @@ typedef struct {
     size_t *columns;
 } job;
 
-/* --- the orbit --------------------------------------------------------------------------------- */
+/* --- the orbit to start from ------------------------------------------------------------------- */
 
 static qdot_status
 orbit_read_start(job *j, qdot_run *run)
@@ -54,7 +54,8 @@ orbit_read_start(job *j, qdot_run *run)
     return QDOT_OK;
 }
 
-/* Parameter values of the family; the continued parameter keeps its symbol, its number is stored apart. */
+/* Read the parameter values of the family; the continued parameter stays a symbol, its value is
+ * stored separately. */
 static qdot_status
 read_values(job *j, const qdot_conditions *conditions)
 {
@@ -103,7 +104,7 @@ find_first(job *j)
     return read_values(j, orbit->conditions);
 }
 
-/* --- rows ---------------------------------------------------------------------------------------- */
+/* --- rows of the branches ------------------------------------------------------------------------ */
 
 /* Whether the period differs between points of the branches. */
 static bool
@@ -118,7 +119,8 @@ period_changes(const job *j)
     return false;
 }
 
-/* Told: the largest value of each coordinate, the period. Then the start, but for p, and the moduli of the multipliers. */
+/* Choose the columns: in words the largest value of each coordinate and the period; then start and
+ * |multipliers|. */
 static qdot_status
 name_columns(job *j, qdot_branches *b)
 {
@@ -163,7 +165,7 @@ name_columns(job *j, qdot_branches *b)
 
 /* After Ctrl-C: clear the interruption, so that the results so far can be printed. */
 static qdot_status
-hear(qdot_session *session)
+forget_interrupt(qdot_session *session)
 {
     qdot_interrupt_clear();
     return qdot_pool_check(session->pool) == QDOT_ENOMEM ? QDOT_ENOMEM : QDOT_OK;
@@ -179,7 +181,7 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
     if (status == QDOT_OK)
         status = qdot_orbit_continuation_find(&j.of, &j.found);
     if (status == QDOT_OK && j.found.interrupted)
-        status = hear(session);
+        status = forget_interrupt(session);
     if (status == QDOT_OK && j.found.width > 0)
         status = name_columns(&j, &b);
     if (status == QDOT_OK)

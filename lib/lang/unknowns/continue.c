@@ -31,9 +31,9 @@ QDOT_STATEMENT(continue) = {
     .handler = continue_follow,
 };
 
-/* --- what was read ---------------------------------------------------------------------- */
+/* --- reading the operands --------------------------------------------------------------- */
 
-/* A parameter; of orbits also `energy`, or a number of the start: x, x'. */
+/* Find the parameter; for orbits also `energy` or a start value x, x'. */
 static qdot_status
 parameter_find(qdot_record *r, qdot_continue_wish *w)
 {
@@ -122,7 +122,7 @@ continue_find_all(qdot_record *r, qdot_continue_wish *w)
     return continue_find_name(r, w);
 }
 
-/* --- the statement --------------------------------------------------------------------------- */
+/* --- following branches of equilibria -------------------------------------------------------- */
 
 static qdot_expr
 bind(void *session, qdot_expr e)
@@ -134,7 +134,7 @@ qdot_status
 qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const qdot_branches *b, qdot_status status)
 {
     if (b->found->interrupted)
-        qdot_interrupt_clear(); /* heard: what is known so far is told */
+        qdot_interrupt_clear(); /* the interruption has been handled: what is known so far is reported */
     if (status == QDOT_OK && b->found->branches.n > 0)
         status = qdot_branches_keep(session, b, w->name, w->marks);
     if (status == QDOT_OK && b->found->branches.n > 0 && w->parameter != QDOT_NIL)

@@ -39,7 +39,7 @@ guess_begin(guess *x)
     return qdot_pool_check(pool);
 }
 
-/* The request, start and period in the unknowns, with the guesses in force. */
+/* Make the request of a run, with start and period as functions of the unknowns; guesses are set. */
 static qdot_status
 make_request(guess *x)
 {

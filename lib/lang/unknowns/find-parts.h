@@ -34,7 +34,7 @@ typedef struct {
 /* Search for a solution, and print it. */
 QDOT_MUST_CHECK qdot_status qdot_find_carry_out(qdot_find *f);
 
-/* The number of residuals that must vanish. */
+/* The number of conditions' residuals that must vanish. */
 size_t qdot_find_count(const qdot_find *f);
 /* The limits of the run for unknowns that are in force; they may hold unknowns. QDOT_EINVAL: nothing says how
  * long it is. */
@@ -44,7 +44,7 @@ QDOT_MUST_CHECK qdot_status qdot_find_limits(const qdot_find *f, qdot_expr *from
  * (sim/study/shooting.h); as it was where these do not, where it does not lead to one, or where more than a return
  * is asked for. */
 QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r);
-/* The residuals [qdot_find_count] as expressions of the latest run. */
+/* Write the residuals [qdot_find_count], which must be 0, as expressions of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
                                                 qdot_expr *e);
 

@@ -45,9 +45,9 @@ find_free(qdot_find *f)
     qdot_run_options_free(&f->run);
 }
 
-/* --- unknowns ---------------------------------------------------------------------------- */
+/* --- reading the unknowns ---------------------------------------------------------------- */
 
-/* Whether the name occurs after `such`. */
+/* Whether the name occurs among the conditions after `such that`. */
 static bool
 such_names(const qdot_record *r, const char *name)
 {
@@ -59,7 +59,7 @@ such_names(const qdot_record *r, const char *name)
     return false;
 }
 
-/* An undeclared name that the conditions use as an unknown: bind it to a new symbol. */
+/* Bind an undeclared name that the conditions use as an unknown to a new symbol. */
 static qdot_status
 own_find(qdot_find *f, const qdot_filled *part, const char *name, qdot_slope_name *x)
 {
@@ -101,7 +101,7 @@ bound_find(qdot_find *f, const qdot_compiled *program, double *value)
                             : qdot_fail(QDOT_EDOMAIN, "a guess is a finite number");
 }
 
-/* Read the bounds `A..B`, or the `GUESS`. */
+/* Read the bounds `A..B` of an unknown, or its `GUESS`. */
 static qdot_status
 guess_find(qdot_find *f, const qdot_filled *part)
 {
@@ -141,7 +141,7 @@ unknowns_find(qdot_find *f)
     return QDOT_OK;
 }
 
-/* --- conditions ---------------------------------------------------------------------------- */
+/* --- reading conditions and run ------------------------------------------------------------ */
 
 /* Read the conditions of one hole, joined by `and`. */
 static qdot_status
@@ -217,9 +217,9 @@ run_find(qdot_find *f)
     return f->run.digits == 0 ? QDOT_OK : qdot_fail(QDOT_ENOTBUILT, "not built yet: find with `digits`");
 }
 
-/* --- limits ---------------------------------------------------------------------------------- */
+/* --- time limits of the run ------------------------------------------------------------------ */
 
-/* The period T of `returns after T`. */
+/* Find the period T in the condition `returns after T`. */
 static qdot_status
 period_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
 {
@@ -248,7 +248,7 @@ bound_period(qdot_find *f)
     return QDOT_OK;
 }
 
-/* Whether a condition names an event. */
+/* Whether a condition of the search contains the time of an event. */
 static bool
 names_event(const qdot_find *f)
 {
@@ -264,7 +264,7 @@ names_event(const qdot_find *f)
 
 /* Set *time to the later of *time and `other`, as seen from the time `from`; nil stands for no time. */
 static qdot_status
-later(qdot_session *session, qdot_expr from, qdot_expr *time, qdot_expr other)
+set_to_later_time(qdot_session *session, qdot_expr from, qdot_expr *time, qdot_expr other)
 {
     double t[3];
 
@@ -298,14 +298,14 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
         if (!f->conditions.at[i].returns)
             continue;
         QDOT_TRY(period_find(f, &f->conditions.at[i], &T));
-        QDOT_TRY(later(session, *from, to, qdot_add(session->pool, *from, T)));
+        QDOT_TRY(set_to_later_time(session, *from, to, qdot_add(session->pool, *from, T)));
     }
     if (f->returns)
         return qdot_pool_check(session->pool);
     look.at = f->conditions.at[0].from;
     *to = qdot_own_run_needed(&look, *from);
     if (f->latest != NULL && (*to == QDOT_NIL || names_event(f)))
-        QDOT_TRY(later(session, *from, to, f->latest_to));
+        QDOT_TRY(set_to_later_time(session, *from, to, f->latest_to));
     if (*to != QDOT_NIL)
         return QDOT_OK;
     f->c->error_at = f->conditions.at[0].from->start;
@@ -316,7 +316,7 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
                          : "theta");
 }
 
-/* --- all of it ----------------------------------------------------------------------------- */
+/* --- reading all operands ------------------------------------------------------------------ */
 
 static qdot_status
 find_all(qdot_find *f)
@@ -327,7 +327,7 @@ find_all(qdot_find *f)
     return bound_period(f);
 }
 
-/* --- residuals ------------------------------------------------------------------------------- */
+/* --- residuals of the conditions ------------------------------------------------------------- */
 
 size_t
 qdot_find_count(const qdot_find *f)
@@ -339,7 +339,7 @@ qdot_find_count(const qdot_find *f)
     return n;
 }
 
-/* The residuals: q and q' after T minus their initial values. */
+/* Append the residuals of a return: q and q' after T minus their initial values. */
 static qdot_status
 return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr from,
                  qdot_expr *e)
@@ -401,7 +401,7 @@ qdot_find_residuals(const qdot_find *f, qdot_expr from, qdot_expr *e)
     return QDOT_OK;
 }
 
-/* --- the statement --------------------------------------------------------------------------- */
+/* --- the statement `find` -------------------------------------------------------------------- */
 
 static qdot_status
 find_make(qdot_record *r)

@@ -7,7 +7,7 @@
 #include "lang/unknowns/find-parts.h"
 #include "sim/study/sizes.h"
 
-/* The sum of the magnitudes of the terms of e. */
+/* Find the sum of the magnitudes of the terms of e. */
 static qdot_status
 size_of_terms(qdot_session *session, qdot_expr e, double *size)
 {

@@ -17,10 +17,10 @@
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 
-/* A motion whose extent is below this part of the guess's counts as shrunk to rest. */
+/* A motion whose extent is below this fraction of the extent at the guess counts as shrunk to rest. */
 static const double shrunk = 0.1;
 
-/* Constraints have moved a value of the start by more than rounding. */
+/* A start value counts as moved by constraints if it changes by more than this, which is above rounding. */
 static const double moved = 1e-9;
 
 typedef struct {
@@ -43,7 +43,7 @@ typedef struct {
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
 
-/* --- the start --------------------------------------------------------------------------------- */
+/* --- the start of the run ---------------------------------------------------------------------- */
 
 static bool
 is_unknown(const qdot_find *f, qdot_expr symbol)
@@ -116,7 +116,7 @@ keep_start(qdot_session *session, const double *numbers)
     return qdot_pool_check(session->pool);
 }
 
-/* --- the functions --------------------------------------------------------------------------- */
+/* --- evaluating the conditions --------------------------------------------------------------- */
 
 static qdot_status
 take_values(hunt *h, const double *u)
@@ -129,7 +129,7 @@ take_values(hunt *h, const double *u)
     return qdot_pool_check(pool);
 }
 
-/* The limits of the run with the values in force. */
+/* Find the time limits of the run with the present values of the unknowns. */
 static qdot_status
 find_limits(hunt *h)
 {
@@ -267,9 +267,9 @@ is_orbit(const double *u, size_t rank, bool *is, void *user)
     return QDOT_OK;
 }
 
-/* --- what is told ------------------------------------------------------------------------ */
+/* --- reports of the search --------------------------------------------------------------- */
 
-/* "theta' = 2.1, T = 3" */
+/* Append values of the unknowns, such as "theta' = 2.1, T = 3". */
 static void
 write_place(const qdot_find *f, const double *u, int digits, qdot_text *out)
 {
@@ -420,7 +420,7 @@ write_run(const qdot_find *f, qdot_expr *from, qdot_expr *to, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* --- afterwards ------------------------------------------------------------------------------ */
+/* --- after the search ------------------------------------------------------------------------ */
 
 /* Keep the run of the solution as the latest run. */
 static qdot_status
@@ -494,7 +494,7 @@ refuse_shrunk(const hunt *h, const qdot_zero_result *r)
 
 /* Set declared unknowns to the values found; the solution's run becomes the latest run. */
 static qdot_status
-conclude(hunt *h, const qdot_zero_result *r)
+adopt_solution(hunt *h, const qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
     qdot_session *session = f->c->session;
@@ -524,7 +524,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     return tell_others(h, r);
 }
 
-/* --- along the motion ------------------------------------------------------------------------ */
+/* --- searching again along the motion -------------------------------------------------------- */
 
 /* Where each unknown stands among the coordinates and velocities that must return, which are all unknown. False: they
  * are not, or more is asked for. */
@@ -615,7 +615,7 @@ search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
     return status;
 }
 
-/* --- all ----------------------------------------------------------------------------------- */
+/* --- the whole search ---------------------------------------------------------------------- */
 
 static qdot_status
 find_search(hunt *h, qdot_zero_result *r)
@@ -634,7 +634,7 @@ find_search(hunt *h, qdot_zero_result *r)
     for (size_t i = 0; i < p.n; i++)
         h->unit[i] = r->u[i] != 0 ? fabs(r->u[i]) : 1;
     QDOT_TRY(take_values(h, r->u));
-    QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
+    QDOT_TRY(find_limits(h)); /* check the limits before the first run */
     QDOT_TRY(find_length(h, &h->length));
     p.verify = true;
     if (f->returns) {
@@ -658,7 +658,7 @@ find_search(hunt *h, qdot_zero_result *r)
             r->error[i] = fmax(r->error[i], h->before[i]);
         r->rank = h->rank;
     }
-    return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : find_refuse(h, r);
+    return r->answer == QDOT_ZERO_FOUND ? adopt_solution(h, r) : find_refuse(h, r);
 }
 
 qdot_status

@@ -1,4 +1,4 @@
-/* fit-answer.c -- unknowns with their standard errors, correlations, chi2, residuals. */
+/* fit-answer.c -- answers a fit: unknowns with standard errors, correlations, chi^2 and residuals. */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
@@ -18,9 +18,9 @@ static const double small = 0.1;
 /* A probability of chi^2 below this is mentioned. */
 static const double improbable = 1e-3;
 
-/* --- numbers ------------------------------------------------------------------------------------ */
+/* --- values and intervals ----------------------------------------------------------------------- */
 
-/* "2.3855 ± 0.0012": two digits of the error. */
+/* Append a value with two digits of its error, such as "2.3855 ± 0.0012". */
 static void
 write_value(double value, double error, qdot_text *out)
 {
@@ -43,7 +43,7 @@ write_value(double value, double error, qdot_text *out)
     qdot_text_double(out, error, 2);
 }
 
-/* The half width of a 95 % confidence interval in standard errors. */
+/* The half width of a 95 % confidence interval, in units of the standard error. */
 static double
 interval(const qdot_fit *f)
 {
@@ -51,7 +51,7 @@ interval(const qdot_fit *f)
                        : gsl_cdf_tdist_Pinv(0.975, (double)f->freedom);
 }
 
-/* --- text ------------------------------------------------------------------------------------------ */
+/* --- the answer as text ---------------------------------------------------------------------------- */
 
 static void
 write_unknowns(const qdot_fit *f, qdot_text *out)
@@ -69,7 +69,7 @@ correlation(const qdot_fit *f, size_t i, size_t j)
     return f->found.covariance[i * f->unknowns.names.n + j] / (f->error[i] * f->error[j]);
 }
 
-/* The lower triangle, all columns equally wide. */
+/* Fill the lower triangle of correlations; all columns have the same width. */
 static qdot_status
 correlations_fill(const qdot_fit *f, qdot_table_column *columns, qdot_table *t)
 {
@@ -151,7 +151,7 @@ tell_text(qdot_fit *f, const char *residuals)
     return qdot_answer_written(f->session, "fit", status, &text);
 }
 
-/* --- JSON ------------------------------------------------------------------------------------------ */
+/* --- the answer as JSON ---------------------------------------------------------------------------- */
 
 static qdot_status
 tell_json(qdot_fit *f)
@@ -162,7 +162,8 @@ tell_json(qdot_fit *f)
 
     for (size_t i = 0; i < k; i++)
         QDOT_TRY(qdot_answer_number(f->session, f->unknowns.names.at[i].label, f->u[i], f->error[i]));
-    QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, NAN)); /* it errs as the residuals do */
+    /* the numerical error of chi^2 is that of the residuals */
+    QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, NAN));
     QDOT_TRY(qdot_answer_number(f->session, "degrees of freedom", (double)f->freedom, 0));
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         double *unknown = qdot_calloc(k, sizeof *unknown);
@@ -181,7 +182,7 @@ tell_json(qdot_fit *f)
     return status;
 }
 
-/* --- notices --------------------------------------------------------------------------------------- */
+/* --- notices about the fit ------------------------------------------------------------------------- */
 
 static qdot_status
 tell_notices(qdot_fit *f)
@@ -218,7 +219,7 @@ tell_notices(qdot_fit *f)
     return QDOT_OK;
 }
 
-/* --- the residuals ----------------------------------------------------------------------------------- */
+/* --- the table of residuals -------------------------------------------------------------------------- */
 
 static qdot_status
 make_residuals(const qdot_fit *f, const char *name, qdot_row_table **table)

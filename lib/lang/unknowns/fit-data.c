@@ -8,7 +8,7 @@
 #include "lang/session/session.h"
 #include "lang/unknowns/fit-parts.h"
 
-/* The time of a row and its number, for sorting. */
+/* The time in a row of the file, and the row's number; for sorting. */
 typedef struct {
     double t;
     size_t row;

@@ -31,9 +31,9 @@ typedef struct {
     double *at, *slopes; /* [rows x m], [rows x m x k] */
 } model;
 
-/* --- the request ---------------------------------------------------------------------------- */
+/* --- the request of the run ----------------------------------------------------------------- */
 
-/* The guesses: values of `set`, the start. */
+/* Find the guesses: values of `set`, start values. */
 static qdot_status
 find_guesses(qdot_fit *f)
 {
@@ -77,9 +77,10 @@ make_request(model *x)
                              x->start, x->named, &x->request);
 }
 
-/* --- the search ------------------------------------------------------------------------------- */
+/* --- the search for the best fit -------------------------------------------------------------- */
 
-/* Residuals and derivatives in units of the standard errors. Parameters must stay in their declared domains. */
+/* Evaluate residuals and derivatives in units of the standard errors. Parameters must stay in their
+ * declared domains. */
 static qdot_status
 fit_evaluate(const double *u, double *out, double *J, void *user)
 {
@@ -122,7 +123,7 @@ fit_search(model *x)
     return qdot_least_squares_find(&f->found);
 }
 
-/* --- what is not found ----------------------------------------------------------------------- */
+/* --- when the fit fails ---------------------------------------------------------------------- */
 
 /* Write an undetermined direction: "m by 1 % with k by -2 %". */
 static void
@@ -147,7 +148,7 @@ say_direction(const qdot_fit *f, qdot_text *text)
     }
 }
 
-/* QDOT_EFAILED where an unknown is not determined, with the names. */
+/* QDOT_EFAILED, with names, if the data do not determine an unknown. */
 static qdot_status
 check_determined(const qdot_fit *f)
 {
@@ -202,7 +203,7 @@ check_converged(const qdot_fit *f)
     return status;
 }
 
-/* --- what is known of it ---------------------------------------------------------------------- */
+/* --- errors of the fit ------------------------------------------------------------------------ */
 
 /* QDOT_EFAILED if a data point lies beyond the time up to which the run is known. */
 static qdot_status
@@ -222,7 +223,7 @@ check_horizon(const qdot_fit *f, const qdot_run *run)
     return qdot_hint("leave out the rows with t > %.6g", report->horizon);
 }
 
-/* The values along an ordinary run with the parameters u, with their errors [rows x m]. */
+/* Find the values along an ordinary run with parameters u, with their errors [rows x m]. */
 static qdot_status
 run_at_end(model *x, double *errors)
 {
@@ -301,7 +302,7 @@ find_numerical(model *x)
     return status;
 }
 
-/* The covariance of u, and standard errors. */
+/* Find the covariance of u, and from it the standard errors. */
 static void
 fit_find_errors(qdot_fit *f)
 {
@@ -317,7 +318,7 @@ fit_find_errors(qdot_fit *f)
         f->error[i] = sqrt(f->found.covariance[i * k + i]);
 }
 
-/* --- all ---------------------------------------------------------------------------------------- */
+/* --- the whole fit ------------------------------------------------------------------------------ */
 
 static qdot_status
 fit_make_room(model *x)

@@ -16,7 +16,7 @@
 #include "num/least-squares.h"
 #include "table/csv-read.h"
 
-/* The meaning of a column of the file. */
+/* The kinds of columns of the file: time, value, standard error, or skipped. */
 typedef enum { QDOT_FIT_TIME, QDOT_FIT_VALUE, QDOT_FIT_SIGMA, QDOT_FIT_SKIP } qdot_fit_kind;
 
 typedef struct {
@@ -41,11 +41,11 @@ typedef struct {
     const char *method, *name; /* name: of the residuals */
     const qdot_token *method_at;
 
-    /* the data, sorted by time: */
+    /* Fields with the data, sorted by time: */
     size_t rows;
     double *t, *y, *sigma; /* [rows], [rows x m] */
 
-    /* the fit */
+    /* Fields with the results of the fit: */
     qdot_request order;       /* of the run at the guesses */
     qdot_expr *exprs;         /* [m] */
     double *guess, *u;        /* [k] */
@@ -64,10 +64,10 @@ QDOT_MUST_CHECK qdot_status qdot_fit_read_data(qdot_cursor *c, qdot_fit *f);
  * unknown. */
 QDOT_MUST_CHECK qdot_status qdot_fit_find(qdot_fit *f);
 
-/* Set the session's parameters to u, rounded to 1/1000 of their errors. */
+/* Set the session's parameters to the fitted values u, rounded to 1/1000 of their errors. */
 QDOT_MUST_CHECK qdot_status qdot_fit_set(qdot_fit *f);
 
-/* The answers; the residuals as a table of the session. */
+/* Answer with the values found; store the residuals as a table of the session. */
 QDOT_MUST_CHECK qdot_status qdot_fit_tell(qdot_fit *f);
 
 #endif

@@ -46,9 +46,9 @@ fit_free(qdot_fit *f)
     qdot_least_squares_clear(&f->found);
 }
 
-/* --- columns ------------------------------------------------------------------------------- */
+/* --- columns of the file ------------------------------------------------------------------- */
 
-/* Whether the column is just that word. */
+/* Whether the column consists of just this word. */
 static bool
 is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
 {
@@ -58,7 +58,7 @@ is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
            && !(known != NULL && known->kind == QDOT_NAME_COORD);
 }
 
-/* Standard errors of the column before. */
+/* Read the standard errors of the preceding column. */
 static qdot_status
 sigma_column_find(qdot_record *r, const qdot_filled *part, qdot_fit *f, qdot_fit_column *x)
 {
@@ -150,9 +150,9 @@ columns_find(qdot_record *r, qdot_fit *f)
     return f->m > 0 ? QDOT_OK : qdot_record_expected(r, last->to, "`,` and what was measured: `t, theta`");
 }
 
-/* --- options ------------------------------------------------------------------------------------ */
+/* --- reading the options ------------------------------------------------------------------------ */
 
-/* The k-th value among the columns. */
+/* The k-th column with values to be fitted. */
 static qdot_fit_column *
 value_column(const qdot_fit *f, size_t k)
 {
@@ -254,9 +254,9 @@ fit_find_all(qdot_record *r, qdot_fit *f)
     return name != NULL ? qdot_record_new_name(r, name, &f->name) : QDOT_OK;
 }
 
-/* --- what is set ------------------------------------------------------------------------------------ */
+/* --- setting parameters to the result --------------------------------------------------------------- */
 
-/* x as a decimal, rounded to 1/1000 of its error. */
+/* The number x as a decimal, rounded to 1/1000 of its error. */
 static qdot_expr
 decimal(qdot_pool *pool, double x, double error)
 {
@@ -284,7 +284,7 @@ qdot_fit_set(qdot_fit *f)
     for (size_t k = 0; k < n && values; k++) {
         values[k] = decimal(f->session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
         if (qdot_session_in_domain(f->session, f->unknowns.names.at[k].symbol, values[k])
-            != QDOT_OK) /* rounded out of it */
+            != QDOT_OK) /* rounding has moved it outside its domain */
             values[k] = decimal(f->session->pool, f->u[k], 0);
     }
     if (status == QDOT_OK)
@@ -295,7 +295,7 @@ qdot_fit_set(qdot_fit *f)
     return status;
 }
 
-/* --- the statement ------------------------------------------------------------------------------------ */
+/* --- the statement `fit` ------------------------------------------------------------------------------ */
 
 static qdot_status
 fit_carry_out(qdot_cursor *c, qdot_fit *f)

@@ -26,7 +26,7 @@ typedef struct {
     qdot_status status;
 } completion;
 
-/* --- words of a kind ------------------------------------------------------------------ */
+/* --- words of one kind ---------------------------------------------------------------- */
 
 /* Kinds of words to offer, as bits. */
 enum {
@@ -183,7 +183,7 @@ offer_kinds(completion *c, unsigned kinds)
         offer(c, c->session->tables->at[i]->name);
 }
 
-/* --- within brackets ------------------------------------------------------------------- */
+/* --- completion within brackets -------------------------------------------------------- */
 
 /* Offer the indices of the members of a family, up to a comma. */
 static bool
@@ -201,7 +201,7 @@ offer_indices(completion *c, const char *family)
     return found;
 }
 
-/* After `NAME[` or `NAME(...)[`: offer what indexes the entries. */
+/* After `NAME[` or `NAME(...)[`: offer the values that may be an index there. */
 static void
 complete_index(completion *c, const qdot_token *first, const qdot_token *open)
 {
@@ -252,7 +252,7 @@ complete_argument(completion *c, const qdot_token *first, const qdot_token *open
                        : EXPRESSION);
 }
 
-/* --- within a statement ---------------------------------------------------------------- */
+/* --- completion within a statement ----------------------------------------------------- */
 
 /* The kinds of words that fit each hole of the usages. */
 #define HOLE(statement, before, text, class, expected, kinds) kinds,
@@ -369,7 +369,7 @@ complete_tokens(completion *c, const qdot_token *tokens, size_t n)
     complete_at(c, first, open, end);
 }
 
-/* --- the whole ------------------------------------------------------------------------- */
+/* --- completion of a text -------------------------------------------------------------- */
 
 static int
 by_spelling(const void *a, const void *b)
@@ -377,9 +377,9 @@ by_spelling(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Hand over the words, sorted, each once. */
+/* Return the words, sorted and without repetition. */
 static qdot_status
-finish(completion *c, char ***words, size_t *n)
+return_words(completion *c, char ***words, size_t *n)
 {
     size_t kept = 0;
 
@@ -426,7 +426,7 @@ spell_prefix(const char *prefix, qdot_text *out)
     return any;
 }
 
-/* Let the words begin as the prefix was typed, not as it is spelled in ASCII [spelled]. */
+/* Let each word begin as the prefix was typed, rather than in its ASCII spelling of length `spelled`. */
 static void
 respell(completion *c, size_t spelled, const char *typed)
 {
@@ -476,7 +476,7 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
     if (greek)
         respell(&c, spelled.n, prefix);
     qdot_text_clear(&spelled);
-    return finish(&c, words, n);
+    return return_words(&c, words, n);
 }
 
 qdot_status
@@ -496,11 +496,11 @@ qdot_complete_greek(const char *prefix, bool letter, char ***words, size_t *n)
         offer(&c, word);
     }
     if (only != 0 && c.status == QDOT_OK) {
-        /* UTF-8 of a code point below U+0800 */
+        /* the two bytes of UTF-8 for a code point below U+0800 */
         const char sign[] = {(char)(0xC0 | only >> 6), (char)(0x80 | (only & 0x3F)),
                              '\0'};
 
         strcpy(c.words.at[0], letter ? sign : word + 1);
     }
-    return finish(&c, words, n);
+    return return_words(&c, words, n);
 }

@@ -1,4 +1,4 @@
-/* help.c -- the tables, told: statements, functions, values. */
+/* help.c -- the statement `help`: prints lists of statements, functions and values. */
 #include <string.h>
 
 #include "base/spelling.h"
@@ -30,7 +30,7 @@ enum { OFF_TERMINAL = 86 }; /* columns of running lines there */
 
 /* Append a line of two columns: a word and its summary. */
 static void
-entry(qdot_text *text, const char *word, const char *summary)
+add_help_entry(qdot_text *text, const char *word, const char *summary)
 {
     qdot_text_format(text, "  %-14s %s\n", word, summary);
 }
@@ -53,7 +53,7 @@ flow(qdot_text *text, const char *word, running *line)
     line->column += n;
 }
 
-/* Whether a quantity is implemented; those that are not have no example. */
+/* Whether a quantity is implemented (it then has an example). */
 static bool
 is_built(const qdot_quantity *row)
 {
@@ -73,7 +73,7 @@ overview(qdot_text *text, size_t width)
         if (strcmp(group, row->group) != 0)
             qdot_text_format(text, "%s%s\n", i > 0 ? "\n" : "", row->group);
         group = row->group;
-        entry(text, row->word, row->summary);
+        add_help_entry(text, row->word, row->summary);
     }
     qdot_text_add(text, "\nvalues\n ");
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
@@ -163,7 +163,7 @@ look_up(qdot_text *text, const char *word)
     return text->n > 0;
 }
 
-/* `help search WORD ...` or `help search "TEXT"`. */
+/* Carry out `help search WORD ...` or `help search "TEXT"`. */
 static qdot_status
 help_search(qdot_record *r)
 {

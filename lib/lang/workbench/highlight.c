@@ -10,7 +10,7 @@
 #include "lang/functions/quantity.h"
 #include "lang/source/source.h"
 
-/* --- names ---------------------------------------------------------------------------- */
+/* --- kinds of names ------------------------------------------------------------------- */
 
 /* Whether the statement's word is used as a name: `run*2`, `gravity = 9.81`. */
 static bool
@@ -70,7 +70,7 @@ kind_of_name(const qdot_session *session, const qdot_token *first, const qdot_to
                                                   : QDOT_HIGHLIGHT_PLAIN;
 }
 
-/* --- the text ------------------------------------------------------------------------- */
+/* --- colouring a text ----------------------------------------------------------------- */
 
 static qdot_highlight
 token_kind(const qdot_session *session, const qdot_token *first, const qdot_token *token,
@@ -84,7 +84,7 @@ token_kind(const qdot_session *session, const qdot_token *first, const qdot_toke
     }
 }
 
-/* Between tokens a # begins a comment. */
+/* Mark comments between tokens, which begin with #. */
 static void
 mark_comments(const char *text, size_t from, size_t to, uint8_t *kinds)
 {
@@ -112,7 +112,7 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
         } else {
             const uint8_t kind = (uint8_t)token_kind(session, first, token, depth > 0);
 
-            if (token->start >= *end) /* else it is a dot over the name before it */
+            if (token->start >= *end) /* else the token is a dot over the preceding name */
                 memset(kinds + token->start, kind, token->length);
             depth += qdot_token_bracket(token);
         }

@@ -105,7 +105,7 @@ session_keep(const qdot_session *old, qdot_session *fresh)
     return qdot_pool_check(fresh->pool);
 }
 
-/* Clear the scene, or everything. */
+/* Clear the scene, or everything in the session. */
 static qdot_status
 reset(qdot_session *session, bool everything)
 {

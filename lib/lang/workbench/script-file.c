@@ -114,7 +114,7 @@ qdot_script_takes_long(const char *text, size_t length)
 
     if (qdot_source_new("", text, length, &source, &at) != QDOT_OK) {
         qdot_source_free(source);
-        return false; /* an error is soon told */
+        return false; /* this will soon give an error */
     }
     for (size_t i = 0; i < source->tokens.n && !found; i++) {
         const qdot_token *token = &source->tokens.at[i];

@@ -54,7 +54,7 @@ typedef struct {
     size_t error_at;
 } engine;
 
-/* --- what a statement is ------------------------------------------------------------ */
+/* --- carrying out a simple statement ------------------------------------------------ */
 
 /* The statement whose word is spelled most similarly; NULL if none is near. */
 static const qdot_statement *
@@ -69,7 +69,7 @@ nearest_statement(const qdot_session *session, const char *name)
     return near != NULL ? qdot_statement_find(near) : NULL;
 }
 
-/* `partcle bob mass m`: report the unknown first word, followed by another name. */
+/* Report the unknown first word of `partcle bob mass m`: a word that another name follows. */
 static qdot_status
 unknown_word(qdot_cursor *c)
 {
@@ -207,7 +207,7 @@ dispatch_held(engine *x, qdot_cursor *c)
     return status;
 }
 
-/* The `to FILE` that ends the statement, unless the statement reads it itself. */
+/* Find the `to FILE` that ends the statement; none if the statement parses `to` itself. */
 static const qdot_token *
 find_to(const qdot_session *session, const qdot_token *first)
 {
@@ -222,7 +222,7 @@ find_to(const qdot_session *session, const qdot_token *first)
     return qdot_redirect_find(row, first);
 }
 
-/* Carry out the statement with its answers going to a file; the statement ends before `to` meanwhile. */
+/* Carry out a statement that ends before `to`, with its answers going to the file. */
 static qdot_status
 dispatch_to(engine *x, qdot_cursor *c, size_t to)
 {
@@ -287,7 +287,7 @@ statement(engine *x, size_t i)
     return status;
 }
 
-/* --- trailing `for` ----------------------------------------------------------------- */
+/* --- repetition by a trailing `for` ------------------------------------------------- */
 
 /* Whether the statement `plot` draws a curve for each value of the index: it is a parameter or
  * coordinate, of which the run is made once more. */
@@ -406,7 +406,7 @@ tell_time(const engine *x, clock_t since)
     qdot_text_clear(&text);
 }
 
-/* Whether no hint is given, or how the name could be declared: a statement's word is likelier. */
+/* Whether there is no hint, or one that declares the name; a mistyped statement word is likelier. */
 static bool
 is_bare_or_declares(const char *hint)
 {
@@ -435,9 +435,9 @@ row_with_example(const engine *x, size_t i, size_t end)
     return broken_off || strncmp(error->message, "expected an expression", 22) != 0 ? row : NULL;
 }
 
-/* After the statement [i, end) failed: add a hint for its form, if one is known. */
+/* Add a hint after statement [i, end) failed, if the statement has the form of a known mistake. */
 static qdot_status
-lead(engine *x, size_t i, size_t end, qdot_status status)
+hint_known_mistake(engine *x, size_t i, size_t end, qdot_status status)
 {
     qdot_cursor c = {.session = x->session, .source = x->source, .error_at = x->error_at};
     const qdot_statement *example;
@@ -461,7 +461,7 @@ lead(engine *x, size_t i, size_t end, qdot_status status)
     return status;
 }
 
-/* Notice if the statement [i, end) is rarely what is meant, after it was carried out. */
+/* Give a notice if the form of statement [i, end), just carried out, is rarely what users mean. */
 static qdot_status
 tell_seldom_meant(engine *x, size_t i, size_t end)
 {
@@ -477,7 +477,7 @@ tell_seldom_meant(engine *x, size_t i, size_t end)
 
 /* Carry out the simple statement at i, for all values of its `for`; *next: the token after it. */
 static qdot_status
-simple(engine *x, size_t i, size_t *next)
+carry_out_simple(engine *x, size_t i, size_t *next)
 {
     size_t end = statement_end(x, i);
     clock_t since = clock();
@@ -494,16 +494,16 @@ simple(engine *x, size_t i, size_t *next)
     }
     status = x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end);
     if (status != QDOT_OK)
-        return lead(x, i, *next, status);
+        return hint_known_mistake(x, i, *next, status);
     QDOT_TRY(tell_seldom_meant(x, i, *next));
     if (timed && x->session->output->timing)
         tell_time(x, since);
     return QDOT_OK;
 }
 
-/* --- blocks ------------------------------------------------------------------------- */
+/* --- blocks in braces --------------------------------------------------------------- */
 
-/* Find the `}` of every `{`. */
+/* Find the `}` that belongs to every `{`. */
 static qdot_status
 match_blocks(engine *x)
 {
@@ -525,7 +525,7 @@ match_blocks(engine *x)
 
 /* Enter the block that opens at i, or step over it if its loop has no values. */
 static qdot_status
-enter(engine *x, size_t i, size_t *next)
+enter_block(engine *x, size_t i, size_t *next)
 {
     frame f = {.body = i + 1, .close = x->match[i]};
     qdot_cursor c = {
@@ -581,23 +581,23 @@ round_again(engine *x, size_t *next)
     return status;
 }
 
-/* Carry out one step from *i. */
+/* Carry out the statement or the beginning or end of a block at *i, and move *i past it. */
 static qdot_status
 advance(engine *x, size_t *i)
 {
     if (x->frames.n > 0 && *i == x->frames.at[x->frames.n - 1].close)
         return round_again(x, i);
     if (qdot_token_is(&x->tokens[*i], "{"))
-        return enter(x, *i, i);
+        return enter_block(x, *i, i);
     if (x->tokens[*i].kind != QDOT_TOKEN_END)
-        return simple(x, *i, i);
+        return carry_out_simple(x, *i, i);
     ++*i;
     return QDOT_OK;
 }
 
 /* Carry out the statement or block at *i to its end. */
 static qdot_status
-whole(engine *x, size_t *i)
+carry_out_whole(engine *x, size_t *i)
 {
     const qdot_token *first = &x->tokens[*i], *last;
     size_t begun = qdot_undo_begin(x->session);
@@ -627,12 +627,12 @@ carry_out(engine *x)
         if (x->tokens[i].kind == QDOT_TOKEN_END)
             i++;
         else
-            QDOT_TRY(whole(x, &i));
+            QDOT_TRY(carry_out_whole(x, &i));
     }
     return QDOT_OK;
 }
 
-/* The error of a statement, or of the text as a whole, which is one then. */
+/* Report the error of a statement, or of a text that could not be split into statements. */
 static void
 report_error(engine *x)
 {
@@ -640,7 +640,7 @@ report_error(engine *x)
     qdot_answer_error(x->session, x->source, x->error_at);
 }
 
-/* --- a whole text ------------------------------------------------------------------- */
+/* --- a whole script ----------------------------------------------------------------- */
 
 qdot_status
 qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, const char *text, size_t length)

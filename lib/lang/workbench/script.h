@@ -25,7 +25,7 @@ bool qdot_script_is_incomplete(const char *text, size_t length);
  * see as they come. */
 bool qdot_script_takes_long(const char *text, size_t length);
 
-/* The error position that means: an included file has already reported the error. */
+/* The error position if an included file has already reported the error. */
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 
 /* Lex and carry out a text, reporting the first error; `before`: lines of the same input that precede it. */

@@ -1,4 +1,4 @@
-/* statement-count.c -- the statements of what was typed: counted, kept, told when they are done. */
+/* statement-count.c -- counts typed statements, keeps their texts, and reports their ends in JSON. */
 #include "lang/workbench/statement-count.h"
 
 #include "lang/answer/write.h"
@@ -22,7 +22,7 @@ qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at)
         qdot_source_locate(source, at, &typed->line, &column);
 }
 
-/* 0; 1: it failed, or a check was refuted; 2: it is no statement. */
+/* The status of a statement in JSON: 0; 1: it failed or refuted a check; 2: it could not be parsed. */
 static int
 status_of(const qdot_session *session, qdot_status status)
 {

@@ -8,10 +8,10 @@
 #include "lang/session/parts.h"
 #include "lang/source/source.h"
 
-/* A statement begins at byte `at` of the source. Does nothing within another one. */
+/* A statement begins at byte `at` of the source; no effect within another statement. */
 void qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at);
 
-/* It ends; text [length]: what it says, kept if the status is good. */
+/* The statement ends; its text [length] is kept for `save history` if it succeeded. */
 void qdot_typed_end(qdot_session *session, const char *text, size_t length, qdot_status status);
 
 #endif

@@ -1,4 +1,4 @@
-/* style.c -- `style`: how expressions are written. */
+/* style.c -- the statement `style`: how expressions are written. */
 #include "expr/print-name.h"
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"

@@ -1,4 +1,4 @@
-/* timing.c -- `timing`: whether the CPU time of statements is told. */
+/* timing.c -- the statement `timing`: turns the report of each statement's CPU time on or off. */
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"
 

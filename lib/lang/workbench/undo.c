@@ -45,7 +45,7 @@ undo_refuse(const qdot_session *session, const char *word, size_t n, long wanted
                            "changes the session");
 }
 
-/* `undo`, `undo N`, `redo`, `redo N` */
+/* Carry out `undo`, `undo N`, `redo` or `redo N`. */
 static qdot_status
 undo_step(qdot_record *r, const char *name, const char *word, bool again)
 {
