@@ -99,7 +99,7 @@ typedef struct {
  * num/kinds.h. */
 bool qdot_asm_is_here(void);
 size_t qdot_asm_kind(void);
-/* Doubles in a vector; registers, 0 ... */
+/* The number of doubles in a vector; the number of registers, which count from 0. */
 int qdot_asm_lanes(const qdot_asm *m);
 int qdot_asm_registers(const qdot_asm *m);
 
@@ -116,7 +116,7 @@ qdot_asm_at(qdot_asm_base base, int32_t offset)
     return (qdot_operand){.memory = true, .reg = base, .offset = offset};
 }
 
-/* --- operations ----------------------------------------------------------------------- */
+/* --- arithmetic operations ------------------------------------------------------------ */
 
 void qdot_asm_do(qdot_asm *m, qdot_asm_operation op, qdot_asm_width width, int reg,
                  int first, qdot_operand b);
@@ -146,7 +146,8 @@ void qdot_asm_next_lane(qdot_asm *m);
 /* The newest lane of reg = a double in memory. AVX-512 only: the others read such vectors from
  * memory. */
 void qdot_asm_insert(qdot_asm *m, int reg, qdot_operand one);
-/* to += factor * b in these lanes; b must be in memory if they are not all. `spare` is overwritten. */
+/* Multiply and add: to += factor * b in these lanes; b must be in memory if they are not all.
+ * `spare` is overwritten. */
 void qdot_asm_add_product(qdot_asm *m, int to, int factor, qdot_operand b,
                           qdot_asm_lane_set lanes, int spare);
 /* to = the lanes of low from the second on, then the first of high, NULL: then 0. `to` may be the
@@ -156,7 +157,7 @@ void qdot_asm_slide(qdot_asm *m, int to, qdot_operand low, const qdot_operand *h
 
 /* --- addresses, loops, calls ---------------------------------------------------------- */
 
-/* to = from + offset; _set_code: to = the address of a position in the code. */
+/* Set base register `to` to from + offset; _set_code: to the address of a position in the code. */
 void qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset);
 void qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place);
 /* What stands between the two is run `times`, at least once; returns its place. Not one in
@@ -181,7 +182,7 @@ void qdot_asm_unframe(qdot_asm *m);
 void qdot_asm_save(qdot_asm *m);
 void qdot_asm_restore(qdot_asm *m);
 
-/* --- which register ------------------------------------------------------------------- */
+/* --- choosing a register -------------------------------------------------------------- */
 
 static inline void
 qdot_asm_use(qdot_asm *m, int reg)

@@ -1,4 +1,4 @@
-/* x86.c -- the encoding. */
+/* x86.c -- encodes instructions of x86-64: SSE2, AVX2 with FMA, AVX-512. */
 #include "machine/x86.h"
 
 #include <string.h>
@@ -46,9 +46,9 @@ is_fused(int name)
     return name >= QDOT_ASM_MADD && name <= QDOT_ASM_NMSUB_OVER;
 }
 
-/* The mandatory prefix: 1 is 66, 3 is F2. */
+/* The mandatory prefix of an instruction, by number: 1 is the byte 66, 3 the byte F2. */
 static unsigned
-mandatory(int name, bool wide)
+mandatory_prefix(int name, bool wide)
 {
     return wide || instructions[name].map > 1 ? 1 : 3;
 }
@@ -62,9 +62,9 @@ opcode(int name, bool wide)
 /* The length of the longest instruction, in bytes. */
 enum { longest = 16 };
 
-/* Space for one more instruction; after a failure all are written to the same place. */
+/* The address for one more instruction; after a failure, always the same place. */
 static unsigned char *
-room(qdot_asm *m)
+room_for_instruction(qdot_asm *m)
 {
     if (m->status == QDOT_OK && m->bytes.n + longest > m->bytes.capacity)
         m->status = qdot_grow(&m->bytes.at, &m->bytes.capacity, m->bytes.n + longest, 1);
@@ -89,7 +89,7 @@ little_endian(unsigned char *at, uint32_t value)
 static void
 write_bytes(qdot_asm *m, size_t n, const unsigned char *bytes)
 {
-    unsigned char *from = room(m);
+    unsigned char *from = room_for_instruction(m);
 
     memcpy(from, bytes, n);
     written(m, from, from + n);
@@ -115,9 +115,9 @@ asm_write_place(qdot_asm *m, size_t place)
     asm_write_number(m, (uint32_t)(place - (m->bytes.n + 4)));
 }
 
-/* A byte with the low three bits of a register in its low bits; middle: in the three above. */
+/* A byte with the low three bits of a register's number in its low bits; middle: in the next three bits. */
 static unsigned char
-low(unsigned byte, int reg)
+low_bits_of(unsigned byte, int reg)
 {
     return (unsigned char)(byte | (reg & 7));
 }
@@ -128,9 +128,9 @@ middle(unsigned byte, int reg)
     return (unsigned char)(byte | (reg & 7) << 3);
 }
 
-/* The part of the prefix with the fourth bit of the registers. */
+/* The part of the prefix with the fourth bit of the registers' numbers. */
 static unsigned char
-high(unsigned byte, int reg, int base)
+fourth_bits_of(unsigned byte, int reg, int base)
 {
     return (unsigned char)(byte | reg >> 3 << 2 | base >> 3);
 }
@@ -152,7 +152,7 @@ prefix(const qdot_asm *m, unsigned char *at, int name, bool wide, int reg, int f
     *at++ = 0x62;
     *at++ = (unsigned char)(inverted(reg, 3, 7) | sixteens << 6 | inverted(b.reg, 3, 5) |
                             inverted(reg, 4, 4) | instructions[name].map);
-    *at++ = (unsigned char)(0x84 | (unsigned)(~first & 15) << 3 | mandatory(name, wide));
+    *at++ = (unsigned char)(0x84 | (unsigned)(~first & 15) << 3 | mandatory_prefix(name, wide));
     *at++ = (unsigned char)((unsigned)m->zeroing << 7 | length << 5 |
                             (unsigned)b.spread << 4 | inverted(first, 4, 3) |
                             (unsigned)m->mask);
@@ -169,7 +169,7 @@ narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_o
     *at++ = (unsigned char)(inverted(reg, 3, 7) | 1u << 6 | inverted(b.reg, 3, 5) |
                             instructions[name].map);
     *at++ = (unsigned char)(doubles << 7 | (unsigned)(~first & 15) << 3 |
-                            (unsigned)wide << 2 | mandatory(name, wide));
+                            (unsigned)wide << 2 | mandatory_prefix(name, wide));
     return at;
 }
 
@@ -177,7 +177,7 @@ narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_o
 static unsigned char *
 asm_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
 {
-    const unsigned char form = low(middle(0, reg), b.reg);
+    const unsigned char form = low_bits_of(middle(0, reg), b.reg);
 
     if (!b.memory) {
         *at++ = 0xc0 | form;
@@ -198,7 +198,7 @@ three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first
                qdot_operand b)
 {
     const bool whole = wide && name != QDOT_ASM_SPREAD && !b.spread;
-    unsigned char *start = room(m), *at = start;
+    unsigned char *start = room_for_instruction(m), *at = start;
 
     at = narrow ? narrow_prefix(at, name, wide, reg, first, b)
                 : prefix(m, at, name, wide, reg, first, b);
@@ -211,8 +211,8 @@ three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first
 static void
 two_operands(qdot_asm *m, int name, bool wide, int reg, qdot_operand b)
 {
-    const unsigned char registers = high(0x40, reg, b.reg);
-    unsigned char *start = room(m), *at = start;
+    const unsigned char registers = fourth_bits_of(0x40, reg, b.reg);
+    unsigned char *start = room_for_instruction(m), *at = start;
 
     *at++ = wide ? 0x66 : 0xf2;
     if (registers != 0x40)
@@ -229,7 +229,7 @@ asm_load(qdot_asm *m, bool wide, int reg, qdot_operand b)
     two_operands(m, QDOT_ASM_LOAD, wide || !b.memory, reg, b);
 }
 
-/* An operation of two operands other than a fused product and sum; vectors in memory may be unaligned. */
+/* Emit an operation of two operands other than a fused product and sum; vectors in memory may be unaligned. */
 static void
 from_two(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
@@ -285,7 +285,7 @@ by_sse2(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
     }
 }
 
-/* --- any kind ------------------------------------------------------------------------- */
+/* --- instructions for every kind of vector -------------------------------------------- */
 
 void
 qdot_x86_emit(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
@@ -341,13 +341,13 @@ qdot_x86_set_mask(qdot_asm *m, int r, unsigned lanes)
 void
 qdot_x86_join_masks(qdot_asm *m, int r, int more)
 {
-    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle(low(0xc0, more), r)); /* korw */
+    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle(low_bits_of(0xc0, more), r)); /* korw */
 }
 
 void
 qdot_x86_raise_mask(qdot_asm *m, int r)
 {
-    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle(low(0xc0, r), r), 1); /* kshiftlw */
+    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle(low_bits_of(0xc0, r), r), 1); /* kshiftlw */
 }
 
 /* --- addresses, loops, calls ------------------------------------------------------------ */
@@ -357,14 +357,14 @@ qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset)
 {
     const int reg = general[to], base = general[from];
 
-    BYTES(m, high(0x48, reg, base), 0x8d, low(middle(0x80, reg), base)); /* lea */
+    BYTES(m, fourth_bits_of(0x48, reg, base), 0x8d, low_bits_of(middle(0x80, reg), base)); /* lea */
     asm_write_number(m, (uint32_t)offset);
 }
 
 void
 qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place)
 {
-    BYTES(m, high(0x48, general[to], 0), 0x8d,
+    BYTES(m, fourth_bits_of(0x48, general[to], 0), 0x8d,
           middle(0x05, general[to])); /* lea [rip + ...] */
     asm_write_place(m, place);
 }
@@ -380,7 +380,7 @@ qdot_asm_repeat(qdot_asm *m, int times)
 size_t
 qdot_asm_repeat_as(qdot_asm *m, qdot_operand times)
 {
-    BYTES(m, 0x8b, low(0x88, general[times.reg])); /* mov ecx, times */
+    BYTES(m, 0x8b, low_bits_of(0x88, general[times.reg])); /* mov ecx, times */
     asm_write_number(m, (uint32_t)times.offset);
     return m->bytes.n;
 }
@@ -414,21 +414,21 @@ qdot_asm_enter(qdot_asm *m, size_t place)
 void
 qdot_asm_enter_at(qdot_asm *m, qdot_asm_base at)
 {
-    BYTES(m, high(0x40, 0, general[at]), 0xff, low(0xd0, general[at]));
+    BYTES(m, fourth_bits_of(0x40, 0, general[at]), 0xff, low_bits_of(0xd0, general[at]));
 }
 
 void
 qdot_asm_save(qdot_asm *m)
 {
     for (size_t i = 0; i < sizeof saved; i++)
-        BYTES(m, high(0x40, 0, saved[i]), low(0x50, saved[i])); /* push */
+        BYTES(m, fourth_bits_of(0x40, 0, saved[i]), low_bits_of(0x50, saved[i])); /* push */
 }
 
 void
 qdot_asm_restore(qdot_asm *m)
 {
     for (size_t i = sizeof saved; i-- > 0;)
-        BYTES(m, high(0x40, 0, saved[i]), low(0x58, saved[i])); /* pop */
+        BYTES(m, fourth_bits_of(0x40, 0, saved[i]), low_bits_of(0x58, saved[i])); /* pop */
 }
 
 void
@@ -472,7 +472,7 @@ qdot_asm_unframe(qdot_asm *m)
     BYTES(m, 0x48, 0x83, 0xc4, 0x18); /* add rsp, 24 */
 }
 
-/* --- kinds ---------------------------------------------------------------------------- */
+/* --- kinds of vectors ----------------------------------------------------------------- */
 
 bool
 qdot_asm_is_here(void)

@@ -17,14 +17,14 @@
 enum {
     QDOT_X86_XOR = QDOT_ASM_OPERATIONS,
     QDOT_X86_AND,
-    QDOT_X86_ALIGN, /* AVX-512: reg = the lanes of b, then first, from the one that is said on */
-    QDOT_X86_PERMUTE, /* reg = the lanes of b that two bits each name */
-    QDOT_X86_HALVES,  /* AVX2: reg = halves of first and b, of 0 */
-    QDOT_X86_PAIRS,   /* reg = of each pair of lanes one of first, then b */
+    QDOT_X86_ALIGN, /* AVX-512: reg = consecutive lanes of (b, first), from a given lane on */
+    QDOT_X86_PERMUTE, /* reg = lanes of b, chosen by two bits each */
+    QDOT_X86_HALVES,  /* AVX2: reg = halves of first, of b, or 0 */
+    QDOT_X86_PAIRS,   /* reg = from each pair of lanes one of first, then one of b */
     QDOT_X86_COUNT
 };
 
-/* Emit any instruction; _move_lanes: one whose extra byte `how` says how lanes move. */
+/* Emit any instruction; _move_lanes: one with an extra byte `how` that says how lanes move. */
 void qdot_x86_emit(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b);
 void qdot_x86_move_lanes(qdot_asm *m, int name, int reg, int first, qdot_operand b,
                          int how);
