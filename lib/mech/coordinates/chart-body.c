@@ -15,7 +15,7 @@ qdot_chart_body_axes(qdot_pool *pool, const qdot_expr *e, qdot_expr *R)
 {
     const qdot_expr two = qdot_expr_int(pool, 2);
 
-    /* the quaternion is e_0, with the vector (e_1, e_2, e_3) */
+    /* the quaternion is the scalar e_0 with the vector (e_1, e_2, e_3) */
     for (size_t i = 0; i < 3; i++) {
         const size_t j = (i + 1) % 3, k = (i + 2) % 3;
         const qdot_expr x = e[i + 1], y = e[j + 1], z = e[k + 1];
@@ -59,7 +59,7 @@ is_acted_on(const qdot_scene *s)
     return false;
 }
 
-/* V of the uniform fields, which act only on the given masses. */
+/* Add to V the potential of uniform fields that act only on the given masses. */
 static qdot_status
 add_weight(const qdot_scene *s, qdot_scene *to)
 {
@@ -82,7 +82,7 @@ add_weight(const qdot_scene *s, qdot_scene *to)
     return V == QDOT_ZERO ? QDOT_OK : qdot_scene_potential(to, V);
 }
 
-/* Add a mass at the sum of one or two columns of R. */
+/* Add a point mass at column j of the rotation matrix R, or at the sum of columns j and k. */
 static qdot_status
 add_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, size_t i,
          size_t j)
@@ -99,7 +99,7 @@ add_mass(qdot_scene *to, const char *body, qdot_expr mass, const qdot_expr *R, s
     return qdot_scene_particle(to, name, mass, qdot_vector(pool, 3, r));
 }
 
-/* Add the masses of a body: J_jj minus the J_jk at c_j, and J_jk at c_j + c_k. */
+/* Represent the inertia J of a body by point masses: J_jj minus the J_jk at c_j, and J_jk at c_j + c_k. */
 static qdot_status
 add_masses(qdot_scene *to, const qdot_body *b, const qdot_expr *R)
 {

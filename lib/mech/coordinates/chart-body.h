@@ -7,7 +7,7 @@
 
 #include "mech/scene/things.h"
 
-/* R(e), row by row: quadratic in e [4], a rotation for |e| = 1. */
+/* Find the rotation matrix R(e), row by row: quadratic in the quaternion e [4], a rotation for |e| = 1. */
 void qdot_chart_body_axes(qdot_pool *pool, const qdot_expr *e, qdot_expr *R);
 
 /* Whether the rotation of some body is Rz Rx Rz of the coordinates index [3]. */

@@ -17,7 +17,7 @@ enum { MOST_MULTIPLE = 12 };
 
 typedef qdot_vec(qdot_expr) expressions;
 
-/* The replacements in one expression. */
+/* The replacements to be made in one expression. */
 typedef struct {
     const qdot_chart *c;
     qdot_pool *pool;
@@ -31,9 +31,9 @@ rewriting_add(rewriting *r, qdot_expr from, qdot_expr to)
     return qdot_vec_push(&r->to, to);
 }
 
-/* --- products ------------------------------------------------------------------------------ */
+/* --- factors of products ------------------------------------------------------------------- */
 
-/* Base and exponent of factor k of a product. */
+/* Find the base and the exponent of factor k of a product. */
 static qdot_expr
 base_of(const qdot_pool *pool, qdot_expr product, uint32_t k)
 {
@@ -58,7 +58,7 @@ typedef struct {
     qdot_expr cosine, sine;
 } direction;
 
-/* Whether m is given by its cosh and sinh (hyperbolic), or by its cos and sin. */
+/* Whether the angle m is given by its cosh and sinh (hyperbolic), or by its cos and sin. */
 static bool
 is_of(const qdot_chart_moved *m, bool hyperbolic)
 {
@@ -67,7 +67,7 @@ is_of(const qdot_chart_moved *m, bool hyperbolic)
 
 /* Sine and cosine of the sum of two angles; cosh and sinh of the sum of two lengths if `hyperbolic`. */
 static direction
-turned(qdot_pool *pool, direction a, direction b, bool hyperbolic)
+add_directions(qdot_pool *pool, direction a, direction b, bool hyperbolic)
 {
     const qdot_expr sines = qdot_mul(pool, a.sine, b.sine);
 
@@ -97,16 +97,16 @@ find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *
         if (times < 0)
             one.sine = qdot_neg(pool, one.sine);
         for (long k = 0; k < labs(times); k++)
-            sum = turned(pool, sum, one, hyperbolic);
+            sum = add_directions(pool, sum, one, hyperbolic);
         angle = qdot_subs(pool, angle, 1, &m->q, (qdot_expr[]){QDOT_ZERO});
     }
     for (size_t i = 0; i < r->c->moved.n; i++)
         if (qdot_expr_contains(pool, angle, r->c->moved.at[i].q))
             return false; /* the expression still contains a length */
-    *d = turned(pool, sum,
-                (direction){qdot_fun1(pool, hyperbolic ? QDOT_COSH : QDOT_COS, angle),
-                            qdot_fun1(pool, hyperbolic ? QDOT_SINH : QDOT_SIN, angle)},
-                hyperbolic);
+    *d = add_directions(pool, sum,
+                        (direction){qdot_fun1(pool, hyperbolic ? QDOT_COSH : QDOT_COS, angle),
+                                    qdot_fun1(pool, hyperbolic ? QDOT_SINH : QDOT_SIN, angle)},
+                        hyperbolic);
     return true;
 }
 
@@ -196,7 +196,7 @@ qdot_chart_rate(const qdot_chart *c, qdot_expr e)
     return sum;
 }
 
-/* The rate of a coordinate of a group. */
+/* The time derivative of a coordinate of a group, in terms of the new coordinates. */
 static qdot_expr
 moved_rate(const qdot_chart *c, const qdot_chart_moved *m)
 {
@@ -207,7 +207,7 @@ moved_rate(const qdot_chart *c, const qdot_chart_moved *m)
         return m->rate;
     if (m->sort != QDOT_CHART_ANGLE)
         return qdot_chart_rate(c, m->value);
-    /* d atan2(y, x)/dt */
+    /* the rate d atan2(y, x)/dt = (x y' - y x')/(x^2 + y^2) */
     turn = qdot_sub(pool, qdot_mul(pool, m->x, qdot_chart_rate(c, m->y)),
                     qdot_mul(pool, m->y, qdot_chart_rate(c, m->x)));
     size = qdot_add(pool, qdot_mul(pool, m->x, m->x), qdot_mul(pool, m->y, m->y));
@@ -236,7 +236,7 @@ replace_coordinates(rewriting *r, uint32_t holds)
     return QDOT_OK;
 }
 
-/* Replace P^(k/2) by w^k. */
+/* Replace each power P^(k/2) of the square P of a root w by w^k. */
 static qdot_expr
 put_branches(qdot_pool *pool, qdot_expr node, void *user)
 {
@@ -286,7 +286,7 @@ replaced(const qdot_chart *c, qdot_expr e)
     return e;
 }
 
-/* The exponent of `symbol` in a product if it is an integer, else 0. */
+/* The exponent of `symbol` in a product if it is an integer; 0 otherwise. */
 static long
 power_in(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
 {
@@ -299,9 +299,9 @@ power_in(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
     return k;
 }
 
-/* e times (to/from)^times. */
+/* The expression e multiplied by (to/from)^times. */
 static qdot_expr
-exchanged(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
+exchange_factor(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
 {
     return qdot_mul(pool, e,
                     qdot_mul(pool, qdot_pow_int(pool, from, -times),
@@ -321,22 +321,22 @@ put_squares(qdot_pool *pool, qdot_expr node, void *user)
             root->partner == QDOT_NIL ? 0 : power_in(pool, node, root->partner);
 
         if (own > 0 && both > 0)
-            node = exchanged(pool, node, qdot_mul(pool, root->symbol, root->partner),
-                             root->product, own < both ? own : both);
+            node = exchange_factor(pool, node, qdot_mul(pool, root->symbol, root->partner),
+                                   root->product, own < both ? own : both);
     }
     for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_root *root = c->roots.at + i;
         const long half = power_in(pool, node, root->symbol) / 2;
 
         if (half != 0)
-            node = exchanged(pool, node, qdot_pow_int(pool, root->symbol, 2), root->square, half);
+            node = exchange_factor(pool, node, qdot_pow_int(pool, root->symbol, 2), root->square, half);
     }
     for (size_t i = 0; i < c->signs.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
         const qdot_chart_sign *s = c->signs.at + i;
         const long half = s->branch ? 0 : power_in(pool, node, s->symbol) / 2;
 
         if (half != 0)
-            node = exchanged(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
+            node = exchange_factor(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
     }
     return node;
 }
@@ -354,7 +354,7 @@ angle_beyond(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
 {
     const qdot_expr x[] = {m->x, m->y, qdot_neg(pool, m->x), qdot_neg(pool, m->y)};
     const size_t k = (size_t)(((quarters % 4) + 4) % 4);
-    /* y, then x, turned back by k quarters */
+    /* the components y, then x, turned back by k quarter turns */
     const qdot_expr sides[] = {x[(k + 1) % 4], x[k]};
 
     return qdot_fun(pool, QDOT_ATAN2, 2, sides);
@@ -375,8 +375,8 @@ put_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters
     const qdot_expr beyond = angle_beyond(pool, m, quarters);
     const direction bare = direction_of(pool, qdot_mul(pool, QDOT_HALF, m->bare));
     const direction half =
-        turned(pool, direction_of(pool, qdot_mul(pool, QDOT_HALF, turns)),
-               direction_of(pool, qdot_mul(pool, QDOT_HALF, beyond)), false);
+        add_directions(pool, direction_of(pool, qdot_mul(pool, QDOT_HALF, turns)),
+                       direction_of(pool, qdot_mul(pool, QDOT_HALF, beyond)), false);
 
     return qdot_subs(pool, e, 3, (qdot_expr[]){bare.cosine, bare.sine, m->bare},
                      (qdot_expr[]){half.cosine, half.sine, qdot_add(pool, turns, beyond)});
@@ -426,7 +426,7 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
     bool some = false;
 
     e = qdot_chart_put(c, e);
-    /* v contains sinh u, which contains an angle, which contains a distance */
+    /* a function of v may contain sinh u, which contains an angle, which contains a distance */
     for (int depth = 0; depth < 3 && e != QDOT_NIL; depth++)
         e = chart_put_values(c, e, quarters, &some);
     if (turns)
@@ -444,7 +444,7 @@ qdot_chart_beyond(const qdot_chart *c, qdot_expr e, const long *quarters)
     return NULL;
 }
 
-/* --- what is regular -------------------------------------------------------------------- */
+/* --- regularity of expressions ---------------------------------------------------------- */
 
 /* Whether e is the square of a root, a factor of it, or a root w that is a coordinate. */
 static bool

@@ -1,4 +1,4 @@
-/* chart-formulas.c -- the groups of chart.h by their formulas. */
+/* chart-formulas.c -- writes the given coordinates of each group of a chart in terms of its new coordinates. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/function.h"
@@ -128,7 +128,7 @@ add_length(qdot_chart *c, size_t i, qdot_expr value, size_t sign)
                          .value = value, .ends = {QDOT_ZERO, QDOT_NIL}, .sign = sign});
 }
 
-/* The angle i = atan2(y, x), where x^2 + y^2 = norm^2. */
+/* The angle number i, equal to atan2(y, x), where x^2 + y^2 = norm^2. */
 static qdot_chart_moved
 chart_angle_of(const qdot_chart *c, qdot_expr x, qdot_expr y, qdot_expr norm, size_t sign)
 {
@@ -150,7 +150,7 @@ end_angle(const qdot_chart *c, qdot_chart_moved *m, bool turned)
     m->ends[1] = turned ? quarter : QDOT_PI;
 }
 
-/* Add the distance N, given by its square, and its sign s: *signed_N = s N. */
+/* Add the distance N, whose square is given, with a sign s = +-1 that follows the run: *signed_N = s N. */
 static qdot_status
 add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *signed_N)
 {
@@ -162,7 +162,7 @@ add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *si
         &c->signs, ((qdot_chart_sign){.symbol = s, .start = start, .distance = *signed_N}));
 }
 
-/* Add x, y = `across` times cos and sin of angle i. *R = across, with its sign. */
+/* Set x and y to `across` times the cosine and sine of angle i; *R is `across` with its sign. */
 static qdot_status
 add_axis(qdot_chart *c, size_t i, qdot_expr across, int start, qdot_expr *x, qdot_expr *R)
 {
@@ -187,7 +187,7 @@ put_plane(qdot_chart *c, const size_t *index, int start)
     return add_length(c, index[0], R, c->signs.n);
 }
 
-/* r is 1 on a sphere: index [2] is then of theta, phi. Turned: theta is counted from the equator. */
+/* Add polar coordinates in space; for r = 1 (a sphere) index [2] is of theta, phi. Turned: from the equator. */
 static qdot_status
 put_space(qdot_chart *c, const qdot_chart_group *g, int start)
 {
@@ -259,7 +259,7 @@ typedef struct {
     size_t sign;
 } pair;
 
-/* x[0], x[1]: the Cartesian X, Y in the coordinates given. */
+/* Find x[0], x[1]: the Cartesian X, Y in the given coordinates. */
 static void
 pair_given(const qdot_chart *c, const qdot_chart_group *g, qdot_expr *x)
 {
@@ -495,9 +495,9 @@ put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
     return qdot_vec_push(&c->moved, angle);
 }
 
-/* --- roots ------------------------------------------------------------------------------------------ */
+/* --- square roots as new coordinates ---------------------------------------------------------------- */
 
-/* Add the new coordinate w with w^2 = P. */
+/* Add the new coordinate w, the root with w^2 = P. */
 static qdot_status
 put_root(qdot_chart *c, const qdot_chart_group *g)
 {
@@ -510,7 +510,7 @@ put_root(qdot_chart *c, const qdot_chart_group *g)
         ((qdot_chart_sign){.symbol = w, .start = 1, .branch = true, .square = g->square}));
 }
 
-/* --- any ---------------------------------------------------------------------------------------- */
+/* --- adding a group; its distance --------------------------------------------------------------- */
 
 qdot_status
 qdot_chart_add(qdot_chart *c, const qdot_chart_group *g, int sign)

@@ -45,7 +45,7 @@ is_moved(const qdot_chart *c, qdot_expr q)
     return false;
 }
 
-/* Whether e, of the scene given, holds an angle outside of sin and cos. */
+/* Whether e, in the coordinates of the given scene, holds an angle outside of sin and cos. */
 static bool
 holds_angle(const qdot_chart *c, qdot_expr e)
 {
@@ -265,7 +265,7 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
     return QDOT_OK;
 }
 
-/* --- which groups there are ------------------------------------------------------------------ */
+/* --- finding groups -------------------------------------------------------------------------- */
 
 /* Take the group if the scene is regular in its new coordinates. */
 static qdot_status
@@ -348,7 +348,8 @@ join_pairs(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
     }
 }
 
-/* Pairs of coordinates that occur together in positions; rates: also in one term of L with their velocities. */
+/* Find pairs of coordinates that occur together in positions; rates: also in one term of L with
+ * their velocities. */
 static joined
 find_pairs(const qdot_scene *s, bool rates)
 {
@@ -408,7 +409,7 @@ try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const join
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             for (size_t k = 0; k < third; k++) {
-                /* unused indices are 0, as `group_fits` expects */
+                /* all unused indices are 0, as `group_fits` expects */
                 const qdot_chart_group g = {
                     .kind = kind, .index = {i, j, third > 1 ? k : 0}, .turned = turned};
 

@@ -97,12 +97,12 @@ typedef struct {
     bool between;      /* its domain ends there: it has no turns */
 } qdot_chart_moved;
 
-/* A new coordinate, in terms of the given ones. */
+/* A new coordinate, expressed in terms of the given ones. */
 typedef struct {
     qdot_expr q, given;
 } qdot_chart_fresh;
 
-/* A root: N, xi, cosh u ... */
+/* A root that occurs in formulas of a group: the distance N, xi, cosh u ... */
 typedef struct {
     qdot_expr symbol, square;   /* symbol^2, in new coordinates and roots */
     qdot_expr partner, product; /* symbol partner = product; or nil */
@@ -148,7 +148,7 @@ QDOT_MUST_CHECK qdot_status qdot_chart_make(qdot_scene *s,
                                             const int *sign, bool open, qdot_chart *chart);
 void qdot_chart_clear(qdot_chart *chart);
 
-/* An expression of c->scene in the coordinates given. */
+/* An expression of c->scene, written in the given coordinates. */
 qdot_expr qdot_chart_given(const qdot_chart *c, qdot_expr e);
 
 /* An expression of the scene given in the new coordinates. An angle outside of sin and cos is
@@ -173,9 +173,9 @@ QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_g
 /* Inside: in new coordinates and roots, products of two roots by what they are, angles outside of sin and cos as
  * their symbols. */
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);
-/* Inside: de/dt, e in new coordinates and roots. */
+/* For files of charts: de/dt, where e is in new coordinates and roots. */
 qdot_expr qdot_chart_rate(const qdot_chart *chart, qdot_expr e);
-/* For use inside the chart: e without roots if it is regular; else nil, without a failure. */
+/* For files of charts: e without roots if it is regular; otherwise nil, which is no failure. */
 qdot_expr qdot_chart_regular(const qdot_chart *chart, qdot_expr e);
 
 #endif

@@ -8,7 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 
-/* --- a form as a vector ------------------------------------------------------------------------ */
+/* --- squares and linear forms ------------------------------------------------------------------ */
 
 static bool
 holds_coordinates(const qdot_collision_equations *of, qdot_expr e)
@@ -83,7 +83,7 @@ find_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pai
     return rest == QDOT_ZERO && pair->d > 0 && !qdot_expr_is_negative(pool, pair->scale);
 }
 
-/* --- what is divided by ------------------------------------------------------------ */
+/* --- expressions by which others are divided --------------------------------------- */
 
 static bool
 pair_is_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
@@ -175,7 +175,7 @@ qdot_collision_find(const qdot_collision_equations *of, size_t m, const qdot_exp
     return status;
 }
 
-/* --- powers of the square -------------------------------------------------------------------------- */
+/* --- powers of the squared distance ---------------------------------------------------------------- */
 
 typedef struct {
     const qdot_collision_pair *pair;

@@ -39,7 +39,7 @@ typedef struct {
     qdot_expr in_u[MOST], rate_u[MOST]; /* L u, 2 L u'/R */
     qdot_expr strength;                 /* k */
     qdot_expr P[MOST];                  /* in x, dx/dt, R */
-    /* for each given coordinate: [n] */
+    /* Fields with an entry for each given coordinate, [n]: */
     qdot_expr *Q, *w; /* QDOT_NIL where it is a pivot */
     qdot_expr *value; /* in x and Q */
     qdot_expr *speed; /* dq/dt in dx/dt and w' */
@@ -47,7 +47,7 @@ typedef struct {
     qdot_expr *rest;  /* [n] */
 } work;
 
-/* --- small formulas -------------------------------------------------------------------------------- */
+/* --- auxiliary formulas ---------------------------------------------------------------------------- */
 
 static qdot_expr
 collision_times(const work *k, qdot_expr a, qdot_expr b)
@@ -103,7 +103,7 @@ ks_matrix_column(const work *k, size_t j, const qdot_expr *b)
 }
 
 static void
-hinder(work *k, const char *why)
+set_hindrance(work *k, const char *why)
 {
     if (k->c->hindrance[0] == '\0')
         snprintf(k->c->hindrance, sizeof k->c->hindrance, "%.180s", why);
@@ -115,7 +115,7 @@ is_hindered(const work *k)
     return k->c->hindrance[0] != '\0';
 }
 
-/* Whether e holds a power of `base` below 0. */
+/* Whether e contains a negative power of `base`. */
 static bool
 divides_by(qdot_pool *pool, qdot_expr e, qdot_expr base)
 {
@@ -204,7 +204,7 @@ make_symbols(work *k)
     }
 }
 
-/* e in terms of x and the given coordinates other than pivots, which are solved for, the last one first. */
+/* e in terms of x and the given coordinates without pivots; pivots are eliminated, the last one first. */
 static qdot_expr
 without_pivots(const work *k, qdot_expr e)
 {
@@ -220,7 +220,7 @@ without_pivots(const work *k, qdot_expr e)
     return qdot_subs(k->pool, e, k->d, from, to);
 }
 
-/* --- the equations --------------------------------------------------------------------------------- */
+/* --- the equations of motion ----------------------------------------------------------------------- */
 
 /* Split each acceleration in x and R into its singular part c.x/R^3 and the rest. */
 static void
@@ -236,7 +236,7 @@ split_accelerations(work *k)
         e = without_pivots(k, e);
         e = qdot_expand(k->pool, collision_times(k, e, qdot_pow_int(k->pool, k->R, power)));
         if (e == QDOT_NIL || divides_by(k->pool, e, k->R)) {
-            hinder(k, "the forces grow faster than 1/r^2");
+            set_hindrance(k, "the forces grow faster than 1/r^2");
             return;
         }
         left = most = qdot_subs(k->pool, e, 1, &k->R, (qdot_expr[]){QDOT_ZERO});
@@ -248,16 +248,16 @@ split_accelerations(work *k)
             if (k->d > 1)
                 left = qdot_sub(k->pool, left, collision_times(k, *c, k->x[j]));
             if (qdot_expr_kind(k->pool, *c) != QDOT_NUM)
-                hinder(k, "the force between the points is not -k/r^2");
+                set_hindrance(k, "the force between the points is not -k/r^2");
         }
         if (k->d > 1 && qdot_expand(k->pool, left) != QDOT_ZERO)
-            hinder(k, "the force between the points is not -k/r^2");
+            set_hindrance(k, "the force between the points is not -k/r^2");
         k->rest[i] = qdot_expand(k->pool, collision_times(k, qdot_sub(k->pool, e, most),
                                                           qdot_pow_int(k->pool, k->R, -power)));
     }
 }
 
-/* k and P of the pair. */
+/* Find the strength k of the attraction, and P (the rest of d2x/dt2 = -k x/R^3 + P). */
 static void
 find_pair(work *k)
 {
@@ -275,7 +275,7 @@ find_pair(work *k)
             if (i == 0 && l == 0)
                 k->strength = qdot_neg(k->pool, c);
             if (c != (i == l ? qdot_neg(k->pool, k->strength) : QDOT_ZERO))
-                hinder(k, "the force between the points is not -k/r^2");
+                set_hindrance(k, "the force between the points is not -k/r^2");
         }
         for (size_t j = 0; j < k->of->n; j++)
             k->P[i] = qdot_add(
@@ -284,17 +284,17 @@ find_pair(work *k)
     }
     if (!is_hindered(k) &&
         (k->strength == QDOT_ZERO || qdot_expr_is_negative(k->pool, k->strength)))
-        hinder(k, "the points do not attract each other");
+        set_hindrance(k, "the points do not attract each other");
 }
 
-/* c.x/k, the difference between a coordinate and its regular replacement Q. */
+/* The difference c.x/k between a coordinate and its regular replacement Q. */
 static qdot_expr
-lag(const work *k, size_t i, const qdot_expr *x)
+distance_to_regular(const work *k, size_t i, const qdot_expr *x)
 {
     return qdot_div(k->pool, collision_dot(k, k->d, k->pull + i * k->d, x), k->strength);
 }
 
-/* q and dq/dt of the coordinates given. */
+/* Express q and dq/dt of the given coordinates by the new ones. */
 static void
 express_coordinates(work *k)
 {
@@ -302,8 +302,8 @@ express_coordinates(work *k)
 
     for (size_t i = 0; i < k->of->n; i++)
         if (!is_pivot(k, i)) {
-            k->value[i] = qdot_sub(k->pool, k->Q[i], lag(k, i, k->x));
-            k->speed[i] = qdot_sub(k->pool, velocity_of(k, k->w[i]), lag(k, i, k->rate));
+            k->value[i] = qdot_sub(k->pool, k->Q[i], distance_to_regular(k, i, k->x));
+            k->speed[i] = qdot_sub(k->pool, velocity_of(k, k->w[i]), distance_to_regular(k, i, k->rate));
         }
     for (size_t j = k->d; j-- > 0;) {
         const size_t p = pair->pivot[j];
@@ -354,9 +354,9 @@ in_new(const work *k, qdot_expr e)
     return in_u(k, in_rates(k, e));
 }
 
-/* e as a polynomial in R, replaced by |u|^2; sets a hindrance if e is divided by R. */
+/* Write e as a polynomial in R, and replace R by |u|^2; if e is divided by R, set the hindrance. */
 static qdot_expr
-regular(work *k, qdot_expr e)
+write_regular(work *k, qdot_expr e)
 {
     const qdot_expr square = collision_dot(k, k->m, k->u, k->u);
 
@@ -365,7 +365,7 @@ regular(work *k, qdot_expr e)
         e = qdot_expand(k->pool, qdot_subs(k->pool, e, 1, &k->R, &square));
         e = qdot_mech_tidy(k->s, e);
         if (e == QDOT_NIL || divides_by(k->pool, e, k->d > 1 ? square : k->u[0]))
-            hinder(k, "another force is not smooth there");
+            set_hindrance(k, "another force is not smooth there");
         return e;
     }
     return qdot_subs(k->pool, e, 1, &k->R, &square);
@@ -384,7 +384,7 @@ add_equation(work *k, qdot_expr q, qdot_expr second, qdot_expr q0, qdot_expr v0)
     return qdot_vec_push(&k->c->v0, v0);
 }
 
-/* The start value of u; of its two roots the one without cancellation. */
+/* Choose the start value of u: of the two roots the one that is computed without cancellation. */
 static void
 start_of_u(const work *k, qdot_expr *u)
 {
@@ -433,7 +433,7 @@ collision_add_pair(work *k)
         v[j] = velocity_of(k, k->u[j]);
     for (size_t i = 0; i < k->d; i++)
         RP[i] = in_rates(k, k->P[i]);
-    along = regular(k, in_u(k, take_along(k, RP)));
+    along = write_regular(k, in_u(k, take_along(k, RP)));
     for (size_t i = 0; i < k->d; i++) {
         RP[i] = qdot_expand(k->pool, collision_times(k, k->R, in_u(k, RP[i])));
         rate0[i] = qdot_ddt(k->pool, k->c->pair.x[i]);
@@ -442,7 +442,7 @@ collision_add_pair(work *k)
     start_of_u(k, u0);
     memcpy(at_start.u, u0, sizeof u0);
     for (size_t j = 0; j < k->m; j++) {
-        qdot_expr push = regular(k, collision_times(k, QDOT_HALF, ks_matrix_column(k, j, RP)));
+        qdot_expr push = write_regular(k, collision_times(k, QDOT_HALF, ks_matrix_column(k, j, RP)));
 
         push = qdot_add(k->pool, push,
                         collision_times(k, along, collision_times(k, collision_dot(k, k->m, k->u, k->u), v[j])));
@@ -452,7 +452,7 @@ collision_add_pair(work *k)
     }
     QDOT_TRY(add_equation(k, k->c->time, collision_times(k, two, collision_dot(k, k->m, k->u, v)), QDOT_T,
                           k->c->pair.distance));
-    power = regular(k, qdot_div(k->pool, collision_times(k, two, power), k->R));
+    power = write_regular(k, qdot_div(k->pool, collision_times(k, two, power), k->R));
     power = qdot_add(
         k->pool, power,
         collision_times(k, qdot_expr_int(k->pool, 4), collision_times(k, along, collision_dot(k, k->m, v, v))));
@@ -478,20 +478,20 @@ add_others(work *k)
 
         if (is_pivot(k, i))
             continue;
-        free = qdot_add(k->pool, velocity_of(k, q), lag(k, i, rate0));
-        second = qdot_add(k->pool, k->rest[i], lag(k, i, k->P));
-        second = regular(k, collision_times(k, k->R, in_new(k, second)));
+        free = qdot_add(k->pool, velocity_of(k, q), distance_to_regular(k, i, rate0));
+        second = qdot_add(k->pool, k->rest[i], distance_to_regular(k, i, k->P));
+        second = write_regular(k, collision_times(k, k->R, in_new(k, second)));
         QDOT_TRY(add_equation(k, k->Q[i],
                               qdot_add(k->pool, collision_times(k, change, velocity_of(k, k->w[i])),
                                        collision_times(k, collision_dot(k, k->m, k->u, k->u), second)),
-                              qdot_add(k->pool, q, lag(k, i, pair->x)),
+                              qdot_add(k->pool, q, distance_to_regular(k, i, pair->x)),
                               collision_times(k, pair->distance, free)));
         QDOT_TRY(add_equation(k, k->w[i], second, QDOT_ZERO, free));
     }
     return qdot_pool_check(k->pool);
 }
 
-/* --- expressions ----------------------------------------------------------------------------------- */
+/* --- expressions in the new coordinates ------------------------------------------------------------ */
 
 static qdot_status
 collision_replace(work *k, qdot_expr from, qdot_expr to)
@@ -527,7 +527,7 @@ qdot_collision_express(const qdot_collision *c, qdot_expr e)
     return qdot_subs(c->pool, e, c->from.n, c->from.at, c->to.at);
 }
 
-/* The energy, T + V = rest + m (dx/dt . dx/dt/2 - k/R), as rest + m h. */
+/* Write the energy T + V = rest + m (dx/dt . dx/dt/2 - k/R) as rest + m h. */
 static void
 express_energy(work *k)
 {
@@ -560,7 +560,7 @@ copy_events(work *k)
         qdot_event own = k->s->events.at[i];
 
         if (own.targets.n > 0) {
-            hinder(k, "an event sets coordinates");
+            set_hindrance(k, "an event sets coordinates");
             return QDOT_OK;
         }
         own.left = qdot_collision_express(c, own.left);
@@ -581,11 +581,11 @@ check_domains(work *k)
 
         if (ends && !(k->d == 1 && k->c->pair.x[0] == k->of->q[i] && q->hi == QDOT_NIL &&
                       q->lo == QDOT_ZERO))
-            hinder(k, "a coordinate has a domain");
+            set_hindrance(k, "a coordinate has a domain");
     }
 }
 
-/* --- all of it --------------------------------------------------------------------------------------- */
+/* --- the whole scene --------------------------------------------------------------------------------- */
 
 static qdot_status
 collision_build(work *k)

@@ -30,12 +30,13 @@
 
 enum { QDOT_COLLISION_MOST = 3 };
 
-/* A pair of points: x [d] in coordinates, each component containing q[pivot] with the coefficient 1. */
+/* A pair of points: its difference x [d] in coordinates; component i contains q[pivot] with the
+ * coefficient 1. */
 typedef struct {
     size_t d;
     qdot_expr x[QDOT_COLLISION_MOST];
     size_t pivot[QDOT_COLLISION_MOST];
-    /* for d > 1: R^2 = square/scale, where `square` is the radicand in the scene */
+    /* for d > 1: R^2 = square/scale, where `square` stands under a root in the scene */
     qdot_expr square, scale;
     qdot_expr distance;      /* R */
 } qdot_collision_pair;
@@ -85,7 +86,7 @@ void qdot_collision_clear(qdot_collision *c);
 /* An expression of the scene given in the coordinates of c->scene. Nil: the pool keeps the failure. */
 qdot_expr qdot_collision_express(const qdot_collision *c, qdot_expr e);
 
-/* Inside: powers of pair->square as powers of R. */
+/* For files of collisions: replace powers of pair->square by powers of R. */
 qdot_expr qdot_collision_put_distance(qdot_pool *pool, qdot_expr e,
                                       const qdot_collision_pair *pair, qdot_expr R);
 

@@ -43,7 +43,7 @@ minimal_moves(const work *w, qdot_expr e)
            (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_UFUN);
 }
 
-/* Record that coordinate i equals `value`, and insert this into the earlier solutions. */
+/* Record that coordinate i equals `value`, and insert `value` into the earlier solutions. */
 static void
 put_solved(work *w, size_t i, qdot_expr value)
 {
@@ -56,7 +56,7 @@ put_solved(work *w, size_t i, qdot_expr value)
             w->out->given[k] = qdot_subs(w->pool, w->out->given[k], 1, &q, &value);
 }
 
-/* f with the solved coordinates replaced by their solutions. */
+/* The function f with the solved coordinates replaced by their solutions. */
 static qdot_expr
 put_solved_in(const work *w, qdot_expr f)
 {
@@ -64,7 +64,7 @@ put_solved_in(const work *w, qdot_expr f)
                                           w->out->given));
 }
 
-/* Solve c x + g = 0 for the first x whose coefficient c is constant. */
+/* Solve f = c x + g = 0 for the first coordinate x whose coefficient c is constant. */
 static bool
 solve_linear(work *w, qdot_expr f, qdot_expr whole)
 {
@@ -192,7 +192,7 @@ choose_axis(const work *w, const qdot_expr *x, const ball *given)
     return best;
 }
 
-/* x = a + l sin u cos v, y = b + l sin u sin v, z = c - l cos u, z being the axis. */
+/* Solve a sphere: x = a + l sin u cos v, y = b + l sin u sin v, z = c - l cos u, with z as axis. */
 static bool
 put_sphere(work *w, const size_t *index, const qdot_expr *x, const ball *now,
            const ball *given)

@@ -18,7 +18,7 @@
 
 enum { PATTERNS = 256, PATTERN_ATOMS = 20, UNITS = 4 };
 
-/* Sums of parameters, each with the symbol that replaces it. */
+/* The sums of parameters that were replaced, each with its symbol. */
 typedef struct {
     size_t n;
     qdot_expr sum[UNITS], symbol[UNITS];

@@ -23,7 +23,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* -dL/dt + sum Q q', with Q the applied forces not contained in V. */
+/* dL/dt by sources: -dL/dt + sum Q q', with Q the applied forces that V does not contain. */
 static qdot_expr
 applied_power(qdot_scene *s)
 {
@@ -58,7 +58,7 @@ constraint_power(qdot_scene *s, size_t k)
     return power;
 }
 
-/* dh/dt, containing symbols of multipliers. */
+/* The rate dh/dt of the energy h, which may contain symbols of multipliers. */
 static qdot_expr
 energy_rate(qdot_scene *s)
 {
@@ -75,7 +75,7 @@ energy_rate(qdot_scene *s)
     return rate;
 }
 
-/* dp_i/dt, containing symbols of multipliers. */
+/* The rate dp_i/dt of a momentum, which may contain symbols of multipliers. */
 static qdot_expr
 momentum_rate(qdot_scene *s, size_t i)
 {

@@ -1,4 +1,5 @@
-/* dalembert.c -- inertial terms and generalized forces, not differentiated. */
+/* dalembert.c -- inertial terms and generalized forces from accelerations (d'Alembert), without
+ * derivatives of L. */
 #include "mech/dynamics/dalembert.h"
 
 #include "expr/build.h"

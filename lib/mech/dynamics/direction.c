@@ -11,7 +11,7 @@
 
 enum { MOST_DIRECTIONS = 64 };
 
-/* One |u|, with the symbols that replace it and 1/|u| while a force is rewritten. */
+/* One magnitude |u|, with the symbols that replace it and 1/|u| while a force is rewritten. */
 typedef struct {
     qdot_expr length, u;       /* |u|, u */
     qdot_expr symbol, inverse; /* for |u|, 1/|u| */
@@ -119,7 +119,7 @@ divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
     return qdot_div(pool, qdot_subs(pool, B, 1, &w, &back), a);
 }
 
-/* B with C = B u, from the first velocity in which u is linear and that gives one; nil if none does. */
+/* The quotient B = C/u by the first velocity in which u is linear and that gives one; nil if none does. */
 static qdot_expr
 divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
 {

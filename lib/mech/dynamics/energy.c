@@ -19,7 +19,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
-/* 1/2 sum M_ij q_i' q_j', scaled terms in order. */
+/* The quadratic part of T: 1/2 sum M_ij q_i' q_j', with common factors, in canonical order. */
 static qdot_expr
 quadratic_part(qdot_scene *s)
 {
@@ -108,7 +108,7 @@ out:
     return sum;
 }
 
-/* T grouped by degree in velocities if that is shorter: m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2). */
+/* T grouped by degree in velocities if that is shorter, as m*W*(x*y' - y*x') + 1/2*m*(x'^2 + y'^2); else T. */
 static qdot_expr
 or_degrees(qdot_scene *s, qdot_expr T)
 {
@@ -121,7 +121,7 @@ or_degrees(qdot_scene *s, qdot_expr T)
     return qdot_expr_size(s->pool, sum) < qdot_expr_size(s->pool, T) ? sum : T;
 }
 
-/* T with a sum of squares if that is shorter; others: the remaining terms. */
+/* T with a sum of squares if that is shorter, else T; others: the remaining terms. */
 static qdot_expr
 or_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
 {
@@ -172,7 +172,7 @@ qdot_mech_lagrangian(qdot_scene *s)
 
 enum { MOST_ADDED = 2000 };
 
-/* The number of terms of e when multiplied out. */
+/* The number of terms that e has when it is multiplied out. */
 static uint32_t
 expanded_terms(qdot_pool *pool, qdot_expr e)
 {
@@ -236,7 +236,7 @@ qdot_mech_energy(qdot_scene *s)
 
 /* --- slopes of L ---------------------------------------------------------------------- */
 
-/* Whether L depends explicitly on t, seen from its ingredients before M is derived. */
+/* Whether L depends explicitly on t, judged by positions, fields and masses before M is derived. */
 static bool
 time_stands(qdot_scene *s)
 {

@@ -4,7 +4,7 @@
 
 #include "mech/scene/scene.h"
 
-/* dL/dx, x a coordinate, a velocity or t, computed from the parts of L; *has: whether L depends on x. */
+/* dL/dx for a coordinate, velocity or t, from the parts of L; *has: whether L depends on x. */
 qdot_expr qdot_lagrangian_slope(qdot_scene *s, qdot_expr x);
 bool qdot_lagrangian_has(qdot_scene *s, qdot_expr x, bool *has);
 /* Whether dL/dx is proved zero, x a coordinate or t: entry by entry of M and b if V contains no

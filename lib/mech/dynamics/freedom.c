@@ -180,7 +180,7 @@ constraints_evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
     return QDOT_OK;
 }
 
-/* A A^T, lower triangle; returns its trace. `row` [m] is work space, left at 0. */
+/* The Gram matrix A A^T, lower triangle; returns its trace. `row` [m] is work space, left at 0. */
 static double
 fill_gram(problem *p, double *row)
 {
@@ -205,7 +205,7 @@ fill_gram(problem *p, double *row)
     return trace;
 }
 
-/* step = A^T (A A^T + mu 1)^-1 f, by Cholesky of the damped Gram matrix. */
+/* Find the damped Newton step A^T (A A^T + mu 1)^-1 f, by Cholesky's method. */
 static void
 damped_newton_step(problem *p, double mu)
 {
@@ -324,7 +324,7 @@ rank_add_row(const problem *p, size_t k, size_t low, size_t width, double *rows,
 
 /* Find which rows are independent of those before; returns their number. */
 static size_t
-rank(qdot_scene *s, problem *p, bool *independent)
+find_rank(qdot_scene *s, problem *p, bool *independent)
 {
     size_t found = 0;
 
@@ -337,7 +337,7 @@ rank(qdot_scene *s, problem *p, bool *independent)
     return found;
 }
 
-/* --- conditions that rows of one direction leave --------------------------------------- */
+/* --- hidden conditions, which dependent rows leave ------------------------------------- */
 
 /* A selection of the constraints: the independent ones, and dependent ones up to `last`. */
 typedef struct {
@@ -444,7 +444,7 @@ by_sampling(qdot_scene *s, problem *p, bool *independent, bool *known)
         if (status != QDOT_OK || !found)
             continue;
         trials = MORE_TRIALS;
-        r = rank(s, p, seen);
+        r = find_rank(s, p, seen);
         if (hits++ == 0 || r > most) {
             most = r;
             memcpy(independent, seen, c * sizeof *seen);

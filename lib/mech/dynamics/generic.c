@@ -60,7 +60,7 @@ rational(const fmpq *x)
 
 /* A pseudo-random number in (0, 1), fixed by a name and a seed. */
 static double
-scatter(const char *name, uint64_t seed)
+pseudo_random(const char *name, uint64_t seed)
 {
     uint64_t h = seed * 0x9e3779b97f4a7c15u + 0x1234567;
 
@@ -88,7 +88,7 @@ double
 qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
 {
     const qdot_symbol *x = qdot_expr_symbol(pool, e);
-    double u = scatter(x->name, seed), lo = 0, hi = 0;
+    double u = pseudo_random(x->name, seed), lo = 0, hi = 0;
     bool above = number_bound(pool, x->lo, &lo), below = number_bound(pool, x->hi, &hi);
 
     if (e == QDOT_PI)
@@ -197,7 +197,7 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
             for (int k = 0; k < 8; k++)
                 name[k + 1] = (char)('a' + (w.at[i] >> 4 * k & 15));
             name[9] = '\0';
-            set(&w, w.at[i], 0.5 + scatter(name, at->seed));
+            set(&w, w.at[i], 0.5 + pseudo_random(name, at->seed));
             continue;
         }
         status = qdot_grow(&x.at, &x.capacity, node->n + 1u, sizeof *x.at);

@@ -18,7 +18,7 @@ QDOT_MUST_CHECK qdot_status qdot_generic_evaluate(const qdot_pool *pool, size_t 
                                                   const qdot_expr *e,
                                                   const qdot_generic_point *at,
                                                   double *out);
-/* x to 15 digits, exactly; nil: the pool failed. */
+/* The number x rounded to 15 decimal digits, as an exact rational; nil: the pool failed. */
 qdot_expr qdot_generic_decimal(qdot_pool *pool, double x);
 /* The random value of a symbol, inside its domain and about of size 1. */
 double qdot_generic_value(const qdot_pool *pool, qdot_expr symbol, uint64_t seed);

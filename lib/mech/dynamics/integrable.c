@@ -43,7 +43,7 @@ forms_clear(forms *f)
     qdot_free(f->relations);
 }
 
-/* The differential form of constraint k; *linear: whether the constraint is one. */
+/* Find the differential form of constraint k; *linear: whether the constraint is one. */
 static qdot_status
 form_of(const forms *f, size_t k, qdot_expr *a, bool *linear)
 {
@@ -106,7 +106,7 @@ forms_init(forms *f, qdot_scene *s)
     return QDOT_OK;
 }
 
-/* --- what the system leaves --------------------------------------------------------- */
+/* --- eliminating the forms of the system -------------------------------------------- */
 
 /* Choose a pivot: a number if possible, otherwise a short entry. */
 static qdot_status
@@ -135,7 +135,7 @@ choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
     return qdot_pool_check(f->pool);
 }
 
-/* row -= row[pivot] times `by`, whose entry at the pivot is 1 */
+/* Subtract row[pivot] times `by`, whose entry at the pivot is 1, from row. */
 static void
 form_eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
 {
@@ -194,7 +194,7 @@ is_pivot(const forms *f, size_t i)
     return false;
 }
 
-/* The component dw(x_i, x_j) of the exterior derivative of form k. */
+/* The component of the exterior derivative of form k for dx_i and dx_j. */
 static qdot_expr
 curl(const forms *f, size_t k, size_t i, size_t j)
 {
@@ -205,7 +205,7 @@ curl(const forms *f, size_t k, size_t i, size_t j)
                              qdot_diff(f->pool, a[i], f->x[j]));
 }
 
-/* dw(u_i, u_j), u_i = x_i - sum_r B_ri x_pivot(r). */
+/* The component of dw for the vectors u_i = x_i - sum_r B_ri x_pivot(r), along which the other forms vanish. */
 static qdot_expr
 curl_component(const forms *f, size_t k, size_t i, size_t j)
 {
@@ -255,7 +255,7 @@ curl_vanishes(const forms *f, size_t k, qdot_integrability *result)
     return QDOT_OK;
 }
 
-/* --- integrals ---------------------------------------------------------------------- */
+/* --- integrals of constraints ------------------------------------------------------- */
 
 static bool
 is_closed(const forms *f, const qdot_expr *a, const bool *held)
@@ -274,7 +274,7 @@ is_closed(const forms *f, const qdot_expr *a, const bool *held)
     return !qdot_pool_failed(f->pool);
 }
 
-/* F with dF = mu w if mu w is closed and can be integrated; else nil. */
+/* The integral F with dF = mu w if the form mu w is closed and can be integrated; nil otherwise. */
 static qdot_expr
 try_factor(const forms *f, size_t k, qdot_expr mu, const bool *held)
 {
@@ -362,7 +362,7 @@ find_held(const forms *f, size_t k, bool *held)
     }
 }
 
-/* --- the question ------------------------------------------------------------------- */
+/* --- whether the constraints are integrable ----------------------------------------- */
 
 static qdot_status
 decide_alone(forms *f, size_t k, qdot_integrability *result)
@@ -416,7 +416,7 @@ integrability_decide(forms *f, size_t k, bool alone, qdot_integrability *result)
     bool *held, jump;
     qdot_status status;
 
-    /* an integral would hold only between the jumps */
+    /* an integral would be constant only between the jumps */
     QDOT_TRY(qdot_jumps(f->pool, f->s->constraints.at[f->of[k]].f, UINT32_MAX, &jump));
     if (jump) {
         result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};

@@ -42,7 +42,7 @@ add_place(qdot_scene *s, qdot_kinematics *k, qdot_expr mass, qdot_expr r)
     return QDOT_OK;
 }
 
-/* J = 1/2 tr(I) 1 - I; in the plane, where I = J_11 + J_22, J = 1/2 I 1. */
+/* The second moments J = 1/2 tr(I) 1 - I of a body; in the plane J = 1/2 I 1, as I = J_11 + J_22. */
 static qdot_expr
 second_moment(qdot_scene *s, const qdot_body *b, uint32_t dim, uint32_t i, uint32_t j)
 {
@@ -111,7 +111,7 @@ slots_grow(qdot_kinematics *k)
     return QDOT_OK;
 }
 
-/* The number of a set; UINT32_MAX on failure. */
+/* The number of a set of inertial terms; UINT32_MAX on failure. */
 static uint32_t
 set_intern(qdot_scene *s, qdot_kinematics *k, const uint64_t *bits)
 {
@@ -266,7 +266,7 @@ differentiate(qdot_scene *s, summands *m, qdot_expr term)
 /* Enter a new summand with what m->want asks for: its slopes by the coordinates, or its second time derivative at
  * rest. */
 static qdot_status
-learn(qdot_scene *s, summands *m, qdot_expr term)
+add_summand(qdot_scene *s, summands *m, qdot_expr term)
 {
     summand x = {term, (uint32_t)m->slopes.n, 0};
     qdot_expr e = term;
@@ -279,7 +279,7 @@ learn(qdot_scene *s, summands *m, qdot_expr term)
     return qdot_vec_push(&m->known, x);
 }
 
-/* The index of a summand in m->known; it is added if new. */
+/* Find the index of a summand in m->known; it is added if new. */
 static qdot_status
 summand_find(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
 {
@@ -307,7 +307,7 @@ summand_find(qdot_scene *s, summands *m, qdot_expr term, uint32_t *index)
             *index = m->slots.at[at] - 1;
             return QDOT_OK;
         }
-    QDOT_TRY(learn(s, m, term));
+    QDOT_TRY(add_summand(s, m, term));
     *index = (uint32_t)m->known.n - 1;
     m->slots.at[at] = *index + 1;
     return QDOT_OK;
@@ -420,7 +420,7 @@ group(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *o
     return QDOT_OK;
 }
 
-/* The coordinates of the scene by their ids. */
+/* Number the coordinates of the scene by the ids of their symbols. */
 static qdot_status
 number_coordinates(const qdot_scene *s, summands *m)
 {

@@ -39,7 +39,8 @@ by_pair(const void *a, const void *b)
     return x->e < y->e ? -1 : x->e > y->e;
 }
 
-/* The contributions of derivatives of M to equation i; those by t go to *linear, as coefficients of q_j'. */
+/* Collect the contributions of derivatives of M to equation i; those by t go to *linear, as
+ * coefficients of q_j'. */
 static qdot_status
 collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *linear)
 {
@@ -72,7 +73,7 @@ collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, 
 /* The sum of contributions [n] to one pair. Most cancel before anything is built: a link's angle
  * stands in one row and one column. */
 static qdot_expr
-contributed(qdot_pool *pool, const coefficient *at, size_t n)
+sum_contributions(qdot_pool *pool, const coefficient *at, size_t n)
 {
     qdot_expr c = QDOT_ZERO;
 
@@ -90,7 +91,7 @@ contributed(qdot_pool *pool, const coefficient *at, size_t n)
     return c;
 }
 
-/* The linear and constant terms, from b, c and t. */
+/* The linear and constant terms in velocities, from derivatives of b, c and by t. */
 static qdot_expr
 time_terms(qdot_scene *s, size_t i, qdot_expr *linear)
 {
@@ -151,7 +152,7 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
 
         for (b = a; b < m && all[b].j == all[a].j && all[b].k == all[a].k; b++)
             continue;
-        c = contributed(pool, &all[a], b - a);
+        c = sum_contributions(pool, &all[a], b - a);
         if (c == QDOT_ZERO)
             continue;
         if (b - a > 1)
@@ -190,7 +191,7 @@ qdot_lagrange_people_forcing(qdot_scene *s, size_t i)
     return qdot_sub(pool, Q, qdot_lagrange_rest(s, i));
 }
 
-/* d/dt dT/dq' - dT/dq of equation i, or with a stated L in place of T. */
+/* The left side d/dt dT/dq' - dT/dq of equation i, with the Lagrangian L in place of T if one is stated. */
 static qdot_expr
 left_side(qdot_scene *s, size_t i)
 {

@@ -4,12 +4,12 @@
 
 #include "mech/scene/scene.h"
 
-/* -(d/dt dF/dq' - dF/dq) at q'' = 0 for any F(q, q', t). */
+/* The expression -(d/dt dF/dq' - dF/dq) at q'' = 0, for any F(q, q', t). */
 qdot_expr qdot_lagrange_forcing(qdot_scene *s, qdot_expr F, size_t i);
-/* d/dt dT/dq' - dT/dq at q'' = 0, simplified. */
+/* The expression d/dt dT/dq_i' - dT/dq_i at q'' = 0, simplified. */
 qdot_expr qdot_lagrange_rest(qdot_scene *s, size_t i);
 
-/* f_i of M q'' = f, from simplified parts, for printing. */
+/* The component f_i of the right-hand side of M q'' = f, simplified for printing. */
 qdot_expr qdot_lagrange_people_forcing(qdot_scene *s, size_t i);
 
 #endif

@@ -68,7 +68,7 @@ qdot_mass_entry(qdot_scene *s, size_t i, size_t j)
     return s->derived->M[i * s->derived->n + j];
 }
 
-/* dM_jk/dq for every coordinate and t in M_jk. */
+/* Find the derivatives dM_jk/dq for every coordinate, and for t, in M_jk. */
 static qdot_status
 entry_slopes(qdot_scene *s, size_t j, size_t k)
 {

@@ -73,7 +73,7 @@ raw_mass(qdot_scene *s, size_t i, size_t j, qdot_expr V)
     return k ? qdot_sub(pool, kinetic_mass(s, k, i, j), second) : QDOT_NIL;
 }
 
-/* sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y') over the terms with a variable weight w. */
+/* The terms of a variable weight w: sum (w' dy/dq_i x' - 1/2 dw/dq_i x' y'). */
 static qdot_expr
 varying_masses(qdot_scene *s, const qdot_kinematics *k, size_t i)
 {
@@ -131,7 +131,7 @@ bill_moves(const bill *b, qdot_expr e)
                                        QDOT_HAS_UFUN);
 }
 
-/* Whether e has numerical factors or parameters in front, other than a sign. */
+/* Whether e has a numerical factor other than -1, or a parameter as factor. */
 static bool
 has_factor(const bill *b, qdot_expr e)
 {
@@ -313,9 +313,9 @@ choose_cheapest(qdot_scene *s, size_t n, qdot_expr *e)
     return !qdot_pool_failed(s->pool);
 }
 
-/* --- both ------------------------------------------------------------------------------ */
+/* --- both forms of M and f ------------------------------------------------------------- */
 
-/* f_i, all at once where masses are constant. */
+/* Find f [n] of M q'' = f at once if all masses are constant; otherwise one by one. */
 static bool
 raw_forcings(qdot_scene *s, qdot_expr *f)
 {

@@ -11,7 +11,7 @@
 typedef struct {
     const char *name;
     qdot_expr mass, position;
-    const qdot_body *body; /* NULL: a particle */
+    const qdot_body *body; /* NULL for a particle */
 } massive;
 
 static massive
@@ -28,7 +28,7 @@ massive_at(const qdot_scene *s, size_t k)
         .name = b->name, .mass = b->mass, .position = b->position, .body = b};
 }
 
-/* w.I w; in space in the axes of the body, in which I is given. */
+/* Twice the rotational energy: w.I w; in space in the body's axes, in which I is given. */
 static qdot_expr
 twice_rotation(qdot_scene *s, const qdot_body *b)
 {
@@ -59,7 +59,7 @@ qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part)
     return true;
 }
 
-/* -m g.r with the sum of all fields g. */
+/* The potential -m g.r of a particle or body, g being the sum of all fields. */
 static qdot_expr
 weight(qdot_scene *s, const massive *m)
 {

@@ -7,11 +7,11 @@
 /* u.u, simplified, for the vector u between the ends of spring or damper k. */
 qdot_expr qdot_link_square(qdot_scene *s, bool damper, size_t k);
 qdot_expr qdot_spring_potential(qdot_scene *s, size_t k);
-/* V without gravity; nil on failure. */
+/* The potential energy without that of gravity; nil on failure. */
 qdot_expr qdot_potential_but_gravity(qdot_scene *s);
 /* The sum of the terms of V that depend on velocities (declared potentials may). */
 qdot_expr qdot_potential_with_velocities(qdot_scene *s);
-/* V before simplification; nil on failure. */
+/* The potential energy before it is simplified; nil on failure. */
 qdot_expr qdot_potential_raw(qdot_scene *s);
 
 #endif

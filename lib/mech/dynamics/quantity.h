@@ -29,7 +29,7 @@ qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* MAT; over the coordin
 /* The coordinates of a metric, in declared order: those in R, or whose differentials are in R. */
 qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
 
-/* --- momenta, forces --- */
+/* --- momenta and generalized forces --- */
 qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* dL/dq' */
 qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST, in order of q */
 qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q]: all applied forces, -dV/dq among them */
@@ -38,13 +38,14 @@ qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
 qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
 
-/* --- what T, V and the forces are made of, one thing after another --- */
+/* --- parts of T, V and the generalized forces, listed one by one ----- */
 typedef struct {
     const char *kind; /* "kinetic energy", "gravity", "potential", "spring" */
     const char *name; /* what it is of or on, its label; NULL: none */
     qdot_expr value;  /* simplified, common factors kept; nil on failure */
 } qdot_energy_part;
-/* 1/2 m v^2 of particle or body k, plus 1/2 w.I w of a body; part k of V. False past the end. */
+/* The kinetic energy of particle or body k: 1/2 m v^2 + 1/2 w.I w; _potential_part: part k of V.
+ * False past the end. */
 bool qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part);
 bool qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part);
 
@@ -56,20 +57,20 @@ typedef struct {
 } qdot_force_source;
 /* Source number k of generalized forces; false past the end. */
 bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
-/* The contribution of a source to Q[q], simplified. */
+/* The contribution of a source to the generalized force on coordinate q, simplified. */
 qdot_expr qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q);
 
-/* --- equations --- */
+/* --- equations of motion --- */
 qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* an EQ, with multipliers */
 qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST */
-/* q'' solved for, multipliers eliminated; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
+/* The accelerations, solved for, without multipliers; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
 qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST, in order of q */
 /* lambda of constraint k in q, q', t, from the same equations; nil without a failure: constraints
  * are redundant, so the multipliers are not unique. */
 qdot_expr qdot_mech_multiplier(qdot_scene *s, size_t k);
 
-/* --- conservation, counting --- */
+/* --- conserved quantities, degrees of freedom --- */
 typedef struct {
     qdot_expr coordinate, momentum;
     qdot_expr rate;   /* dp/dt: nil when conserved; else the sum of applied forces, multipliers */

@@ -34,7 +34,7 @@ qdot_recursive_applies(const qdot_scene *s, const qdot_kinematics *k)
     return true;
 }
 
-/* --- M -------------------------------------------------------------------------------- */
+/* --- the mass matrix M ---------------------------------------------------------------- */
 
 /* w stays with the factor whose terms are all in the intersection: the product then serves
  * every row or column that moves them. */
@@ -80,7 +80,7 @@ done:
     return sum;
 }
 
-/* --- f -------------------------------------------------------------------------------- */
+/* --- the right side f ----------------------------------------------------------------- */
 
 /* A term of x'' as (rest) (velocities): the rest holds no velocity, its sign and rational
  * factor are with the velocities. */
@@ -168,7 +168,7 @@ motions(qdot_scene *s, const qdot_kinematics *k, qdot_expr *value)
     return !qdot_pool_failed(pool);
 }
 
-/* w (g - x'') of every term. */
+/* The inertial force w (g - x'') of every inertial term, where w is its weight and g gravity. */
 static bool
 forces_of_terms(qdot_scene *s, qdot_kinematics *k, qdot_expr *force)
 {

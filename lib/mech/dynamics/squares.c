@@ -32,7 +32,7 @@ pivot_moves(const qdot_scene *s, qdot_expr e)
     return (qdot_mech_holds(s, e) & ~(uint32_t)(QDOT_HAS_PARAM | QDOT_HAS_FUN)) != 0;
 }
 
-/* D = key * rest, the key without coordinates and t. */
+/* Split D into key * rest, where the key contains neither coordinates nor t. */
 static void
 split_constant_factor(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *rest)
 {
@@ -133,7 +133,7 @@ qdot_squares_worth(const qdot_scene *s, size_t n, const qdot_expr *A)
     return false;
 }
 
-/* D (v + b/a w)^2 as D/a^2 (a v + b w)^2, where D has a^2. */
+/* Write D (v + b/a w)^2 as D/a^2 (a v + b w)^2 if D has the factor a^2. */
 static void
 clear_denominators(qdot_pool *pool, size_t n, qdot_expr *D, qdot_expr *l)
 {

@@ -37,7 +37,7 @@ QDOT_MUST_CHECK qdot_status qdot_squares_complete(qdot_squares *q, size_t n,
  * shorter. */
 bool qdot_squares_worth(const qdot_scene *s, size_t n, const qdot_expr *A);
 
-/* The blocks of A [n*n]: block[i] is the smallest row coupled to row i, directly or indirectly. */
+/* Find the blocks of A [n*n]: block[i] is the smallest row coupled to row i, directly or indirectly. */
 void qdot_squares_blocks(size_t n, const qdot_expr *A, size_t *block);
 
 /* The sum of all squares added so far. */

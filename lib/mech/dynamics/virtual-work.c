@@ -26,7 +26,7 @@
 
 /* dr/dq_i of a position r, or (Kane's form) dv/dq_i'. */
 static qdot_expr
-partial(qdot_scene *s, qdot_expr r, size_t i, bool kane)
+partial_position(qdot_scene *s, qdot_expr r, size_t i, bool kane)
 {
     if (kane)
         return qdot_diff(s->pool, qdot_ddt(s->pool, r), qdot_mech_jet(s, i, 1));
@@ -49,7 +49,7 @@ gravity_force(qdot_scene *s, size_t k, size_t i, bool kane)
             const qdot_body *b = body ? &s->bodies.at[p - s->particles.n] : NULL;
             qdot_expr m = body ? b->mass : s->particles.at[p].mass;
             qdot_expr r = body ? b->position : s->particles.at[p].position;
-            qdot_expr v = partial(s, r, i, true);
+            qdot_expr v = partial_position(s, r, i, true);
 
             for (size_t g = 0; g < s->gravities.n; g++)
                 Q = qdot_add(
@@ -89,7 +89,7 @@ conservative(qdot_scene *s, qdot_expr V, size_t i, bool kane)
     if (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY)
         return qdot_sub(pool, qdot_ddt(pool, qdot_diff(pool, V, v)),
                         qdot_diff(pool, V, s->coordinates.at[i]));
-    return qdot_neg(pool, partial(s, V, i, kane));
+    return qdot_neg(pool, partial_position(s, V, i, kane));
 }
 
 static qdot_expr
@@ -98,13 +98,13 @@ potential_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return conservative(s, s->potentials.at[k].e, i, kane);
 }
 
-/* Pull of a link, a scalar along u, by u . du/dq: -(pull) u.du. */
+/* The generalized force on q_i of a spring or damper that pulls along u: -pull u.du/dq_i. */
 static qdot_expr
 pull_along(qdot_scene *s, const qdot_link *link, size_t i, bool kane)
 {
     qdot_expr u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
 
-    return qdot_mech_dot(s->pool, u, partial(s, u, i, kane));
+    return qdot_mech_dot(s->pool, u, partial_position(s, u, i, kane));
 }
 
 static qdot_expr
@@ -128,7 +128,7 @@ spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return qdot_neg(pool, qdot_mul(pool, pull, pull_along(s, spring, i, true)));
 }
 
-/* e/2, for a sum term by term, so that factors 2 from differentiated squares cancel. */
+/* Half of e, for a sum term by term, so that factors 2 from differentiated squares cancel. */
 static qdot_expr
 half_of_terms(qdot_pool *pool, qdot_expr e)
 {
@@ -156,7 +156,7 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
         return slope;
     if (qdot_mech_dimension(pool, damper->at[0]) == 1) {
         u = qdot_sub(pool, damper->at[0], damper->at[1]);
-        rate = qdot_mul(pool, qdot_ddt(pool, u), partial(s, u, i, kane));
+        rate = qdot_mul(pool, qdot_ddt(pool, u), partial_position(s, u, i, kane));
         return qdot_neg(pool, qdot_mul(pool, damper->stiffness, rate));
     }
     /* Use u.u simplified; u.u' and u.du/dq are half its derivatives. */
@@ -184,7 +184,7 @@ applied_force(qdot_scene *s, size_t k, size_t i, bool kane)
     qdot_expr v;
 
     if (!f->material)
-        return qdot_mech_dot(s->pool, f->force, partial(s, f->point, i, kane));
+        return qdot_mech_dot(s->pool, f->force, partial_position(s, f->point, i, kane));
     v = kane ? qdot_diff(s->pool, qdot_scene_velocity(s, f->on, f->point),
                          qdot_mech_jet(s, i, 1))
              : qdot_body_partial_velocity(s, qdot_scene_find_body(s, f->on), f->point,
@@ -207,7 +207,7 @@ torque_force(qdot_scene *s, size_t k, size_t i, bool kane)
     return qdot_mech_dot(s->pool, torque->torque, slope);
 }
 
-/* --- the sources ---------------------------------------------------------------------- */
+/* --- sources of generalized forces, as answers name them ------------------------------ */
 
 static size_t
 count_gravity(const qdot_scene *s)
@@ -260,7 +260,7 @@ torque_name(const qdot_scene *s, size_t k)
                                        : s->bodies.at[t->body].name;
 }
 
-/* The name of the k-th thing of a kind in an answer. */
+/* The name with which an answer calls the k-th thing of a kind. */
 #define CALLED(list, word)                                                               \
     static const char *list##_words(const qdot_scene *s, size_t k)                       \
     {                                                                                    \
@@ -350,7 +350,7 @@ qdot_force_declared(qdot_scene *s, size_t i)
     return Q;
 }
 
-/* --- asked ---------------------------------------------------------------------------- */
+/* --- the functions of quantity.h ------------------------------------------------------ */
 
 qdot_expr
 qdot_mech_force(qdot_scene *s, qdot_expr q)

@@ -14,7 +14,7 @@ qdot_label_is(const char *a, const char *b)
     return a && b && strcmp(a, b) == 0;
 }
 
-/* Record the failure just raised in the pool; nil. */
+/* Record in the pool the failure that was just raised; returns nil. */
 #define qdot_mech_fail(s, ...) (qdot_fail(__VA_ARGS__), qdot_pool_fail((s)->pool))
 uint32_t qdot_mech_holds(const qdot_scene *s, qdot_expr e);
 /* The number of components of r: 1 for a scalar, the size of a VEC, 0 for anything else; component
@@ -30,19 +30,19 @@ qdot_expr qdot_mech_tidy_whole(qdot_scene *s, qdot_expr e);
 qdot_expr qdot_mech_jet(qdot_scene *s, size_t i, uint32_t order);
 /* The index of a coordinate in the scene; fails (pool) with QDOT_ENAME and returns false. */
 bool qdot_mech_index(qdot_scene *s, qdot_expr q, size_t *i);
-/* The LIST of of(s, q) for each coordinate q. */
+/* The LIST of the values of(s, q), one for each coordinate q. */
 qdot_expr qdot_mech_each(qdot_scene *s, qdot_expr (*of)(qdot_scene *s, qdot_expr q));
 /* e with every acceleration set to 0. */
 qdot_expr qdot_mech_at_rest(qdot_scene *s, qdot_expr e);
 bool qdot_mech_stated(const qdot_scene *s);
-/* QDOT_EINVAL in the pool unless the scene has T and V. */
+/* Record QDOT_EINVAL in the pool unless the scene has T and V. */
 bool qdot_mech_needs_particles(qdot_scene *s, const char *what);
 /* Dimension of the scene's space: 1, 2, 3; 0 while no declaration determines it. */
 uint32_t qdot_scene_dimension(const qdot_scene *s);
 void qdot_scene_forget_dropped(qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_scene_drop(qdot_scene *s, const char *kind,
                                             const char *name);
-/* A copy that lives as long as the scene; *copy NULL for NULL. */
+/* Make a copy that lives as long as the scene; *copy NULL for NULL. */
 QDOT_MUST_CHECK qdot_status qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy);
 /* Index among the torques of the k-th of a kind (QDOT_TORQUE, or QDOT_FORCE beyond the forces).
  *  */

@@ -88,7 +88,7 @@ check_rotation(qdot_scene *s, qdot_expr R)
     return status;
 }
 
-/* The inertia as stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
+/* Find the inertia as stored: a scalar, or a symmetric 3x3 MAT, about the centre of mass. */
 static qdot_status
 read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bool plane,
              qdot_expr *inertia)
@@ -128,7 +128,7 @@ read_inertia(qdot_scene *s, qdot_expr mass, qdot_expr given, qdot_expr about, bo
     if (about != QDOT_NIL) {
         qdot_expr e[9];
 
-        /* I_P = I + m (|P|^2 1 - P P^T) */
+        /* by Steiner's theorem I_P = I + m (|P|^2 1 - P P^T) */
         for (uint32_t i = 0; i < 3; i++)
             for (uint32_t j = 0; j < 3; j++) {
                 qdot_expr PP = qdot_mul(pool, qdot_expr_arg(pool, about, i),
@@ -240,7 +240,7 @@ qdot_scene_point(qdot_scene *s, const char *label, qdot_expr P)
     return qdot_value_add(s->pool, b->position, qdot_value_mul(s->pool, b->rotation, P));
 }
 
-/* The axial vector of A R^T, A a derivative of R; scalar in the plane: of the angle. */
+/* The axial vector of A R^T, A being a derivative of R; in the plane A is that of the angle, a scalar. */
 static qdot_expr
 axial(qdot_scene *s, const qdot_body *b, qdot_expr A)
 {
@@ -282,9 +282,9 @@ qdot_scene_spin(qdot_scene *s, const char *label)
     return qdot_body_spin(s, b);
 }
 
-/* v + w x (place - r), with w a scalar in the plane. */
+/* The velocity of a body's point: v + w x (place - r), with w a scalar in the plane. */
 static qdot_expr
-carried(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_expr w)
+velocity_of_point(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_expr w)
 {
     qdot_pool *pool = s->pool;
     qdot_expr arm = qdot_value_sub(pool, place, b->position), e[2];
@@ -301,8 +301,8 @@ carried(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr v, qdot_ex
 qdot_expr
 qdot_body_partial_velocity(qdot_scene *s, const qdot_body *b, qdot_expr place, qdot_expr q)
 {
-    return carried(s, b, place, qdot_diff(s->pool, b->position, q),
-                   qdot_body_partial_spin(s, b, q));
+    return velocity_of_point(s, b, place, qdot_diff(s->pool, b->position, q),
+                             qdot_body_partial_spin(s, b, q));
 }
 
 qdot_expr
@@ -319,5 +319,5 @@ qdot_scene_velocity(qdot_scene *s, const char *label, qdot_expr place)
         return qdot_mech_fail(s, QDOT_ETYPE,
                               "a place in the space of %s has %u components", label,
                               qdot_mech_dimension(pool, b->position));
-    return carried(s, b, place, qdot_ddt(pool, b->position), qdot_body_spin(s, b));
+    return velocity_of_point(s, b, place, qdot_ddt(pool, b->position), qdot_body_spin(s, b));
 }

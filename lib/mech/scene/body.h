@@ -7,7 +7,7 @@
 /* The angular velocity from the rotation matrix or the angle; its coefficient of q_i'. */
 qdot_expr qdot_body_spin(qdot_scene *s, const qdot_body *body);
 qdot_expr qdot_body_partial_spin(qdot_scene *s, const qdot_body *body, qdot_expr q);
-/* d velocity(body, place) / dq'. */
+/* The derivatives of the velocity of a body's point by q': d velocity(body, place)/dq_i'. */
 qdot_expr qdot_body_partial_velocity(qdot_scene *s, const qdot_body *body, qdot_expr place,
                                      qdot_expr q);
 

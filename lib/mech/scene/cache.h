@@ -51,7 +51,7 @@ typedef struct {
     qdot_expr value;
 } qdot_mass_slope;
 
-/* A sum that was simplified once for all sums that differ only in their symbols (qdot_mech_alike). */
+/* A sum that was simplified once, for all sums that differ from it only in their symbols (qdot_mech_alike). */
 typedef struct {
     qdot_expr pattern, atoms, simple;
 } qdot_pattern;
@@ -91,12 +91,12 @@ struct qdot_derived {
     qdot_cyclic_known *cyclic; /* [n] NULL until one is asked for */
 };
 
-/* The cache, emptied if the scene has changed. */
+/* The stored results for the scene; emptied first if the scene has changed. */
 qdot_derived *qdot_derived_get(qdot_scene *s);
 void qdot_derived_free(qdot_derived *d);
 /* Allocate *array with [n] nil expressions unless it exists. */
 bool qdot_derived_array(qdot_scene *s, qdot_expr **array, size_t n);
-/* Clear it; it will be computed again when needed. */
+/* Clear the inertial terms, which are computed again when needed. */
 void qdot_kinematics_clear(qdot_kinematics *k);
 
 #endif

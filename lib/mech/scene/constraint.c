@@ -14,7 +14,7 @@
 #include "mech/scene/access.h"
 #include "normal/prove/decide.h"
 
-/* The highest derivative of a coordinate in f; -1 without any. */
+/* Find the highest derivative of a coordinate in f; -1 if f has no coordinate. */
 static qdot_status
 highest(qdot_pool *pool, qdot_expr f, int *order)
 {

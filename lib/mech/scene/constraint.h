@@ -4,7 +4,7 @@
 
 #include "mech/scene/scene.h"
 
-/* df/dq, df/dq', df/dq'' by the constraint's kind. */
+/* The gradient of a constraint: df/dq, df/dq' or df/dq'', by its kind. */
 qdot_expr qdot_constraint_slope(qdot_scene *s, size_t constraint, size_t i);
 /* The constraints' terms on the right of equation i. */
 qdot_expr qdot_constraint_reaction(qdot_scene *s, size_t i);

@@ -1,4 +1,4 @@
-/* copy.c -- the masses and forces of a scene once more. */
+/* copy.c -- copies the masses and forces of a scene into another one. */
 #include "mech/scene/scene.h"
 
 static qdot_status

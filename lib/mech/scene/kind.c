@@ -80,7 +80,7 @@ qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k)
     return QDOT_OK;
 }
 
-/* --- said twice ----------------------------------------------------------------------- */
+/* --- equal declarations --------------------------------------------------------------- */
 
 static bool
 same_term(const qdot_term *a, const qdot_term *b)

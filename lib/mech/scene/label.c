@@ -22,7 +22,7 @@ qdot_scene_find_body(const qdot_scene *s, const char *label)
     return NULL;
 }
 
-/* Whether an item of s->list has the label in that field. */
+/* Whether an item of s->list has the label in the given field. */
 #define HAS(list, field)                                                                 \
     has_label(s->list.at, s->list.n, sizeof *s->list.at,                                       \
               offsetof(__typeof__(*s->list.at), field), label)

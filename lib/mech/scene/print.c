@@ -227,7 +227,7 @@ qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind, size_t k, qdot_te
     return QDOT_OK;
 }
 
-/* Print all things of the kinds from ... to. */
+/* Print all things of the kinds from the first one given to the second. */
 static qdot_status
 put_kinds(const qdot_scene *s, qdot_scene_kind from, qdot_scene_kind to, qdot_text *out)
 {

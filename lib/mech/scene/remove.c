@@ -30,7 +30,7 @@ is_end(const qdot_link *link, const char *label)
     return qdot_label_is(link->end[0], label) || qdot_label_is(link->end[1], label);
 }
 
-/* Whether a torque acts on the body with that index (-1: none). */
+/* Whether a torque acts on the body with the given index (-1: none). */
 static bool
 is_on(const qdot_torque *torque, int body)
 {

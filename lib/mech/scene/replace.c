@@ -18,7 +18,7 @@ map(const mapping *m, qdot_expr *e)
         *e = m->f(*e, m->user);
 }
 
-/* Map a field of every item of a list. */
+/* Replace a field of every item of a list by its image under the map. */
 #define MAP(list, field)                                                                 \
     do {                                                                                 \
         for (size_t i_ = 0; i_ < s->list.n; i_++)                                        \

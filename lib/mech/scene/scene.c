@@ -14,7 +14,7 @@
 #include "mech/scene/cache.h"
 #include "normal/simplify/kinks.h"
 
-/* Kinds of symbols that a declaration must not contain, and their names in messages. */
+/* The kinds of symbols that a declaration must not contain, and their names in messages. */
 enum {
     NO_SYMBOLS =
         QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER | QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA,
@@ -90,7 +90,7 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s);
 }
 
-/* --- checks --------------------------------------------------------------------------- */
+/* --- checks of declarations ----------------------------------------------------------- */
 
 static qdot_status
 need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
@@ -103,7 +103,7 @@ need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return QDOT_OK;
 }
 
-/* Friction that depends on multipliers: not built yet. */
+/* Refuse friction that depends on multipliers: not built yet. */
 static qdot_status
 need_known_friction(qdot_scene *s, qdot_expr e, const char *what)
 {
@@ -201,7 +201,7 @@ changed(qdot_scene *s)
     return QDOT_OK;
 }
 
-/* --- adders --------------------------------------------------------------------------- */
+/* --- adding items --------------------------------------------------------------------- */
 
 qdot_status
 qdot_scene_coordinate(qdot_scene *s, qdot_expr q)
@@ -440,7 +440,7 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
     return changed(s);
 }
 
-/* --- assume --------------------------------------------------------------------------- */
+/* --- the statement `assume` ----------------------------------------------------------- */
 
 static qdot_status
 add_relation(qdot_scene *s, qdot_expr e)

@@ -30,13 +30,13 @@ QDOT_MUST_CHECK qdot_status qdot_scene_body(qdot_scene *s, const char *name,
  * the place of the one without label before. */
 QDOT_MUST_CHECK qdot_status qdot_scene_term(qdot_scene *s, qdot_scene_kind kind,
                                             const char *name, qdot_expr e);
-/* Declare a term, spring or damper without label. */
+/* Declare a field, a potential, a spring or another term without label. */
 QDOT_MUST_CHECK qdot_status qdot_scene_gravity(qdot_scene *s, qdot_expr field);
 QDOT_MUST_CHECK qdot_status qdot_scene_potential(qdot_scene *s, qdot_expr V);
 QDOT_MUST_CHECK qdot_status qdot_scene_spring(qdot_scene *s, const qdot_link *spring);
 QDOT_MUST_CHECK qdot_status qdot_scene_damper(qdot_scene *s, const qdot_link *damper);
 QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
-/* material: QDOT_EINVAL unless `on` is a body. */
+/* Declare a force; QDOT_EINVAL if it acts on a material point but `on` is no body. */
 QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
@@ -123,7 +123,7 @@ QDOT_MUST_CHECK qdot_status qdot_scene_print_things(const qdot_scene *s, qdot_te
 /* Print a symbol with its domain, "0 < theta < pi". */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_domain(const qdot_scene *s, qdot_expr x,
                                                     qdot_text *out);
-/* The line of the k-th of a kind, from 0. */
+/* Print the line of the k-th item of a kind, counted from 0. */
 QDOT_MUST_CHECK qdot_status qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind,
                                                 size_t k, qdot_text *out);
 

@@ -44,7 +44,7 @@ typedef struct {
 typedef struct {
     char *name;   /* NULL: no label */
     qdot_expr force; /* vector (or scalar in 1-D) */
-    qdot_expr point; /* where it acts: a position */
+    qdot_expr point; /* the position of the point on which it acts */
     char *on;     /* label of the particle or body, NULL for a point */
     bool material; /* acts on the material of body `on` that is at `point` at that time:
                       Q = F . dv/dq', v = velocity(on, point); else Q = F . d(point)/dq */

@@ -34,7 +34,7 @@ holds_coordinates(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & QDOT_HAS_COORD) != 0;
 }
 
-/* --- the squares -------------------------------------------------------------------- */
+/* --- squares in a constraint -------------------------------------------------------- */
 
 /* Whether e = base^exponent. */
 static bool
@@ -73,7 +73,7 @@ find_squares(search *w, qdot_expr D)
     return n == w->n;
 }
 
-/* --- coordinates ---------------------------------------------------------------------- */
+/* --- coordinates of bodies and particles ---------------------------------------------- */
 
 static bool
 expressions_have(const expressions *list, qdot_expr e)
@@ -84,7 +84,7 @@ expressions_have(const expressions *list, qdot_expr e)
     return false;
 }
 
-/* The coordinates on which a thing depends: a body's centre and axes, or a particle's position. */
+/* Find the coordinates on which a thing depends: a body's centre and axes, or a particle's position. */
 static qdot_status
 coordinates_of(const qdot_scene *s, qdot_expr r, qdot_expr R, expressions *list)
 {
@@ -98,9 +98,9 @@ coordinates_of(const qdot_scene *s, qdot_expr r, qdot_expr R, expressions *list)
     return QDOT_OK;
 }
 
-/* --- the ends ------------------------------------------------------------------------- */
+/* --- ends of a rod -------------------------------------------------------------------- */
 
-/* Whether R^T (P - r) has no coordinate. */
+/* Whether the point P is fixed in the body: R^T (P - r) contains no coordinate. */
 static bool
 is_fixed_in(search *w, const qdot_body *b, qdot_expr P)
 {
@@ -132,7 +132,7 @@ is_there(search *w, const place *where, qdot_expr Q)
                : !holds_coordinates(pool, Q);
 }
 
-/* Try P in body b and Q at a place; their coordinates are `own` and `other`. */
+/* Try the point P in body b and the point Q at a place; they depend on the coordinates `own` and `other`. */
 static qdot_status
 try_place(search *w, const qdot_body *b, const expressions *own, const place *where,
           qdot_expr ends[2])
@@ -167,7 +167,7 @@ try_place(search *w, const qdot_body *b, const expressions *own, const place *wh
     return status;
 }
 
-/* Try P in body i and Q anywhere else, for this order and sign of u. */
+/* Try the point P in body i and Q anywhere else, for the present order and signs of the components of u. */
 static qdot_status
 try_body(search *w, size_t i, qdot_expr ends[2])
 {
@@ -205,7 +205,7 @@ may_hold(const qdot_scene *s, const qdot_body *b, qdot_expr u)
 static const unsigned char orders[][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1},
                                           {2, 1, 0}, {1, 2, 0}, {2, 0, 1}};
 
-/* Every order and sign of the components. */
+/* Try every order and all signs of the components of u. */
 static qdot_status
 try_orders(search *w, qdot_expr ends[2])
 {

@@ -58,7 +58,7 @@ depends_on_u_alone(const line *l, qdot_expr e)
     return atoms != QDOT_NIL;
 }
 
-/* --- zeros ------------------------------------------------------------------------------ */
+/* --- zeros of the relations ------------------------------------------------------------- */
 
 /* Add a zero of the relations `which`; false if it cannot be told from another zero. */
 static bool
@@ -119,7 +119,7 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* The zeros of g by exclusion. */
+/* Find the zeros of g numerically, by excluding intervals without one. */
 static qdot_status
 numeric_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
 {
@@ -201,9 +201,9 @@ poles_of(line *l, qdot_expr g, bool *known)
     return status;
 }
 
-/* --- where they hold -------------------------------------------------------------------- */
+/* --- intervals in which the relations hold ---------------------------------------------- */
 
-/* Whether all relations hold at u = value; those with bits in `zero` vanish there. */
+/* Whether all relations hold at u = value; the relations with bits in `zero` vanish there. */
 static qdot_status
 hold_at(const line *l, qdot_expr value, uint32_t zero, answer *out)
 {
@@ -240,7 +240,7 @@ turned(const line *l, qdot_expr value, bool turn)
                : value;
 }
 
-/* The k-th point as a value, `turn`: a turn further on. */
+/* The k-th point as a value; with `turn` plus a full turn. */
 static qdot_expr
 point_value(const line *l, size_t k, bool turn)
 {
@@ -290,7 +290,7 @@ bands_collect(const line *l, const bool *holds, qdot_bands *out)
         to = k;
         band.lo_open = from % 2 == 0;
         band.hi_open = to % 2 == 0;
-        /* the pieces beside a gap are its end points */
+        /* the pieces on the two sides of a gap are its end points */
         if (!band.lo_open || from > 0 || l->turn) {
             size_t piece = band.lo_open ? from - 1 : from, p = piece % pieces / 2;
 
@@ -412,7 +412,7 @@ by_slopes(line *l, qdot_bands *out, bool *found)
     return out->also == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&out->at, band);
 }
 
-/* --- all -------------------------------------------------------------------------------- */
+/* --- all intervals ---------------------------------------------------------------------- */
 
 void
 qdot_bands_clear(qdot_bands *b)

@@ -14,7 +14,7 @@
 #include "mech/study/rest.h"
 #include "normal/field/facts.h"
 
-/* An interval lo <= u <= hi; nil: no end. */
+/* An interval lo <= u <= hi of a coordinate; a nil end means that there is no end. */
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;

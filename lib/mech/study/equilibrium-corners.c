@@ -94,7 +94,7 @@ push_back(const qdot_rest *r, size_t n, const qdot_expr *G, qdot_expr side, qdot
     return sum;
 }
 
-/* --- friction ---------------------------------------------------------------------------- */
+/* --- dry friction at rest ---------------------------------------------------------------- */
 
 qdot_status
 qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
@@ -141,7 +141,7 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
     return QDOT_OK;
 }
 
-/* --- corners ------------------------------------------------------------------------------ */
+/* --- points at which forces jump ---------------------------------------------------------- */
 
 /* The branch in which the jumps of the bits of `which` are at 0, where nothing in their LISTs in `apart` is: there two
  * sides depend on each other. */

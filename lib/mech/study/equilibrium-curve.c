@@ -1,4 +1,4 @@
-/* equilibrium-curve.c -- the equations of rest, and the motion near rest, with one free parameter. */
+/* equilibrium-curve.c -- the equations of equilibrium, and of motion near it, with one free parameter. */
 #include "mech/study/equilibrium-curve.h"
 
 #include <math.h>
@@ -65,7 +65,7 @@ check_influence(const qdot_equilibrium_curve *c)
     return qdot_hint("equilibria");
 }
 
-/* --- the equations ------------------------------------------------------------------------- */
+/* --- equations of rest and of motion ------------------------------------------------------- */
 
 /* An end of the domain of a symbol; *v is unchanged if there is none. *moving: the end, if it
  * depends on the parameter. */
@@ -151,7 +151,7 @@ qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool up
                : NAN;
 }
 
-/* e at rest; coordinates absent from the equations of rest are set to 0. */
+/* The expression e at rest; coordinates that are absent from the equations of rest are set to 0. */
 static qdot_expr
 at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
 {
@@ -237,7 +237,7 @@ qdot_equilibrium_curve_end(qdot_equilibrium_curve *c)
     *c = (qdot_equilibrium_curve){0};
 }
 
-/* --- places ------------------------------------------------------------------------------- */
+/* --- equilibria at a value of the parameter ----------------------------------------------- */
 
 /* Replaces all parameters by values, including the free one. */
 typedef struct {
@@ -254,7 +254,7 @@ bind_all(void *user, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_subs(v->c->pool, e, 1, &v->c->parameter, &v->value);
 }
 
-/* The value of unknown i; NaN if it is left free or undefined at this p. */
+/* Find the value of unknown i at the parameter value; NaN if the unknown is left free or is undefined there. */
 static qdot_status
 unknown_number(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
                double *y)

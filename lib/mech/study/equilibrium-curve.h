@@ -47,14 +47,15 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_begin(qdot_equilibrium_curve 
                                                          void *user);
 void qdot_equilibrium_curve_end(qdot_equilibrium_curve *c);
 
-/* An end of the domain of unknown i at p; NaN if undefined. */
+/* An end of the domain of unknown i at the parameter value p; NaN if undefined. */
 double qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool upper, double p);
 
-/* Equilibria at p: *at [count * (n + 1)] gets u, p of each; owned by the caller. */
+/* Find the equilibria at the parameter value p: *at [count * (n + 1)] gets u, p of each; owned by
+ * the caller. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p,
                                                           double **at, size_t *count);
 
-/* The stability at y [n + 1] = u, p; c->roots of the linear motion there. */
+/* Judge the stability at y [n + 1] = u, p; c->roots gets the roots of the linear motion there. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_judge(qdot_equilibrium_curve *c,
                                                          const double *y, qdot_stability *verdict);
 

@@ -38,7 +38,7 @@ qdot_rest_domain(qdot_rest *r)
     return qdot_pool_check(r->pool);
 }
 
-/* The set and that nothing is divided by 0. */
+/* The set of conditions, with the conditions that no divisor is 0. */
 static qdot_expr
 with_divisors(const qdot_rest *r, qdot_expr set)
 {

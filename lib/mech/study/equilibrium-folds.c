@@ -23,7 +23,7 @@ slopes_determinant(const qdot_equilibrium_curve *c)
     return qdot_cramer_determinant(c->pool, (uint32_t)c->n, A);
 }
 
-/* A finite end as an expression; nil for an infinite one. */
+/* An end of the range as an expression if it is finite; nil for an infinite one. */
 static qdot_expr
 fold_range_end(qdot_pool *pool, double end)
 {

@@ -248,7 +248,7 @@ sign_of_sides(qdot_pool *pool, qdot_expr e, void *user)
     return by;
 }
 
-/* A product with sign(u) u^k for |u|^k, k < 0 odd. */
+/* Replace |u|^k in a product, for odd k < 0, by sign(u) u^k. */
 static qdot_expr
 product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -270,7 +270,7 @@ product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
     return product;
 }
 
-/* A product with sign(u) or nothing for sign(u)^k. */
+/* Replace sign(u)^k in a product by sign(u) for odd k, and by 1 for even k. */
 static qdot_expr
 product_of_signs(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -349,9 +349,9 @@ qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out)
     return qdot_pool_check(pool);
 }
 
-/* --- tips ------------------------------------------------------------------------------------- */
+/* --- tips: places where a root of the forces vanishes ----------------------------------------- */
 
-/* Whether a constraint keeps b from 0. */
+/* Whether a constraint prevents b from becoming 0. */
 static bool
 is_kept_off(const qdot_rest *r, qdot_expr b)
 {
@@ -523,7 +523,7 @@ never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
            qdot_condition(r->pool, qdot_neg(r->pool, u), true, facts) == QDOT_TRUE;
 }
 
-/* *yes: one of the `zeros` certainly vanishes at the equilibrium e; *may: one may vanish, which is not decided. */
+/* Find whether one of the `zeros` vanishes at the equilibrium e: *yes: certainly; *may: not decided. */
 static qdot_status
 lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
 {

@@ -40,7 +40,7 @@ typedef struct {
     gsl_permutation *order;
 } problem;
 
-/* --- the problem ---------------------------------------------------------------------- */
+/* --- equations, domains and work space ------------------------------------------------ */
 
 static double
 domain_end(const qdot_pool *pool, qdot_expr e, double otherwise)
@@ -146,9 +146,9 @@ residual_square(const problem *p)
     return sum;
 }
 
-/* --- steps -------------------------------------------------------------------------------- */
+/* --- steps of the search ------------------------------------------------------------------ */
 
-/* step = -(J^T J + by)^-1 J^T r for the unknowns from `first` on; false on failure. */
+/* Compute step = -(J^T J + by)^-1 J^T r for the unknowns from `first` on; false on failure. */
 static bool
 damped_step(problem *p, size_t first, double by)
 {
@@ -290,7 +290,7 @@ equilibrium_descend(problem *p, end *how)
 
 /* --- what was found --------------------------------------------------------------------- */
 
-/* Reduce angles to -pi < q <= pi; whether x lies within the domains. */
+/* Reduce angles to -pi < q <= pi; returns whether x lies within the domains. */
 static bool
 place_normalise(const problem *p, double *x)
 {
@@ -317,7 +317,7 @@ is_new(const double *found, size_t count, size_t n, const double *x)
     return true;
 }
 
-/* Ascending, by the first unknown, then the next. */
+/* Sort the equilibria by the first unknown, then by the next ones. */
 static void
 places_sort(double *found, size_t count, size_t n)
 {

@@ -46,7 +46,7 @@ qdot_rest_window(const qdot_rest *rest, size_t k, qdot_expr equations)
     return angle ? qdot_window_turn(rest->pool, w) : w;
 }
 
-/* Where the k-th unknown is searched; false: its domain is not known in numbers. */
+/* Find where the k-th unknown is searched for; false: the ends of its domain are not known as numbers. */
 static bool
 unknown_range(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
 {

@@ -54,7 +54,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
 /* In the n forces G a symbol in -1 ... 1 for each sign of a velocity, where it holds: to r->friction.
  * (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G);
-/* *u: an expression at whose zeros the forces at rest jump; nil: none. (equilibrium-corners.c) */
+/* Find an expression *u at whose zeros the forces at rest jump; nil if there is none.
+ * (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corner(qdot_rest *r, qdot_expr *u);
 /* Whether forces jump at the equilibrium, given as a LIST of equations u = value. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_is_corner(qdot_rest *r, qdot_expr place, bool *yes);
@@ -80,14 +81,15 @@ QDOT_MUST_CHECK qdot_status qdot_rest_jumps(const qdot_rest *r, qdot_expr equati
 /* Sets r->unresolved where there is the tip of a cone, sqrt(x^2 + y^2), at which forces have no value.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);
-/* A force with its jumps in velocity, if(x' > 0, ...), x'/|x'|, written as signs. (equilibrium-kinks.c) */
+/* The force with its jumps in velocity, as in if(x' > 0, ...) or x'/|x'|, written as signs.
+ * (equilibrium-kinks.c) */
 qdot_expr qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force);
 /* Remove places at which the energy jumps, as sign(x) does at 0: forces do not tell what it does to a body there. Where
  * that is not known of a place it is marked. *jump: a function by which the energy jumps, with r->unresolved; nil: none.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump);
 
-/* Equations without t that are equivalent to `equations` holding for all t. */
+/* Find equations without t that are equivalent to `equations` holding for all t. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,
                                                    qdot_expr *list);
 
@@ -140,7 +142,7 @@ QDOT_MUST_CHECK qdot_status qdot_rest_ranges(qdot_rest *r);
 /* --- numbers (equilibrium-numeric.c) ---- */
 enum { QDOT_PLACES_MOST = 100 };
 
-/* at [n * unknowns], owned: each proved. */
+/* The equilibria that are proved, at [n * unknowns]; owned. */
 typedef struct {
     double *at;
     size_t n, starts;

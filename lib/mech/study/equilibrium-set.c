@@ -34,7 +34,7 @@ holds_only(const qdot_equilibrium_curve *c, qdot_expr e)
     return atoms != QDOT_NIL;
 }
 
-/* --- members --------------------------------------------------------------------------------- */
+/* --- members of the set ---------------------------------------------------------------------- */
 
 /* What relations a < b say is positive, with values put in, added to *list; *known: all of them are inequalities
  * of p. */
@@ -112,9 +112,9 @@ member_add(qdot_equilibrium_set *set, qdot_rest *rest, const qdot_equilibrium *e
     return qdot_vec_push(&set->member, one);
 }
 
-/* --- walls ------------------------------------------------------------------------------------ */
+/* --- walls: parameter values at which the set of equilibria may change ------------------------ */
 
-/* The zeros of g(p) are walls. */
+/* Add the zeros of g(p) to the values of p at which the set of equilibria may change ("walls"). */
 static qdot_status
 add_walls(qdot_equilibrium_set *set, qdot_expr g)
 {
@@ -157,7 +157,7 @@ add_walls_of(qdot_equilibrium_set *set, qdot_expr relations)
     return QDOT_OK;
 }
 
-/* The integers k = u are walls. */
+/* Add the values of p at which u is an integer as walls. */
 static qdot_status
 add_walls_at_integers(qdot_equilibrium_set *set, qdot_expr u)
 {
@@ -262,7 +262,7 @@ qdot_equilibrium_set_sort_walls(qdot_equilibrium_set *set)
     set->wall.n = kept;
 }
 
-/* --- the set ---------------------------------------------------------------------------------- */
+/* --- the whole set ---------------------------------------------------------------------------- */
 
 /* Insert the values of all parameters except p; they need not be generic. */
 static qdot_status
@@ -275,7 +275,7 @@ bind_rest(qdot_equilibrium_curve *c, qdot_rest *rest)
     return qdot_rest_domain(rest);
 }
 
-/* Walls at single values of p at which there is no energy or force. */
+/* Add walls at single values of p at which there is no energy or force. */
 static qdot_status
 add_walls_of_undefined(qdot_equilibrium_set *set, const qdot_rest *rest)
 {
@@ -349,7 +349,7 @@ qdot_equilibrium_set_end(qdot_equilibrium_set *set)
     *set = (qdot_equilibrium_set){0};
 }
 
-/* The values of the members of a LIST at p. */
+/* Evaluate the members of a LIST at p. */
 static qdot_status
 list_evaluate(const qdot_equilibrium_curve *c, qdot_expr list, double p, double *value)
 {

@@ -40,7 +40,7 @@ typedef struct {
     bool families;         /* some equilibria belong to infinite families, of which one is a member of the set */
 } qdot_equilibrium_set;
 
-/* Starts as {0}; call _end in any case. If nothing can be found the set is empty and incomplete. */
+/* Begin a set {0}; call _end in any case. If nothing can be found the set is empty and incomplete. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_begin(qdot_equilibrium_set *set, qdot_equilibrium_curve *c,
                                                        double least, double most);
 void qdot_equilibrium_set_end(qdot_equilibrium_set *set);
@@ -57,7 +57,7 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_place(const qdot_equilibrium_se
                                                        bool *exists);
 /* Add walls at which the stability of member k may change. If not all can be found it becomes undecided. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_add_verdicts(qdot_equilibrium_set *set, size_t k);
-/* The stability of member k at p. */
+/* Find the stability of member k at p. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_set_judge(qdot_equilibrium_set *set, size_t k, double p,
                                                        qdot_stability *verdict);
 

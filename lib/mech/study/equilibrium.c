@@ -55,7 +55,7 @@ begin_branch(qdot_rest *r, qdot_expr equations)
     return qdot_vec_push(&r->system.todo, first);
 }
 
-/* --- for all times ------------------------------------------------------------------------- */
+/* --- equilibria at all times --------------------------------------------------------------- */
 
 /* The equations of an equilibrium for coordinates, without those for multipliers. */
 static qdot_expr
@@ -107,7 +107,7 @@ keep_lasting(qdot_rest *r)
     return status;
 }
 
-/* --- numbers ---------------------------------------------------------------------------------- */
+/* --- numerical search ------------------------------------------------------------------------- */
 
 /* The name of a symbol in e that is no unknown and has no value. */
 static const char *
@@ -130,7 +130,7 @@ unset(const qdot_rest *r, qdot_expr e)
     return NULL;
 }
 
-/* Whether a value of u that is `off` from a known one is the same: of an angle in `angles`, a LIST, also turns away. */
+/* Whether u agrees with a known value to within 1e-7, `off` being the difference; an angle up to full turns. */
 static bool
 value_is_known(const qdot_pool *pool, qdot_expr angles, qdot_expr u, double off)
 {
@@ -177,7 +177,7 @@ is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
     return QDOT_OK;
 }
 
-/* Of the coordinates those that are angles in `equations`, a LIST. */
+/* Those coordinates that are angles in `equations`, a LIST. */
 static qdot_expr
 rest_angles(const qdot_rest *r, qdot_expr equations)
 {
@@ -274,7 +274,7 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     return status;
 }
 
-/* --- all of them ------------------------------------------------------------------------- */
+/* --- all equilibria ---------------------------------------------------------------------- */
 
 static bool
 holds_integer(qdot_pool *pool, qdot_expr e)

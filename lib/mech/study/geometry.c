@@ -11,7 +11,7 @@
 #include "mech/scene/access.h"
 #include "normal/simplify/simplify.h"
 
-/* The metric of positions R, with what follows from it: determinant, whether it is diagonal. */
+/* The metric of positions R, and properties that follow from it: the determinant, whether it is diagonal. */
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
@@ -164,7 +164,7 @@ ricci(geometry *m, uint32_t j, uint32_t l)
     return geometry_tidy(m, sum);
 }
 
-/* The n x n MAT of f(m, prefix, row, column). */
+/* The n x n matrix whose entry in row i and column j is f(m, prefix, i, j). */
 static qdot_expr
 matrix_of(geometry *m, const uint32_t *prefix,
           qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t row, uint32_t column))
@@ -181,7 +181,7 @@ matrix_of(geometry *m, const uint32_t *prefix,
     return result;
 }
 
-/* The LIST of n members f(m, prefix, i). */
+/* The LIST with the members f(m, prefix, i), i = 1 ... n. */
 static qdot_expr
 list_of(geometry *m, const uint32_t *prefix,
         qdot_expr (*f)(geometry *m, const uint32_t *prefix, uint32_t i))
@@ -401,7 +401,7 @@ weighted_slope(const geometry *m, qdot_expr e, uint32_t i)
 
 /* d_i h_j / h_j = d_i g_jj / (2 g_jj), without the root (whose sign need not be known). */
 static qdot_expr
-stretch(const geometry *m, uint32_t i, uint32_t j)
+log_scale_slope(const geometry *m, uint32_t i, uint32_t j)
 {
     qdot_expr g = m->g[j * m->n + j];
 
@@ -444,7 +444,7 @@ qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R)
         qdot_expr e = weighted_slope(&m, qdot_mech_component(m.pool, F, i), i);
 
         e = qdot_sub(m.pool, e,
-                     qdot_mul(m.pool, qdot_mech_component(m.pool, F, i), stretch(&m, i, i)));
+                     qdot_mul(m.pool, qdot_mech_component(m.pool, F, i), log_scale_slope(&m, i, i)));
         sum = qdot_add(m.pool, sum, qdot_div(m.pool, e, scale_factor(&m, i)));
     }
     sum = sum == QDOT_NIL ? sum : geometry_tidy(&m, sum);
@@ -475,7 +475,7 @@ qdot_geometry_laplacian(qdot_scene *s, qdot_expr f, qdot_expr R)
 /* +1 or -1 as the frame is right- or left-handed in the space R lies in; 1 where it spans a
  * surface in space or where only ds^2 is known. */
 static qdot_expr
-handedness(const geometry *m)
+frame_handedness(const geometry *m)
 {
     qdot_pool *pool = m->pool;
     qdot_expr entries[9], sign = QDOT_ONE;
@@ -498,7 +498,7 @@ half_circulation(const geometry *m, qdot_expr F, uint32_t i, uint32_t j)
     qdot_pool *pool = m->pool;
     qdot_expr Fj = qdot_mech_component(pool, F, j);
     qdot_expr e = qdot_add(pool, qdot_diff(pool, Fj, m->q[i]),
-                           qdot_mul(pool, Fj, stretch(m, i, j)));
+                           qdot_mul(pool, Fj, log_scale_slope(m, i, j)));
 
     return qdot_div(pool, e, scale_factor(m, i));
 }
@@ -522,7 +522,7 @@ qdot_geometry_curl(qdot_scene *s, qdot_expr F, qdot_expr R)
         qdot_mech_fail(s, QDOT_ETYPE, "curl needs 2 or 3 coordinates; here there %s %u",
                        m.n == 1 ? "is" : "are", m.n);
     } else if (components_fit(&m, F)) {
-        turn = handedness(&m);
+        turn = frame_handedness(&m);
         if (m.n == 2) {
             result = geometry_tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, 0, 1)));
         } else {

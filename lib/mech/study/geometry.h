@@ -15,31 +15,31 @@
 
 #include "mech/scene/things.h"
 
-/* G^i_jk = 1/2 g^il (d_j g_lk + d_k g_lj - d_l g_jk): a LIST over i of MATs in j, k. */
+/* The Christoffel symbols G^i_jk = 1/2 g^il (d_j g_lk + d_k g_lj - d_l g_jk): a LIST over i of MATs in j, k. */
 qdot_expr qdot_geometry_christoffel(qdot_scene *s, qdot_expr R);
 /* R^i_jkl = d_k G^i_lj - d_l G^i_kj + G^i_km G^m_lj - G^i_lm G^m_kj: LIST over i of LISTs over j of
  * MATs in k, l. */
 qdot_expr qdot_geometry_riemann(qdot_scene *s, qdot_expr R);
 /* The Ricci tensor R_jl = R^i_jil as a MAT. */
 qdot_expr qdot_geometry_ricci(qdot_scene *s, qdot_expr R);
-/* g^jl R_jl; twice Gauss' curvature for a surface: 2/a^2 on a sphere. */
+/* The scalar curvature g^jl R_jl; twice Gauss' curvature for a surface: 2/a^2 on a sphere. */
 qdot_expr qdot_geometry_scalar_curvature(qdot_scene *s, qdot_expr R);
-/* q_i'' + G^i_jk q_j' q_k' = 0: a LIST of equations. */
+/* The equations of geodesics as a LIST: q_i'' + sum_jk G^i_jk q_j' q_k' = 0 with Christoffel symbols G. */
 qdot_expr qdot_geometry_geodesic(qdot_scene *s, qdot_expr R);
-/* sqrt(det g). */
+/* The volume element sqrt(det g). */
 qdot_expr qdot_geometry_volume_element(qdot_scene *s, qdot_expr R);
 /* The scale factors h_i = sqrt(g_ii) as a LIST. */
 qdot_expr qdot_geometry_scale_factors(qdot_scene *s, qdot_expr R);
 
-/* In the frame e_i = (dr/dq_i)/h_i; g must be diagonal. */
+/* In the frame of the unit vectors e_i = (dr/dq_i)/h_i; g must be diagonal. */
 /* The gradient (1/h_i) df/dq_i as a VEC (a scalar for one coordinate). */
 qdot_expr qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R);
-/* (1/w) d_i (w F_i/h_i), w = sqrt(det g). */
+/* The divergence (1/w) d_i (w F_i/h_i), w = sqrt(det g). */
 qdot_expr qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R);
 /* Three coordinates: a VEC; two: the scalar across the surface. Of the ambient field: a left-handed
  * frame turns the sign. */
 qdot_expr qdot_geometry_curl(qdot_scene *s, qdot_expr F, qdot_expr R);
-/* (1/w) d_i (w g^ii d_i f). */
+/* The Laplacian (1/w) d_i (w g^ii d_i f), w = sqrt(det g). */
 qdot_expr qdot_geometry_laplacian(qdot_scene *s, qdot_expr f, qdot_expr R);
 
 #endif

@@ -26,7 +26,7 @@ typedef struct {
     qdot_expr *solved;       /* [n]: q' in terms of p */
 } legendre;
 
-/* p_i = sum A_ij q_j' + b_i. */
+/* Write the momenta as linear forms p_i = sum A_ij q_j' + b_i. */
 static bool
 linear_form(legendre *l)
 {
@@ -73,7 +73,7 @@ legendre_solve(legendre *l)
     return status == QDOT_OK;
 }
 
-/* Add 1/2 (p - b).A^-1 (p - b) for one block of A, as squares or by its inverse; which [m]: its rows. */
+/* Add 1/2 (p - b).A^-1 (p - b) for one block of A; which [m] lists its rows. As squares or by the inverse. */
 static qdot_status
 legendre_add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
 {
@@ -175,7 +175,7 @@ legendre_begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
     return !qdot_pool_failed(pool) && linear_form(l) && legendre_solve(l);
 }
 
-/* sum p q' - L over the coordinates q [n], their velocities replaced. */
+/* The Legendre transform sum p q' - L over the coordinates q [n], with their velocities replaced by momenta. */
 static qdot_expr
 transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
@@ -270,7 +270,7 @@ qdot_hamilton_hamiltonian(qdot_scene *s)
     return transform(s, (uint32_t)s->coordinates.n, s->coordinates.at);
 }
 
-/* R over the coordinates q [n], in the shorter of two forms. */
+/* The Routhian R for the coordinates q [n], in the shorter of two forms. */
 static qdot_expr
 routhian(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {

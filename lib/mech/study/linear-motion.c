@@ -13,7 +13,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solutions.h"
 
-/* --- linear motion -------------------------------------------------------------------- */
+/* --- expressions at an equilibrium; linearisation ------------------------------------- */
 
 qdot_status
 qdot_rest_facts(qdot_scene *s, qdot_expr exists, qdot_facts *facts, qdot_expr **own)
@@ -33,7 +33,7 @@ qdot_rest_facts(qdot_scene *s, qdot_expr exists, qdot_facts *facts, qdot_expr **
     return QDOT_OK;
 }
 
-/* e at rest at the equilibrium, simplified. */
+/* Replacements and facts that turn an expression into its value at rest at an equilibrium. */
 typedef struct {
     qdot_scene *s;
     qdot_facts facts;
@@ -74,7 +74,8 @@ place_end(place *p)
     qdot_free(p->own);
 }
 
-/* e at the equilibrium; for a family without the full turns that its integer adds to circular functions. */
+/* The value of e at the equilibrium; for a family, whole turns are dropped from the arguments of
+ * circular functions. */
 static qdot_expr
 value_at(const place *p, qdot_expr e)
 {
@@ -121,7 +122,7 @@ typedef struct {
     size_t *pivot; /* [rank] the column of each row's 1, in which the other rows are 0 */
 } echelon;
 
-/* row -= by times other, both [n]. */
+/* Subtract `by` times the row `other` [n] from row [n]. */
 static qdot_status
 row_subtract(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_expr *other)
 {
@@ -194,7 +195,7 @@ constraint_tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
     return status;
 }
 
-/* v.X w, X [n*n], v and w columns of N [n*m]. */
+/* The bilinear form v.X w with X [n*n]; v and w are columns of N [n*m]. */
 static qdot_expr
 bilinear_form(const place *p, const qdot_expr *X, const qdot_expr *v, const qdot_expr *w, size_t m)
 {
@@ -211,7 +212,7 @@ bilinear_form(const place *p, const qdot_expr *X, const qdot_expr *v, const qdot
     return qdot_simplify(p->s->pool, sum, &p->facts);
 }
 
-/* N^T X N, X [n*n], N [n*m]. */
+/* Project X [n*n] onto the tangent space: N^T X N, with N [n*m]. */
 static qdot_status
 project_on_tangents(const place *p, const qdot_expr *X, const qdot_expr *N, size_t m, qdot_expr *out)
 {
@@ -243,7 +244,7 @@ slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *sl
     return QDOT_OK;
 }
 
-/* M, Gamma, H of all coordinates, [n*n] each, and out->exact, out->damped. */
+/* Linearise the motion: M, Gamma, H of all coordinates, [n*n] each; sets out->exact and out->damped. */
 static qdot_status
 linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
 {
@@ -345,7 +346,7 @@ copy_without(const qdot_expr *X, size_t rows, size_t n, size_t a, bool square, q
 
 /* Eliminate y_a = -sum_b H_ab y_b / H_aa from the unknowns. */
 static qdot_status
-eliminate(qdot_scene *s, const qdot_facts *facts, size_t a, qdot_linear_motion *m)
+eliminate_unknown(qdot_scene *s, const qdot_facts *facts, size_t a, qdot_linear_motion *m)
 {
     qdot_pool *pool = s->pool;
     const size_t n = m->n, q = s->coordinates.n;
@@ -396,7 +397,7 @@ qdot_linear_motion_condense(qdot_scene *s, const qdot_facts *facts, qdot_linear_
             found = !qdot_is_zero(s->pool, m->H[a * m->n + a], facts);
             QDOT_TRY(qdot_pool_check(s->pool));
             if (found)
-                QDOT_TRY(eliminate(s, facts, a, m));
+                QDOT_TRY(eliminate_unknown(s, facts, a, m));
         }
     }
     return qdot_pool_check(s->pool);

@@ -36,14 +36,15 @@ void qdot_linear_motion_clear(qdot_linear_motion *m);
 QDOT_MUST_CHECK qdot_status qdot_linear_motion_condense(qdot_scene *s, const qdot_facts *facts,
                                                         qdot_linear_motion *m, size_t *left);
 
-/* The facts of a scene together with the conditions under which an equilibrium exists. own: to be freed. */
+/* Collect the facts of a scene together with the conditions under which an equilibrium exists. own:
+ * to be freed. */
 QDOT_MUST_CHECK qdot_status qdot_rest_facts(qdot_scene *s, qdot_expr exists,
                                             qdot_facts *facts, qdot_expr **own);
 
-/* left - right of the equation of coordinate i. Nil: the pool keeps the failure. */
+/* The residual left - right of the equation of coordinate i. Nil: the pool keeps the failure. */
 qdot_expr qdot_motion_residual(qdot_scene *s, size_t i);
 
-/* e at rest with the values of an equilibrium substituted, not simplified. */
+/* The expression e at rest, with the values of an equilibrium substituted; not simplified. */
 qdot_expr qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e);
 
 #endif

@@ -17,7 +17,7 @@
 
 enum { MOST_DECIDED = 300 }; /* operations of a power that is asked for its sign */
 
-/* e at q' = 0. */
+/* The expression e with all velocities set to 0. */
 static qdot_expr
 without_velocities(qdot_scene *s, qdot_expr e)
 {
@@ -29,7 +29,7 @@ without_velocities(qdot_scene *s, qdot_expr e)
     return e;
 }
 
-/* e with |u|/u for each sign u: then u sign u is |u|. */
+/* Write each sign(u) in *e as |u|/u, so that u sign(u) becomes |u|. */
 static qdot_status
 with_magnitudes(qdot_scene *s, qdot_expr *e)
 {
@@ -83,7 +83,7 @@ is_still(qdot_scene *s, bool *yes)
     return qdot_pool_check(s->pool);
 }
 
-/* Dampers and Rayleigh's function: *used if there are any, *yes if all dissipate energy. */
+/* Judge dampers and Rayleigh's function: *used if there are any, *yes if all dissipate energy. */
 static qdot_status
 damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 {
@@ -108,7 +108,7 @@ damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
     return QDOT_OK;
 }
 
-/* Forces and torques: *yes if at rest they have a potential and their remainder dissipates energy. */
+/* Judge forces and torques: *yes if at rest they have a potential and their remainder dissipates energy. */
 static qdot_status
 declared_forces_dissipate(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 {

@@ -40,9 +40,9 @@ metric_check(qdot_scene *s, qdot_expr R)
     return true;
 }
 
-/* sum of g_ij step_i step_j, step dq or q', dt or 1. */
+/* The quadratic form sum of g_ij step_i step_j, with steps dq and dt, or velocities q' and 1. */
 static qdot_expr
-element(qdot_scene *s, qdot_expr R, bool velocities)
+metric_form(qdot_scene *s, qdot_expr R, bool velocities)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -87,13 +87,13 @@ element(qdot_scene *s, qdot_expr R, bool velocities)
 qdot_expr
 qdot_mech_ds2(qdot_scene *s, qdot_expr R)
 {
-    return element(s, R, false);
+    return metric_form(s, R, false);
 }
 
 qdot_expr
 qdot_mech_speed2(qdot_scene *s, qdot_expr R)
 {
-    return element(s, R, true);
+    return metric_form(s, R, true);
 }
 
 qdot_expr
@@ -121,7 +121,7 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     return list;
 }
 
-/* g_ij of a line element: half its second derivatives; checks that the line element contains nothing else. */
+/* Find g_ij of a line element as half its second derivatives; check that it contains nothing else. */
 static qdot_expr
 coefficients(qdot_scene *s, qdot_expr R, qdot_expr over, qdot_expr *g, uint32_t n)
 {

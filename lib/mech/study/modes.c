@@ -206,7 +206,7 @@ add_mode(job *j, qdot_expr w, const qdot_expr *y)
     return QDOT_OK;
 }
 
-/* --- exact ---------------------------------------------------------------------------- */
+/* --- exact modes ---------------------------------------------------------------------- */
 
 static qdot_status
 to_echelon(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
@@ -299,7 +299,7 @@ modes_of(job *j, qdot_expr W)
     return status;
 }
 
-/* *order: 1 if a <= b, -1 if a > b, by declared signs and assumptions; else 0. */
+/* Compare frequencies: *order is 1 if a <= b, -1 if a > b, by declared signs and assumptions; else 0. */
 static qdot_status
 frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
 {
@@ -351,7 +351,7 @@ exchange_modes(job *j, size_t a, size_t b)
     }
 }
 
-/* Ascending. */
+/* Sort the modes by ascending frequency. */
 static qdot_status
 frequencies_sort(job *j)
 {
@@ -415,7 +415,7 @@ of_two(job *j, qdot_root *roots)
 
 /* Find the modes exactly; *done: all n were found. */
 static qdot_status
-exact(job *j, bool *done)
+find_exact_modes(job *j, bool *done)
 {
     qdot_pool *pool = j->pool;
     size_t n = j->m.n;
@@ -448,11 +448,11 @@ exact(job *j, bool *done)
     return status;
 }
 
-/* --- numbers ------------------------------------------------------------------------------ */
+/* --- numerical modes ---------------------------------------------------------------------- */
 
-/* The values of e [n] with parameter values; QDOT_EUNSET names a parameter without one. */
+/* Evaluate e [n] with parameter values; QDOT_EUNSET names a parameter without one. */
 static qdot_status
-values(const job *j, size_t n, const qdot_expr *e, double *out)
+evaluate_all(const job *j, size_t n, const qdot_expr *e, double *out)
 {
     qdot_pool *pool = j->pool;
     qdot_expr list = qdot_list(pool, (uint32_t)n, e), atoms;
@@ -530,7 +530,7 @@ in_numbers(job *j)
             : QDOT_OK;
 
     if (status == QDOT_OK) /* M, Gamma, H, N lie one behind another */
-        status = values(j, 3 * m * m + n * m, j->m.M, v);
+        status = evaluate_all(j, 3 * m * m + n * m, j->m.M, v);
     for (size_t i = 0; i < m * m && status == QDOT_OK; i++) {
         M->data[i] = v[i];
         H->data[i] = v[2 * m * m + i];
@@ -562,7 +562,7 @@ in_numbers(job *j)
     return status;
 }
 
-/* --- both ---------------------------------------------------------------------------------- */
+/* --- modes, exact or numerical ------------------------------------------------------------- */
 
 void
 qdot_modes_clear(qdot_modes *m)
@@ -612,7 +612,7 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     if (status == QDOT_OK)
         status = check_smooth(&j, equations);
     if (status == QDOT_OK && !numbers)
-        status = exact(&j, &done);
+        status = find_exact_modes(&j, &done);
     if (status == QDOT_OK && !done) {
         j.frequency.n = j.amplitude.n = 0;
         status = in_numbers(&j);

@@ -1,4 +1,4 @@
-/* modes.h -- normal modes of small oscillations about an equilibrium. */
+/* modes.h -- finds normal modes of small oscillations about an equilibrium. */
 #ifndef QDOT_MECH_MODES_H
 #define QDOT_MECH_MODES_H
 

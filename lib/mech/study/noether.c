@@ -26,7 +26,7 @@
 
 enum { MOST_COORDINATES = 16 };
 
-/* An unknown coefficient of the ansatz for a symmetry. */
+/* An unknown coefficient in the linear ansatz for a symmetry. */
 typedef struct {
     enum { BOOST, ROTATION, TRANSLATION, TIME } kind;
     size_t i, j; /* xi_i has b t, c q_j, a */
@@ -44,7 +44,7 @@ typedef struct {
     qdot_vec(qdot_expr) found;
 } search;
 
-/* --- conditions --------------------------------------------------------------------- */
+/* --- conditions for a symmetry ------------------------------------------------------ */
 
 static qdot_expr
 noether_jet(const search *f, size_t i, uint32_t order)
@@ -91,7 +91,7 @@ generator_component(const search *f, const unknown *u, size_t j)
                                   : noether_jet(f, u->j, 0);
 }
 
-/* sum_j (xi_j - tau q_j') F_j for a force F. */
+/* The work sum_j (xi_j - tau q_j') F_j of a force F along a symmetry (xi, tau). */
 static qdot_expr
 work_of(const search *f, const unknown *u, const qdot_expr *F)
 {
@@ -152,7 +152,7 @@ conditions_fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
     return !qdot_pool_failed(f->pool);
 }
 
-/* --- which unknowns can be there at all: numbers at random points ------------------------- */
+/* --- excluding unknowns by numbers at random points --------------------------------------- */
 
 /* Values of e [m] stacked over many points, parameters the same at all: A [*height * columns],
  * each row of length about 1. */
@@ -202,9 +202,9 @@ conditions_sample(const search *f, const qdot_expr *e, size_t columns, double *A
     return status;
 }
 
-/* possible [columns]: whether the null space of e reaches along the column. */
+/* Set possible [columns]: whether some vector of the null space of e has a component in the column. */
 static qdot_status
-reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
+mark_reachable_columns(const search *f, const qdot_expr *e, size_t columns, bool *possible)
 {
     size_t height = 3 * columns + 2 * rows(f);
     gsl_matrix *A = gsl_matrix_calloc(height, columns);
@@ -233,7 +233,7 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
     return status;
 }
 
-/* --- from a symmetry to its quantity ------------------------------------------------------ */
+/* --- from a symmetry to its conserved quantity -------------------------------------------- */
 
 /* The component xi_j of the symmetry with coefficients v [m]. */
 static qdot_expr
@@ -327,7 +327,7 @@ denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
     return all;
 }
 
-/* The sign as in books: the energy, x y' - y x', a translation. */
+/* Choose the sign that books use: positive for the energy, else for x y' - y x', else for a translation. */
 static void
 turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
 {
@@ -352,7 +352,7 @@ turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
             v[k] = qdot_neg(pool, v[k]);
 }
 
-/* tau h - sum, in the shorter of two forms: with h as the energy is printed, or expanded. */
+/* The quantity tau h - sum, in the shorter of two forms: with h as the energy is printed, or expanded. */
 static qdot_expr
 with_energy(const search *f, qdot_expr tau, qdot_expr sum)
 {
@@ -366,7 +366,7 @@ with_energy(const search *f, qdot_expr tau, qdot_expr sum)
     return qdot_expr_size(pool, whole) < qdot_expr_size(pool, apart) ? whole : apart;
 }
 
-/* The quantity of the symmetry v, if all is proved. */
+/* The conserved quantity of the symmetry v; nil unless it is proved. */
 static qdot_expr
 quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
          const qdot_expr *v)
@@ -419,7 +419,7 @@ shortest_quantity(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
     for (size_t k = 0; k < m; k++)
         v[k] = qdot_simplify(pool, qdot_mul(pool, v[k], by), NULL);
     other = quantity(f, f->unknowns.at, m, e, v);
-    /* of equally long forms the one without fractions: 3*m1*x1' + 2*m2*x2' */
+    /* of forms with equal length take the one without fractions: 3*m1*x1' + 2*m2*x2' */
     return other != QDOT_NIL &&
                    qdot_expr_size(pool, other) <
                        qdot_expr_size(pool, one) + (qdot_expr_kind(pool, by) == QDOT_NUM)
@@ -427,7 +427,7 @@ shortest_quantity(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
                : one;
 }
 
-/* --- the search ----------------------------------------------------------------------- */
+/* --- the search for symmetries -------------------------------------------------------- */
 
 static qdot_status
 noether_add_unknown(search *f, int kind, size_t i, size_t j)
@@ -496,7 +496,7 @@ search_linear(search *f)
     if (status == QDOT_OK && !conditions_fill(f, f->unknowns.at, all, e))
         status = qdot_pool_check(f->pool);
     if (status == QDOT_OK)
-        status = reach(f, e, all, possible);
+        status = mark_reachable_columns(f, e, all, possible);
     if (status == QDOT_OK) {
         for (size_t j = 0; j < all; j++)
             if (possible[j])

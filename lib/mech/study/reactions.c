@@ -1,4 +1,4 @@
-/* reactions.c -- generalized reactions turned into forces where r(q) tells how. */
+/* reactions.c -- turns generalized reactions into forces, where the positions r(q) determine these. */
 #include "mech/study/reactions.h"
 
 #include <string.h>
@@ -37,7 +37,7 @@ depends(const work *w, const thing *one, size_t j)
            (one->body && qdot_expr_contains(pool, one->body->rotation, q));
 }
 
-/* d(position, turning)/dq_j as a column of numbers. */
+/* Column j of the Jacobian d(position, rotation)/dq as numbers. */
 static uint32_t
 jacobian_column(const work *w, const thing *one, size_t j, qdot_expr out[6])
 {
@@ -57,7 +57,7 @@ jacobian_column(const work *w, const thing *one, size_t j, qdot_expr out[6])
     return rows;
 }
 
-/* x = J (J^T J)^-1 R, J [rows x k] stored by columns; for square J this is J^-T R. */
+/* Solve for x = J (J^T J)^-1 R, J [rows x k] stored by columns; for square J this is J^-T R. */
 static qdot_status
 reactions_solve(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, const qdot_expr *R,
                 qdot_expr *x)

@@ -1,4 +1,4 @@
-/* rest.h -- an equilibrium of a scene. */
+/* rest.h -- equilibria of a scene, and their properties. */
 #ifndef QDOT_MECH_REST_H
 #define QDOT_MECH_REST_H
 

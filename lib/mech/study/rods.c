@@ -34,7 +34,7 @@ point_moves(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & QDOT_HAS_COORD) != 0;
 }
 
-/* |a - b|^2 */
+/* The squared distance |a - b|^2. */
 static qdot_expr
 distance2(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -80,7 +80,7 @@ has_rod(const search *w, qdot_expr a)
 
 /* The position r without the terms that contain coordinate i; nil if r does not contain it. */
 static qdot_expr
-hinge(qdot_scene *s, qdot_expr r, size_t i)
+position_of_hinge(qdot_scene *s, qdot_expr r, size_t i)
 {
     qdot_expr q = s->coordinates.at[i];
 
@@ -133,7 +133,7 @@ find_points(search *w, uint32_t dimension)
     return QDOT_OK;
 }
 
-/* --- by r(q) ------------------------------------------------------------------------ */
+/* --- distances kept constant by positions r(q) -------------------------------------- */
 
 static qdot_status
 between_particles(search *w)
@@ -157,7 +157,7 @@ to_hinges(search *w, qdot_expr r)
         qdot_expr next = QDOT_NIL;
 
         for (size_t i = s->coordinates.n; i-- > 0;) {
-            qdot_expr c = hinge(s, r, i);
+            qdot_expr c = position_of_hinge(s, r, i);
             bool known;
 
             if (c == QDOT_NIL || c == r)
@@ -177,7 +177,7 @@ to_hinges(search *w, qdot_expr r)
     return qdot_pool_check(s->pool);
 }
 
-/* --- by constraints ----------------------------------------------------------------- */
+/* --- distances kept constant by constraints ----------------------------------------- */
 
 /* Whether d|a - b|^2 and df are parallel everywhere, in the coordinates and t; every
  * coordinate of f counts. */
@@ -215,7 +215,8 @@ keeps(const search *w, qdot_expr f, qdot_expr a, qdot_expr b)
     return pivot != QDOT_NIL && D1 != QDOT_ZERO;
 }
 
-/* The centre c of g = k |r - c|^2 + ..., r plain coordinates: c_i = r_i - g_i / g_ii. Nil: none. */
+/* The centre c of g = k |r - c|^2 + ...: c_i = r_i - g_i/g_ii with the derivatives of g; nil if
+ * there is none. */
 static qdot_expr
 centre_of(const search *w, qdot_expr g, qdot_expr r)
 {
@@ -300,7 +301,7 @@ qdot_mech_rods(qdot_scene *s, qdot_rods *rods)
     return status;
 }
 
-/* --- fixed in bodies ---------------------------------------------------------------- */
+/* --- points fixed in bodies --------------------------------------------------------- */
 
 /* Append P as an arm if it is fixed in the body and is not its centre. */
 static qdot_status
@@ -363,7 +364,7 @@ qdot_mech_arms(qdot_scene *s, size_t i, const qdot_rods *rods, qdot_arms *arms)
 
     QDOT_TRY(qdot_pool_check(s->pool));
     for (size_t k = s->coordinates.n; k-- > 0 && arms->n == before;) {
-        qdot_expr c = hinge(s, r, k);
+        qdot_expr c = position_of_hinge(s, r, k);
 
         if (c != QDOT_NIL && c != r &&
             qdot_expr_contains(s->pool, b->rotation, s->coordinates.at[k]))

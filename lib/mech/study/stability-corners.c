@@ -50,7 +50,7 @@ typedef struct {
     bool rough;                                /* the slopes of forces jump too */
 } corner;
 
-/* --- kinks ---------------------------------------------------------------------------------- */
+/* --- kinks of the forces -------------------------------------------------------------------- */
 
 static qdot_expr
 value_there(const corner *c, qdot_expr e)
@@ -158,7 +158,7 @@ read_slopes(corner *c, bool *known)
     return QDOT_OK;
 }
 
-/* --- directions ----------------------------------------------------------------------------- */
+/* --- directions away from the equilibrium --------------------------------------------------- */
 
 static qdot_expr
 scalar_product(const corner *c, const qdot_expr *v, const qdot_expr *w)
@@ -188,7 +188,7 @@ slope_along(const corner *c, const qdot_expr *d, int sign)
 
 typedef enum { RISES, FALLS, OPEN } course;
 
-/* How V changes along d in both directions; conditions under which it rises are recorded. */
+/* Find how V changes along d in both directions; record conditions under which it rises. */
 static qdot_status
 ask_ray(corner *c, const qdot_expr *d, course *how)
 {
@@ -252,7 +252,7 @@ ask_rays(corner *c, size_t rank, course *how)
     return QDOT_OK;
 }
 
-/* --- where all planes meet -------------------------------------------------------------------- */
+/* --- the intersection of all planes of kinks -------------------------------------------------- */
 
 /* Whether L contains no terms linear in velocities, that is, no gyroscopic forces. */
 static bool
@@ -298,7 +298,7 @@ read_inside(const corner *c, size_t p, const qdot_expr *N, const qdot_expr *z, q
     return qdot_pool_check(pool);
 }
 
-/* How V changes along a line on which all u_k stay 0, from the force W(z) on either side. */
+/* Find how V changes along a line on which all u_k stay 0, from the force W(z) on each of its sides. */
 static qdot_status
 ask_line(corner *c, qdot_expr z, qdot_expr W, course *how)
 {
@@ -330,7 +330,7 @@ ask_line(corner *c, qdot_expr z, qdot_expr W, course *how)
     return QDOT_OK;
 }
 
-/* V where all planes of kinks meet, in the directions N [p * n]. */
+/* Find how V changes where all planes of kinks meet, in the directions N [p * n]. */
 static qdot_status
 ask_inside(corner *c, size_t p, const qdot_expr *N, course *how)
 {
@@ -371,7 +371,7 @@ ask_inside(corner *c, size_t p, const qdot_expr *N, course *how)
     return QDOT_OK;
 }
 
-/* --- the verdict -------------------------------------------------------------------------------- */
+/* --- the verdict on stability ------------------------------------------------------------------- */
 
 static qdot_status
 corner_mass_is_definite(corner *c, bool *yes)

@@ -18,7 +18,7 @@
 
 enum { LONGEST_SLOPE = 200, MOST_ROOT = 6 }; /* operations; denominator of exponents */
 
-/* --- one degree of freedom, either side ------------------------------------------------- */
+/* --- one degree of freedom: the forces on either side ----------------------------------- */
 
 /* *leading: the derivative of lowest order of e by eps that is not 0 at eps = 0; nil if none is found. *sign: 1 or -1
  * where it has that sign for all parameters, else 0. */
@@ -79,7 +79,7 @@ chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
     return e;
 }
 
-/* The value of sign u, |u|, max, min, if(0 < u, a, b) for small eps > 0. */
+/* The value of sign u, |u|, max, min or if(0 < u, a, b) for small eps > 0. */
 static qdot_expr
 on_one_side(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -151,7 +151,7 @@ by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, con
     return QDOT_OK;
 }
 
-/* The least common denominator of the exponents of powers that contain q; 1 if it exceeds MOST_ROOT. */
+/* Find the least common denominator of the exponents of powers that contain q; 1 if it exceeds MOST_ROOT. */
 static qdot_status
 common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
 {
@@ -178,7 +178,8 @@ common_root(qdot_pool *pool, qdot_expr e, qdot_expr q, long *root)
     return qdot_pool_check(pool);
 }
 
-/* The leading term in eps of the restoring force at q = place + eps^root, or (below) at place - eps^root. */
+/* Find the leading term in eps of the restoring force at q = place + eps^root, or (below) at place
+ * - eps^root. */
 static qdot_status
 push_back_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, long root, qdot_expr *leading, int *sign,
                  bool *known)
@@ -242,7 +243,7 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* --- the verdict ------------------------------------------------------------------------ */
+/* --- the verdict on stability ----------------------------------------------------------- */
 
 static qdot_stability
 conclude_if_definite(qdot_definite how, qdot_stability verdict)
@@ -293,7 +294,7 @@ by_falling(qdot_judgement *j, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* --- kinks ---------------------------------------------------------------------------------- */
+/* --- equilibria at kinks -------------------------------------------------------------------- */
 
 /* Whether the equations at rest have no slopes at the place: |u|, sign u where u = 0; of what
  * else jumps it is not looked into where. */
@@ -325,7 +326,7 @@ kink_at(const qdot_judgement *j, qdot_expr equations, bool *yes)
     return status;
 }
 
-/* --- families -------------------------------------------------------------------------- */
+/* --- families of equilibria ------------------------------------------------------------ */
 
 qdot_status
 qdot_judgement_confirm(qdot_judgement *j, bool *yes)
@@ -340,7 +341,7 @@ qdot_judgement_confirm(qdot_judgement *j, bool *yes)
     return QDOT_OK;
 }
 
-/* --- one place -------------------------------------------------------------------------- */
+/* --- judging one equilibrium ------------------------------------------------------------ */
 
 /* The blocks of those y whose place is told: all but coordinates that stand in no equation at
  * rest, along which a family of rests is alike. */

@@ -39,11 +39,11 @@ typedef struct {
     qdot_expr *force;     /* [coordinates] F_i, without friction */
 } held;
 
-/* --- what holds ---------------------------------------------------------------------------- */
+/* --- coordinates held by friction ---------------------------------------------------------- */
 
 /* The only coordinate whose velocity u is a multiple of; s->coordinates.n if there is none. */
 static size_t
-slipping(qdot_scene *s, qdot_expr u)
+slipping_coordinate(qdot_scene *s, qdot_expr u)
 {
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr v = qdot_mech_jet(s, i, 1), c = qdot_diff(s->pool, u, v);
@@ -57,7 +57,7 @@ slipping(qdot_scene *s, qdot_expr u)
     return s->coordinates.n;
 }
 
-/* Whether the equation of coordinate i jumps only because of friction on i itself. */
+/* Whether the equation of coordinate i jumps only because of friction on that coordinate. */
 static qdot_status
 jumps_are_own(held *h, size_t i, bool *yes)
 {
@@ -76,7 +76,7 @@ jumps_are_own(held *h, size_t i, bool *yes)
                qdot_expr_place(qdot_expr_count(s->pool, slips), qdot_expr_args(s->pool, slips),
                                qdot_expr_arg(s->pool, w.at[k], 0)) <
                    qdot_expr_count(s->pool, slips) &&
-               slipping(s, qdot_expr_arg(s->pool, w.at[k], 0)) == i;
+               slipping_coordinate(s, qdot_expr_arg(s->pool, w.at[k], 0)) == i;
     }
     qdot_walk_end(&w);
     return QDOT_OK;
@@ -110,7 +110,7 @@ split_forces(held *h, bool *yes)
         h->force[i] = qdot_expr_arg(pool, judge->forces, (uint32_t)i);
     for (uint32_t k = 0; k < sides && *yes; k++) {
         qdot_expr side = qdot_expr_arg(pool, judge->friction, k), none = QDOT_ZERO;
-        size_t i = slipping(s, qdot_expr_arg(pool, judge->slips, k));
+        size_t i = slipping_coordinate(s, qdot_expr_arg(pool, judge->slips, k));
 
         *yes = i < s->coordinates.n && h->limit[i] == QDOT_NIL;
         for (size_t n = 0; n < s->coordinates.n && *yes; n++) {
@@ -120,7 +120,7 @@ split_forces(held *h, bool *yes)
                    (n == i ? !qdot_expr_contains(pool, slope, side) : slope == QDOT_ZERO);
             if (n != i)
                 continue;
-            /* the limit of sign(c q') with c < 0 is the slope itself */
+            /* for c < 0, the limit of sign(c q') is the slope itself */
             h->limit[i] = qdot_neg(pool, slope);
             if (qdot_positive(pool, h->limit[i], &h->j.facts, h->j.known.n, h->j.known.at) !=
                 QDOT_TRUE)
@@ -163,7 +163,7 @@ is_below(held *h, bool *yes)
 
 /* --- the other coordinates --------------------------------------------------------------- */
 
-/* M, Gamma, H for the coordinates that friction does not hold (all of them for M if `whole`). */
+/* Compute M, Gamma, H for the coordinates that friction does not hold; if `whole`, M for all of them. */
 static qdot_status
 matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
 {
@@ -256,7 +256,7 @@ friction_mass_is_definite(held *h, bool *yes)
     return status;
 }
 
-/* --- ends -------------------------------------------------------------------------------- */
+/* --- ends of a band of equilibria -------------------------------------------------------- */
 
 /* Whether the force at an end of the range of the only coordinate points inward. */
 static qdot_status
@@ -285,9 +285,9 @@ points_inside(held *h, qdot_expr end, bool upper, bool *yes)
     return qdot_pool_check(pool);
 }
 
-/* The relation with < instead of <=; nil if it has no closed end. */
+/* The relation with < instead of <=; nil if it has no <=. */
 static qdot_expr
-strictly(qdot_pool *pool, qdot_expr relation)
+make_strict(qdot_pool *pool, qdot_expr relation)
 {
     return qdot_expr_node(pool, relation)->op == QDOT_LE
                ? qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, relation, 0),
@@ -306,7 +306,7 @@ leave_out_ends(held *h)
         qdot_expr list = part == 0 ? h->e->exists : h->e->range;
 
         for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++) {
-            qdot_expr one = qdot_expr_arg(pool, list, i), strict = strictly(pool, one);
+            qdot_expr one = qdot_expr_arg(pool, list, i), strict = make_strict(pool, one);
             bool upper = qdot_expr_arg(pool, one, 0) == s->coordinates.at[0], inside = false;
 
             if (strict == QDOT_NIL || (qdot_mech_holds(s, one) & QDOT_HAS_COORD) == 0)
@@ -320,7 +320,7 @@ leave_out_ends(held *h)
     return qdot_pool_check(pool);
 }
 
-/* --- the verdict ------------------------------------------------------------------------- */
+/* --- the verdict on stability ------------------------------------------------------------ */
 
 static qdot_status
 judge_held(held *h, bool *judged)
@@ -354,7 +354,7 @@ judge_held(held *h, bool *judged)
     return qdot_pool_check(pool);
 }
 
-/* All conditions of e, with < for <=. */
+/* All conditions of equilibrium e, with < instead of <=. */
 static qdot_expr
 inside_of(qdot_pool *pool, const qdot_equilibrium *e)
 {
@@ -364,7 +364,7 @@ inside_of(qdot_pool *pool, const qdot_equilibrium *e)
         qdot_expr list = part == 0 ? e->exists : e->range;
 
         for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++) {
-            qdot_expr one = qdot_expr_arg(pool, list, i), strict = strictly(pool, one);
+            qdot_expr one = qdot_expr_arg(pool, list, i), strict = make_strict(pool, one);
 
             all = qdot_conditions_and(pool, all, strict != QDOT_NIL ? strict : one);
         }

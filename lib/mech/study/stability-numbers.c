@@ -128,7 +128,7 @@ put_place(qdot_stability_numbers *x, const qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* Values where the symbols say; false where a coefficient has none. */
+/* Evaluate the matrices of the linear motion at the values of the symbols; false if a coefficient has none. */
 static qdot_status
 matrices_evaluate(qdot_stability_numbers *x, bool *finite)
 {
@@ -190,7 +190,7 @@ numeric_tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
     return fine;
 }
 
-/* X <- N^T X N, m x m. */
+/* Replace X by its projection N^T X N, m x m. */
 static void
 project_numbers(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
 {
@@ -250,7 +250,7 @@ part_of_symmetry(const double *X, size_t m, int sign)
     return most;
 }
 
-/* Real and imaginary parts of the roots s of det(s^2 + G s + H), [2 m] each. */
+/* Find real and imaginary parts of the roots s of det(s^2 + G s + H), [2 m] each. */
 static bool
 roots(const motion *x, double *re, double *im)
 {
@@ -279,7 +279,7 @@ roots(const motion *x, double *re, double *im)
     return fine;
 }
 
-/* G and H where M is 1: y = L^-T z; false where M is not positive definite. */
+/* Scale the motion so that M = 1, by y = L^-T z; false if M is not positive definite. */
 static bool
 normalise(motion *x)
 {
@@ -309,7 +309,7 @@ normalise(motion *x)
     return true;
 }
 
-/* --- the verdict ------------------------------------------------------------------------ */
+/* --- the verdict on stability ----------------------------------------------------------- */
 
 static qdot_stability
 stability_by_roots(const motion *x, double h, double g, bool definite)

@@ -50,10 +50,10 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_all_positive(qdot_judgement *j, size_
  * positive ones, or a negative diagonal entry: NEGATIVE_SOMEWHERE. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_definiteness(qdot_judgement *j, size_t n,
                                                         const qdot_expr *A, qdot_definite *how);
-/* *yes: A is positive definite without further conditions. */
+/* Find whether A is positive definite without further conditions: *yes. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_is_definite(qdot_judgement *j, size_t n,
                                                        const qdot_expr *A, bool *yes);
-/* A^T = A, or with sign -1 A^T = -A. */
+/* Whether A^T = A; with sign -1 whether A^T = -A. */
 bool qdot_judgement_is_symmetric(qdot_judgement *j, size_t n, const qdot_expr *A, int sign);
 /* Whether the symmetric part of Gamma is proved not negative: zero, or diagonal with known signs. */
 bool qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma);
@@ -63,7 +63,8 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_is_sure(qdot_judgement *j, qdot_expr 
 /* Drop conditions that follow from others. known [n]: expressions that are positive in any case. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_drop_implied(qdot_judgement *j, size_t n);
 
-/* Whether what was claimed to be positive is so along a whole family of equilibria (stability-exact.c). */
+/* Check that expressions claimed to be positive are so along a whole family of equilibria
+ * (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_judgement_confirm(qdot_judgement *j, bool *yes);
 
 /* *leading: the term of lowest order in eps > 0 of F, near eps = 0, where |u|, sign u and the like are what they are

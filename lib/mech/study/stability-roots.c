@@ -1,4 +1,4 @@
-/* stability-roots.c -- whether the linear motion near an equilibrium grows, decays or stays bounded. */
+/* stability-roots.c -- decides whether the linear motion near an equilibrium grows, decays or stays bounded. */
 #include "expr/build.h"
 #include "expr/exact.h"
 #include "expr/node.h"
@@ -19,7 +19,7 @@ typedef struct {
 
 typedef enum { GROWS, DECAYS, BOUNDED, OPEN } motion;
 
-/* --- polynomials of Hurwitz ------------------------------------------------------------------ */
+/* --- Hurwitz's criterion; damping ------------------------------------------------------------ */
 
 static qdot_expr
 det2(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr d)
@@ -118,7 +118,7 @@ undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
         how);
 }
 
-/* Gamma + Gamma^T, owned by the caller. */
+/* Compute Gamma + Gamma^T, owned by the caller. */
 static qdot_status
 twice_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma, qdot_expr **out)
 {
@@ -133,7 +133,7 @@ twice_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma, qdot_expr **o
     return qdot_pool_check(pool);
 }
 
-/* Complete damping, H symmetric: decays where H is positive definite (Kelvin). */
+/* Judge a block with complete damping and symmetric H: it decays where H is positive definite (Kelvin). */
 static qdot_status
 completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
 {
@@ -151,7 +151,7 @@ completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
     return QDOT_OK;
 }
 
-/* --- one block ---------------------------------------------------------------------------- */
+/* --- motion of one block ------------------------------------------------------------------ */
 
 static bool
 block_is_constant(const qdot_judgement *j, const block *x)
@@ -245,7 +245,7 @@ block_motion(qdot_judgement *j, const block *x, motion *what)
     return *what == OPEN ? symbolic_block(j, x, mass, what) : QDOT_OK;
 }
 
-/* --- all blocks --------------------------------------------------------------------------- */
+/* --- motion of all blocks ----------------------------------------------------------------- */
 
 /* of [n]: the number of the block of each y; returns the number of blocks. */
 static size_t
@@ -311,7 +311,8 @@ one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes
     return QDOT_OK;
 }
 
-/* GROWS if one block grows; otherwise the weakest verdict of all blocks, under all their conditions. */
+/* Judge the whole motion: GROWS if one block grows; else the weakest verdict of all blocks, under
+ * all conditions. */
 static qdot_status
 whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
 {

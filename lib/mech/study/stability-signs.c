@@ -60,7 +60,7 @@ qdot_judgement_back_to(qdot_judgement *j, qdot_judgement_point m)
     j->claims.n = m.claims;
 }
 
-/* Leading minors of A [n*n], simplified. */
+/* Leading minor number k of A [n*n], simplified. */
 static qdot_expr
 minor_of(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
 {

@@ -1,4 +1,4 @@
-/* stability.c -- judges the stability of equilibria: facts common to all of them. */
+/* stability.c -- prepares the facts about a scene by which the stability of all its equilibria is judged. */
 #include "mech/study/stability.h"
 
 #include "expr/calculus.h"
@@ -63,7 +63,7 @@ qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e)
     return qdot_stability_judge_exact(judge, e);
 }
 
-/* --- the scene -------------------------------------------------------------------------- */
+/* --- facts about the scene -------------------------------------------------------------- */
 
 qdot_status
 qdot_judge_new(qdot_scene *s, qdot_expr at_rest, qdot_binder bind, void *user,

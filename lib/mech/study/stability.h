@@ -64,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_stability_judge_numbers(const qdot_judge *judge
                                                          qdot_stability_numbers *numbers,
                                                          qdot_equilibrium *e);
 
-/* An equilibrium: values of coordinates, multipliers, and the free parameter [n]. */
+/* An equilibrium by numbers: coordinates, multipliers, and the free parameter [n]. */
 typedef struct {
     size_t n;
     const qdot_expr *symbols;
@@ -78,7 +78,7 @@ typedef struct {
     double *re, *im;
 } qdot_linear_roots;
 
-/* Judge such an equilibrium, and find the roots of its linear motion. */
+/* Judge an equilibrium that is given by numbers, and find the roots of its linear motion. */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_at(const qdot_judge *judge,
                                                     qdot_stability_numbers *numbers,
                                                     const qdot_stability_place *at,
