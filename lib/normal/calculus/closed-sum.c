@@ -1,4 +1,4 @@
-/* closed-sum.c -- sums of very many terms by formula. */
+/* closed-sum.c -- evaluates sums of very many terms by formulas. */
 #include "normal/calculus/closed-sum.h"
 
 #include "base/memory.h"
@@ -65,7 +65,7 @@ sum_of_power(range *r, long p, qdot_expr *value)
     return status;
 }
 
-/* The sum of base^exponent over k, where base is free of k and the exponent linear in k. */
+/* Sum base^exponent over k by the geometric series; base is free of k, the exponent linear in k. */
 static qdot_status
 sum_of_geometric(range *r, qdot_expr base, qdot_expr exponent, qdot_expr *value)
 {
@@ -87,7 +87,7 @@ sum_of_geometric(range *r, qdot_expr base, qdot_expr exponent, qdot_expr *value)
     return qdot_pool_check(pool);
 }
 
-/* The sum of one product: factors free of k, times a power of k, or a power whose exponent contains k. */
+/* Sum one product over k: factors free of k, times a power of k, or a power whose exponent contains k. */
 static qdot_status
 sum_of_product(range *r, qdot_expr e, qdot_expr *value)
 {

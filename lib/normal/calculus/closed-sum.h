@@ -14,7 +14,7 @@
 /* Sums with more terms than this are not added term by term: a formula is needed. */
 enum { QDOT_SUM_TERMS = 1000000 };
 
-/* The sum of the scalar e over k = first..last by a formula. QDOT_EFAILED: no formula is known. */
+/* Find the sum of the scalar e over k = first..last by a formula. QDOT_EFAILED: no formula is known. */
 QDOT_MUST_CHECK qdot_status qdot_closed_sum(qdot_pool *pool, qdot_expr e, qdot_expr k, long first,
                                             long last, qdot_expr *value);
 

@@ -17,9 +17,9 @@
 
 enum { LEAST_EXPONENT = -100000, PASSES = 4 };
 
-/* --- a constant ---------------------------------------------------------------------- */
+/* --- numbers for constants ----------------------------------------------------------- */
 
-/* The value of a constant e in x; exactly 0 where that is proved. */
+/* Evaluate the constant e as x; exactly 0 if that is proved. */
 static qdot_status
 real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
 {
@@ -113,7 +113,7 @@ qdot_decimal(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value, double 
     return status;
 }
 
-/* --- beside symbols ------------------------------------------------------------------ */
+/* --- constants in expressions with symbols ------------------------------------------- */
 
 typedef struct {
     qdot_pool *pool;
@@ -143,7 +143,7 @@ written(const writer *w, qdot_expr e, qdot_expr *value)
     return qdot_decimal(w->pool, e, w->digits, value, &error);
 }
 
-/* The product c e with all its constant factors merged into one number. */
+/* Find the product c e with all its constant factors merged into one number. */
 static qdot_status
 product(const writer *w, qdot_expr c, qdot_expr e, qdot_expr *value)
 {
@@ -204,7 +204,7 @@ node(const writer *w, qdot_expr e, qdot_expr *value)
     }
 }
 
-/* e with every constant subexpression replaced by a decimal. */
+/* Write e with every constant subexpression replaced by a decimal. */
 static qdot_status
 with_decimals(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value)
 {

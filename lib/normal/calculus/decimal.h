@@ -15,7 +15,7 @@
 QDOT_MUST_CHECK qdot_status qdot_decimal(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value,
                                          double *error);
 
-/* e with each maximal constant subexpression as a decimal of `digits` digits. Errors: as qdot_decimal. */
+/* Write e with each maximal constant subexpression as a decimal of `digits` digits. Errors: as qdot_decimal. */
 QDOT_MUST_CHECK qdot_status qdot_decimals_beside_symbols(qdot_pool *pool, qdot_expr e, int digits,
                                                          qdot_expr *value);
 

@@ -49,7 +49,7 @@ typedef struct {
 
 static qdot_status laurent_of(course *x, qdot_expr e, long most, laurent *s);
 
-/* --- answers ------------------------------------------------------------------------ */
+/* --- the terms of the answer -------------------------------------------------------- */
 
 /* Whether the term is a product with a sum that contains one of the expansion variables. */
 static bool
@@ -83,7 +83,7 @@ multiplied_out(const course *x, qdot_expr scalar)
     return nested ? qdot_expand(x->pool, scalar) : scalar;
 }
 
-/* e in the symbols of the series again. */
+/* e with ray = 1 and the original symbols instead of their distances from the expansion point. */
 static qdot_expr
 in_symbols(const course *x, qdot_expr e)
 {
@@ -144,7 +144,7 @@ coefficient_shorten(course *x, qdot_expr *e)
     return qdot_value_kind_check(x->pool, *e);
 }
 
-/* Drop leading coefficients that are 0. */
+/* Drop leading coefficients of a series that are 0. */
 static void
 trim(course *x, laurent *s)
 {
@@ -158,7 +158,7 @@ trim(course *x, laurent *s)
     s->least += (long)zeros;
 }
 
-/* s <- s b, truncated after ray^most. */
+/* Multiply the series s by b, truncated after ray^most. */
 static qdot_status
 multiply(course *x, laurent *s, const laurent *b, long most)
 {
@@ -182,7 +182,8 @@ multiply(course *x, laurent *s, const laurent *b, long most)
     return status;
 }
 
-/* b^q for a series b with b_0 != 0, by Miller's recurrence: k b_0 a_k = sum_j (q j - k + j) b_j a_{k-j}. */
+/* Find b^q for a series b with b_0 != 0, by Miller's recurrence: k b_0 a_k = sum_j (q j - k + j)
+ * b_j a_{k-j}. */
 static qdot_status
 laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
 {
@@ -210,7 +211,7 @@ laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, l
     return QDOT_OK;
 }
 
-/* --- taken apart -------------------------------------------------------------------- */
+/* --- series of subexpressions ------------------------------------------------------- */
 
 /* Whether e contains 0^a, whose value depends on a. */
 static bool
@@ -230,7 +231,7 @@ holds_power_of_zero(const qdot_pool *pool, qdot_expr e)
     return found;
 }
 
-/* The coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN if one of them does not exist. */
+/* Find the coefficients D^k e / k! at symbol = at. QDOT_EDOMAIN if one of them does not exist. */
 static qdot_status
 derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, laurent *s)
 {
@@ -251,7 +252,7 @@ derivatives(course *x, qdot_expr e, qdot_expr symbol, qdot_expr at, long most, l
     return QDOT_OK;
 }
 
-/* The order of the first term of e. */
+/* Find the order of the first term of e that does not vanish. */
 static qdot_status
 find_leading(course *x, qdot_expr e, long *least)
 {
@@ -302,7 +303,7 @@ sum_of(course *x, qdot_expr e, long most, laurent *s)
     return status;
 }
 
-/* base^q up to ray^most, where base begins with ray^first. */
+/* Find the series of base^q up to ray^most, where base begins with ray^first. */
 static qdot_status
 power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent *s)
 {
@@ -391,7 +392,7 @@ as_quotient(qdot_pool *pool, qdot_expr e)
     }
 }
 
-/* f(a + h), h without a term of order 0. */
+/* Find the series of f(a + h), where h has no term of order 0. */
 static qdot_status
 function_of(course *x, qdot_expr e, long most, laurent *s)
 {
@@ -444,7 +445,7 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
-/* The series of e up to ray^most. */
+/* Find the series of e up to the power `most` of the variable. */
 static qdot_status
 laurent_of(course *x, qdot_expr e, long most, laurent *s)
 {
@@ -471,7 +472,7 @@ laurent_of(course *x, qdot_expr e, long most, laurent *s)
     return status;
 }
 
-/* --- the sum ------------------------------------------------------------------------ */
+/* --- the series of an expression ---------------------------------------------------- */
 
 /* Whether all factors that contain `step` have positive integer exponents. */
 static bool

@@ -29,7 +29,7 @@ vanishes(const place *x, qdot_expr e)
 
 /* Whether two of the arguments, which depend on ray, are equal at the point. */
 static bool
-meet(const place *x, qdot_expr e)
+arguments_meet_at(const place *x, qdot_expr e)
 {
     for (uint32_t i = 0; i < qdot_expr_count(x->pool, e); i++)
         for (uint32_t k = 0; k < i; k++)
@@ -56,7 +56,7 @@ qdot_switch_at(qdot_pool *pool, qdot_fun_id id, qdot_expr there, const qdot_fact
 
 /* Whether floor(e) jumps at the point because e is an integer there. */
 static bool
-jumps(const place *x, qdot_expr e)
+floor_jumps(const place *x, qdot_expr e)
 {
     const qdot_expr zero = QDOT_ZERO;
     bool whole = is_whole(x->pool, qdot_subs(x->pool, e, 1, &x->ray, &zero));
@@ -72,17 +72,17 @@ node_switches(const place *x, qdot_expr e)
     const qdot_node *node = qdot_expr_node(pool, e);
 
     if (node->kind == QDOT_REL)
-        return meet(x, e);
+        return arguments_meet_at(x, e);
     if (node->kind != QDOT_FUN)
         return false;
     switch ((qdot_fun_id)node->op) {
     case QDOT_ABS:
     case QDOT_SIGN: return vanishes(x, qdot_expr_arg(pool, e, 0));
     case QDOT_MIN:
-    case QDOT_MAX: return meet(x, e);
-    case QDOT_FLOOR: return jumps(x, qdot_expr_arg(pool, e, 0));
+    case QDOT_MAX: return arguments_meet_at(x, e);
+    case QDOT_FLOOR: return floor_jumps(x, qdot_expr_arg(pool, e, 0));
     case QDOT_MOD:
-        return jumps(
+        return floor_jumps(
             x, qdot_div(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1)));
     default: return false;
     }

@@ -88,7 +88,7 @@ by_monomials(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
     return status;
 }
 
-/* --- what is seen at once ---------------------------------------------------------- */
+/* --- factors that are found at once ------------------------------------------------ */
 
 /* Whether p, not divisible by a generator, is irreducible because some generator stands
  * in one term only, with degree 1: c M v + R with no common factor of M and R. */
@@ -309,9 +309,9 @@ qdot_factor_clear(qdot_field *f, qdot_factors *out)
     qdot_free(out->exp);
 }
 
-/* --- groups ------------------------------------------------------------------------ */
+/* --- grouping terms by powers of variables ----------------------------------------- */
 
-/* Where the groups are by their keys: open addressing, -1: free. */
+/* The positions of groups by their keys, as a hash table: open addressing, -1: free. */
 typedef struct {
     slong *at;
     size_t size; /* a power of 2, at least twice the groups */
@@ -388,7 +388,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
                 memcpy(out->key + at * gens, key, (size_t)gens * sizeof *key);
             fmpz_mpoly_init(out->poly + at, f->ctx);
         }
-        /* within a group the terms keep the order that they have in p */
+        /* keep the terms of a group in the order that they have in p */
         fmpz_mpoly_push_term_fmpz_ui(out->poly + at, c, rest, f->ctx);
     }
     fmpz_clear(c);

@@ -30,12 +30,12 @@ typedef struct {
     slong n;
 } qdot_groups;
 
-/* by[gens]: the variables. Groups in the order of their leading terms. */
+/* Group the terms by their exponents in the variables by[gens]; groups are in the order of leading terms. */
 QDOT_MUST_CHECK qdot_status qdot_factor_group(qdot_field *f, qdot_groups *out,
                                               const fmpz_mpoly_t p, const bool *by);
 void qdot_factor_ungroup(qdot_field *f, qdot_groups *out);
 
-/* r = p with c^2 replaced by 1 - s^2 (C^2 by 1 + S^2); c: the variable of a cosine. */
+/* Set r to p with c^2 replaced by 1 - s^2 (C^2 by 1 + S^2); c: the variable of a cosine. */
 QDOT_MUST_CHECK qdot_status qdot_factor_flip(qdot_field *f, fmpz_mpoly_t r,
                                              const fmpz_mpoly_t p, slong c);
 #endif

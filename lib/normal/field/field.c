@@ -14,7 +14,7 @@
 #include "normal/field/value.h"
 
 static void
-stop(qdot_field *f, qdot_status status)
+stop_field(qdot_field *f, qdot_status status)
 {
     if (status == QDOT_OK || f->state != QDOT_FIELD_GOES)
         return;
@@ -250,7 +250,7 @@ field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr 
     return QDOT_OK;
 }
 
-/* --- their order, the rules of the trigonometric ones ------------------------------ */
+/* --- order of generators; rules of the trigonometric ones -------------------------- */
 
 /* Write hyperbolic functions in terms of exponentials if both occur. */
 static qdot_status
@@ -301,7 +301,7 @@ add_exponentials(qdot_field *f, struct found *g)
     return QDOT_OK;
 }
 
-/* Roots and absolute values, outer first; sines; cosines; the rest. */
+/* The rank of a generator: roots and absolute values (outer ones first), sines, cosines, the rest. */
 static int
 generator_rank(qdot_gen_kind kind)
 {
@@ -377,7 +377,7 @@ make_rules(qdot_field *f)
     return QDOT_OK;
 }
 
-/* The bases of a lattice, charged as elimination costs. */
+/* Find the bases of a lattice; the work is charged to the budget. */
 static qdot_status
 solve_lattice(qdot_field *f, qdot_lattice *l)
 {
@@ -444,7 +444,7 @@ qdot_field_begin(qdot_field *f, qdot_pool *pool, size_t n, const qdot_expr *e,
         status = field_settle_generators(f, &g);
     if (status == QDOT_OK)
         status = qdot_value_all(f);
-    stop(f, status);
+    stop_field(f, status);
     qdot_free(g.at);
     qdot_free(g.stack);
     qdot_map_clear(&g.known);

@@ -29,7 +29,7 @@ static _Thread_local struct {
     size_t cached;      /* bytes of `library` when the computation began */
 } guard;
 
-/* --- memory functions -------------------------------------------------------------------- */
+/* --- memory functions for FLINT and GMP -------------------------------------------------- */
 
 static __attribute__((noreturn)) void
 flint_leave(qdot_status why)
@@ -54,7 +54,7 @@ flint_check_budget(size_t size)
 
 /* Return the allocated block; NULL abandons the computation, or aborts a thread without one. */
 static void *
-given(void *block)
+block_or_abandon(void *block)
 {
     if (block != NULL)
         return block;
@@ -69,12 +69,12 @@ guarded_malloc(size_t size)
     void *block;
 
     if (!guard.on)
-        return given(malloc(size));
+        return block_or_abandon(malloc(size));
     flint_check_budget(size);
     qdot_scope_now = &guard.library;
     block = qdot_malloc(size);
     qdot_scope_now = &guard.own;
-    return given(block);
+    return block_or_abandon(block);
 }
 
 static void *
@@ -83,24 +83,24 @@ take_clear(size_t count, size_t size)
     void *block;
 
     if (!guard.on)
-        return given(calloc(count, size));
+        return block_or_abandon(calloc(count, size));
     flint_check_budget(count * size);
     qdot_scope_now = &guard.library;
     block = qdot_calloc(count, size);
     qdot_scope_now = &guard.own;
-    return given(block);
+    return block_or_abandon(block);
 }
 
 static void *
 guarded_realloc(void *block, size_t size)
 {
     if (!guard.on)
-        return given(realloc(block, size));
+        return block_or_abandon(realloc(block, size));
     flint_check_budget(size);
     qdot_scope_now = &guard.library;
     block = qdot_realloc(block, size);
     qdot_scope_now = &guard.own;
-    return given(block);
+    return block_or_abandon(block);
 }
 
 static void
@@ -161,7 +161,7 @@ give_back_aligned(void *block)
 
 #endif
 
-/* --- the functions in their places --------------------------------------------------------- */
+/* --- installing the memory functions ------------------------------------------------------- */
 
 static struct {
     pthread_mutex_t lock;

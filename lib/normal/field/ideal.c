@@ -23,7 +23,7 @@ never_zero(qdot_field *f, const fmpz_mpoly_t p, bool generic)
            (generic && !(node->holds & ~(uint32_t)QDOT_HAS_PARAM));
 }
 
-/* p without powers and without factors that never vanish; if nothing is left p stays. */
+/* Remove from p powers and factors that never vanish; if nothing is left p stays as it is. */
 static qdot_status
 polynomial_strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
 {

@@ -15,7 +15,7 @@ typedef struct {
     bool generic; /* no relation binds parameters alone */
 } qdot_ideal;
 
-/* The ideal of relation[n] (numerators of their values in f) and of f's rules. */
+/* Make the ideal of relation[n] (numerators of their values in f) and of f's rules. */
 QDOT_MUST_CHECK qdot_status qdot_ideal_make(qdot_ideal *ideal, qdot_field *f, size_t n,
                                             const qdot_expr *relation);
 void qdot_ideal_clear(qdot_ideal *ideal, qdot_field *f);

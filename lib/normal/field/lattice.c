@@ -1,4 +1,4 @@
-/* lattice.c -- the directions of arguments, their rank, a basis of each. */
+/* lattice.c -- finds the directions of arguments of functions, their rank, and a basis for each direction. */
 #include "normal/field/lattice.h"
 
 #include <flint/fmpq_mat.h>
@@ -53,7 +53,7 @@ lattice_add_term(qdot_lattice *l, qdot_lattice_row *row, qdot_expr mono, const f
     return QDOT_OK;
 }
 
-/* e = c * rest, rest without a coefficient. */
+/* Write e = c * rest with a rational c, where the rest has no coefficient. */
 static qdot_expr
 unscale(qdot_pool *pool, qdot_expr e, fmpq_t c)
 {
@@ -137,7 +137,7 @@ qdot_lattice_add(qdot_lattice *l, qdot_pool *pool, qdot_expr arg, bool offsets,
     return parse(l, pool, row, arg, offsets);
 }
 
-/* g = the positive generator of gZ + cZ. */
+/* Set g to the greatest common divisor of the rationals g and c. */
 static void
 gcd(fmpq_t g, const fmpq_t c)
 {
@@ -225,7 +225,7 @@ sort_terms(qdot_lattice_row *row)
 /* Whether directions are independent; multiples of pi are ignored beside symbols: x and x + pi/5
  * belong together. */
 static bool
-independent(const qdot_lattice *l, size_t n, const struct direction *d)
+are_independent(const qdot_lattice *l, size_t n, const struct direction *d)
 {
     size_t alone = 0;
     fmpq_mat_t m;
@@ -334,7 +334,7 @@ qdot_lattice_solve(qdot_lattice *l, qdot_pool *pool)
         }
     }
     if (status == QDOT_OK)
-        status = independent(l, n, d) ? take_directions(l, pool, n, d)
+        status = are_independent(l, n, d) ? take_directions(l, pool, n, d)
                                       : take_monomials(l, pool);
     for (size_t i = 0; i < n; i++)
         fmpq_clear(&d[i].unit);

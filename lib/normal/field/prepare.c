@@ -79,7 +79,7 @@ qdot_prepare_flat(qdot_pool *pool, qdot_expr e, int64_t work)
     return flat;
 }
 
-/* The terms of p times c, each by itself. */
+/* The terms of the polynomial p times c, as separate expressions. */
 static qdot_expr
 term_by_term(qdot_field *f, const fmpz_mpoly_t p, qdot_expr c)
 {
@@ -95,7 +95,7 @@ term_by_term(qdot_field *f, const fmpz_mpoly_t p, qdot_expr c)
     return sum;
 }
 
-/* n/d as q + r/d, where no term of r is divisible by the leading term of d; d is irreducible. */
+/* Write n/d as q + r/d, where no term of r is divisible by the leading term of d; d is irreducible. */
 static qdot_expr
 whole_and_rest(qdot_field *f, const qdot_ratio *x)
 {
@@ -150,7 +150,7 @@ flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
     return sum;
 }
 
-/* --- inverse functions under their functions --------------------------------------- */
+/* --- functions of inverse functions ------------------------------------------------ */
 
 static qdot_expr
 one_plus(qdot_pool *pool, qdot_expr u, long sign)
@@ -345,7 +345,7 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
     }
 }
 
-/* exp(c log(u) + ...) = u^c exp(...). */
+/* Rewrite exp(c log(u) + rest) as u^c exp(rest). */
 static qdot_expr
 prepare_exponential(qdot_pool *pool, qdot_expr arg)
 {
@@ -368,7 +368,7 @@ prepare_exponential(qdot_pool *pool, qdot_expr arg)
     return qdot_mul(pool, product, qdot_fun1(pool, QDOT_EXP, left));
 }
 
-/* --- the pass ---------------------------------------------------------------------- */
+/* --- preparing all nodes ----------------------------------------------------------- */
 
 static qdot_expr
 prepare_function(qdot_pool *pool, qdot_expr e, int64_t work)

@@ -1,4 +1,5 @@
-/* ratio.c -- arithmetic in a field: FLINT called within the budget, reduction by the rules, quotients. */
+/* ratio.c -- calculates with quotients in a field: calls FLINT within a budget and applies the
+ * field's rules. */
 #include "normal/field/ratio.h"
 
 #include "base/interrupt.h"
@@ -77,7 +78,7 @@ qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_m
         fmpz_mpoly_one(g, f->ctx);
 }
 
-/* --- quotients --------------------------------------------------------------------- */
+/* --- arithmetic of quotients ------------------------------------------------------- */
 
 void
 qdot_ratio_init(qdot_field *f, qdot_ratio *r)
@@ -101,7 +102,7 @@ qdot_ratio_set(qdot_field *f, qdot_ratio *r, const qdot_ratio *a)
     fmpz_mpoly_set(r->d, a->d, f->ctx);
 }
 
-/* Whether the denominator turned out to be zero. */
+/* Whether the denominator of a quotient turned out to be zero. */
 static void
 look_at_denominator(qdot_field *f, qdot_ratio *r)
 {
@@ -212,7 +213,7 @@ poly_pow(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, slong n)
         fmpz_mpoly_set(r, a, f->ctx);
         return;
     }
-    /* 2^n has n bits: the budget counts terms, so numbers are limited here */
+    /* 2^n has n bits, and the budget counts only terms: numbers need a limit of their own */
     if (n > 100000) {
         if (f->state == QDOT_FIELD_GOES && !fmpz_mpoly_is_one(a, f->ctx))
             f->state = QDOT_FIELD_OVER;

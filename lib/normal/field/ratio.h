@@ -31,7 +31,7 @@ typedef struct {
     uint32_t pair;  /* SIN <-> COS, SINH <-> COSH: the other one's variable */
 } qdot_gen;
 
-/* A quotient n/d of polynomials, d not zero. */
+/* A quotient n/d of polynomials; d is not zero. */
 typedef struct {
     fmpz_mpoly_t n, d;
 } qdot_ratio;
@@ -76,7 +76,7 @@ slong qdot_field_var(const qdot_field *f, qdot_expr e);
 /* The rewriting rule for a power of that variable; NULL if there is none. */
 qdot_rule *qdot_field_rule(const qdot_field *f, slong v);
 
-/* p = c primitive, p not 0; positive: make the leading coefficient of `primitive`, which may be p, positive. */
+/* Split p = c primitive with an integer c, p not 0; positive: the leading coefficient of `primitive` is > 0. */
 void qdot_field_primitive(qdot_field *f, fmpz_t c, fmpz_mpoly_t primitive, const fmpz_mpoly_t p,
                           bool positive);
 
@@ -85,10 +85,10 @@ bool qdot_field_charge(qdot_field *f, slong a, slong b);
 
 /* Reduce p modulo the rules of the field. */
 void qdot_field_reduce(qdot_field *f, fmpz_mpoly_t p);
-/* a = b c, reduced by the rules. */
+/* Set a = b c, reduced by the rules. */
 void qdot_field_mul(qdot_field *f, fmpz_mpoly_t a, const fmpz_mpoly_t b,
                     const fmpz_mpoly_t c);
-/* g = gcd(a, b), or 1 if that would cost too much. */
+/* Set g = gcd(a, b), or 1 if that would cost too much. */
 void qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a,
                     const fmpz_mpoly_t b);
 
@@ -101,18 +101,18 @@ void qdot_ratio_sub(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
                     const qdot_ratio *b);
 void qdot_ratio_mul(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
                     const qdot_ratio *b);
-/* a / b; b zero: QDOT_FIELD_UNDEFINED. */
+/* Set r to a/b; if b is zero the field gets the status QDOT_FIELD_UNDEFINED. */
 void qdot_ratio_div(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,
                     const qdot_ratio *b);
 void qdot_ratio_pow(qdot_field *f, qdot_ratio *r, const qdot_ratio *a, slong n);
 void qdot_ratio_scale(qdot_field *f, qdot_ratio *r, const fmpq_t c);
-/* Common factors out, the denominator's leading coefficient positive. */
+/* Cancel common factors, and make the leading coefficient of the denominator positive. */
 void qdot_ratio_cancel(qdot_field *f, qdot_ratio *r);
 /* r = k r', with primitive numerator and denominator of r' and a positive leading coefficient
  * below; r becomes r'. */
 void qdot_ratio_content(qdot_field *f, fmpq_t k, qdot_ratio *r);
 
-/* The polynomial p, or the quotient r, as an expanded expression. */
+/* The polynomial p (_ratio_expr: the quotient r) as an expanded expression. */
 qdot_expr qdot_field_expr(qdot_field *f, const fmpz_mpoly_t p);
 qdot_expr qdot_field_ratio_expr(qdot_field *f, const qdot_ratio *r);
 

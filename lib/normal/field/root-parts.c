@@ -42,7 +42,7 @@ qdot_root_parts_many(qdot_pool *pool, qdot_expr e)
     return n == QDOT_ROOTS_MANY;
 }
 
-/* b^(e - floor(e)) of every moving base in a product, multiplied. */
+/* The product of roots in a term: b^(e - floor(e)) for every factor b^e whose base contains variables. */
 static qdot_expr
 term_roots(qdot_pool *pool, qdot_expr term)
 {

@@ -13,7 +13,7 @@
 
 #define WORK 400000
 
-/* c * prod base^m * rest, where b >= 0 implies every base >= 0 and rest >= 0; c > 0. */
+/* A product c * prod base^m * rest with c > 0, where b >= 0 implies that every base and the rest are >= 0. */
 struct parts {
     fmpq_t c;
     struct {
@@ -49,7 +49,7 @@ parts_add(struct parts *p, qdot_expr base, long m)
     return QDOT_OK;
 }
 
-/* The form of p with the fewest terms among s^2 for 1 - c^2 and c^2 for 1 - s^2. */
+/* Choose the form of p with the fewest terms: as it is, with 1 - c^2 for s^2, or with 1 - s^2 for c^2. */
 static qdot_status
 polynomial_shorten(qdot_field *f, fmpz_mpoly_t p)
 {
@@ -159,7 +159,7 @@ split_base(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
         u.base[0] = qdot_neg(pool, u.base[0]);
     if (u.n == 1)
         return parts_add(p, u.base[0], u.m[0]);
-    /* f^m = |f|^(m - 1) f */
+    /* use f^m = |f|^(m - 1) f for odd m */
     for (size_t i = 0; i < u.n && status == QDOT_OK; i++) {
         if (u.m[i] != 1)
             status = parts_add(p, qdot_fun1(pool, QDOT_ABS, u.base[i]), u.m[i] - 1);
@@ -211,7 +211,7 @@ qdot_split_abs(qdot_pool *pool, qdot_expr b)
     return e;
 }
 
-/* log of an integer as a sum over its prime factors. */
+/* The logarithm of an integer as a sum over its prime factors. */
 static qdot_expr
 log_of_integer(qdot_pool *pool, const fmpz_t n)
 {

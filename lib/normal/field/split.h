@@ -5,9 +5,9 @@
 
 #include "expr/id.h"
 
-/* b^x, for a prepared base b and a rational x that is not an integer. */
+/* The power b^x, for a prepared base b and a rational x that is not an integer. */
 qdot_expr qdot_split_power(qdot_pool *pool, qdot_expr b, qdot_expr x);
-/* |b|, log b for a prepared b. */
+/* |b|, or log b, for a prepared base b. */
 qdot_expr qdot_split_abs(qdot_pool *pool, qdot_expr b);
 qdot_expr qdot_split_log(qdot_pool *pool, qdot_expr b);
 

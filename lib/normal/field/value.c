@@ -24,7 +24,7 @@ value_of_generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
     fmpz_mpoly_gen(r->n, v, f->ctx);
 }
 
-/* --- sums -------------------------------------------------------------------------- */
+/* --- values of sums ---------------------------------------------------------------- */
 
 /* Add p[n] pairwise, at the cost n log n; the sum is p[0]. */
 static void
@@ -128,7 +128,7 @@ value_of_sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
     return QDOT_OK;
 }
 
-/* --- products ---------------------------------------------------------------------- */
+/* --- values of products and powers ------------------------------------------------- */
 
 /* r = g^k, g the root at v; a negative power is made free of roots below the line by
  * the rule. */
@@ -145,7 +145,7 @@ power_of_root(qdot_field *f, qdot_ratio *r, slong v, slong k)
     if (rule == NULL || up == 0) {
         qdot_ratio_pow(f, r, &base, k);
     } else {
-        /* g^k = g^(k + up q) / b^up, b = g^q - rule */
+        /* use g^k = g^(k + up q) / b^up, where b = g^q by the rule */
         fmpz_mpoly_pow_ui(lift.n, base.n, (ulong)q, f->ctx);
         fmpz_mpoly_sub(lift.n, lift.n, rule->poly, f->ctx);
         qdot_ratio_pow(f, &lift, &lift, -up);
@@ -169,7 +169,7 @@ find_root_generator(qdot_field *f, qdot_expr base)
     return -1;
 }
 
-/* r = base^(p/q); an integer base is split into primes. */
+/* Set r = base^(p/q); an integer base is split into primes. */
 static void
 fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
 {
@@ -238,7 +238,7 @@ value_of_product(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* --- functions of angles ----------------------------------------------------------- */
 
-/* c = T_n(x), s = y U_{n-1}(x), n >= 0: cos(n b) and sin(n b), or the hyperbolic functions. */
+/* Set c = T_n(x), s = y U_{n-1}(x), n >= 0: cos(n b) and sin(n b), or the hyperbolic functions. */
 static void
 multiple(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong vc, slong n)
 {
@@ -319,7 +319,7 @@ static const signed char twelfth[7][4] = {{4, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 2, 
                                           {0, 2, 0, 0}, {2, 0, 0, 0}, {0, -1, 0, 1},
                                           {0, 0, 0, 0}};
 
-/* p = 4 cos(k pi/12). */
+/* Set p = 4 cos(k pi/12). */
 static void
 four_cos(qdot_field *f, fmpz_mpoly_t p, slong k)
 {
@@ -342,7 +342,7 @@ four_cos(qdot_field *f, fmpz_mpoly_t p, slong k)
         if (row[1 + i] != 0 || row[3] != 0) {
             slong v = find_root_generator(f, qdot_expr_int(f->pool, i + 2));
 
-            /* the order is a multiple of 2 */
+            /* here the order is a multiple of 2 */
             fmpz_mpoly_gen(root[i], v, f->ctx);
             fmpz_mpoly_pow_ui(root[i], root[i], f->gen[v].order / 2, f->ctx);
         }
@@ -356,9 +356,9 @@ four_cos(qdot_field *f, fmpz_mpoly_t p, slong k)
         fmpz_mpoly_neg(p, p, f->ctx);
 }
 
-/* Add the multiple of pi of an angle to its (s, c), which get the denominator 4. */
+/* Add the multiple of pi that an angle contains to its sine s and cosine c, which get the denominator 4. */
 static void
-offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
+add_pi_offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
 {
     fmpz_mpoly_t s1, c1;
     slong k;
@@ -394,7 +394,7 @@ sine_of(const qdot_field *f, qdot_expr base, qdot_gen_kind kind)
     return -1;
 }
 
-/* sin and cos (or sinh and cosh) of an argument. */
+/* Find sin and cos (or sinh and cosh) of an argument. */
 static void
 sine_cosine(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg, bool circular)
 {
@@ -409,7 +409,7 @@ sine_cosine(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg, bool cir
                        sine_of(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH),
                        row->at[j], circular ? -1 : 1);
     if (circular && !fmpq_is_zero(&row->pi)) {
-        offset(f, s->n, c->n, &row->pi);
+        add_pi_offset(f, s->n, c->n, &row->pi);
         fmpz_mpoly_set_si(s->d, 4, f->ctx);
         fmpz_mpoly_set_si(c->d, 4, f->ctx);
         qdot_ratio_cancel(f, s);
@@ -436,7 +436,7 @@ value_of_exponential(qdot_field *f, qdot_ratio *r, qdot_expr arg)
     }
 }
 
-/* sinh = (E - 1/E)/2, cosh = (E + 1/E)/2. */
+/* Express sinh and cosh by the exponential E: sinh = (E - 1/E)/2, cosh = (E + 1/E)/2. */
 static void
 by_exponential(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg)
 {
@@ -496,7 +496,7 @@ value_of_function(qdot_field *f, qdot_ratio *r, qdot_expr e)
     qdot_ratio_clear(f, &one);
 }
 
-/* --- all --------------------------------------------------------------------------- */
+/* --- values of all nodes ----------------------------------------------------------- */
 
 /* Complete the rule of every root and absolute value whose base is e; none if the base contains 1/e. */
 static void

@@ -16,9 +16,9 @@ scaled_by(qdot_pool *pool, const fmpq_t c, qdot_expr e)
     return qdot_mul(pool, qdot_expr_fmpq(pool, c), e);
 }
 
-/* The greatest common divisor of the coefficients. */
+/* Set g to the greatest common divisor of the coefficients. */
 static void
-common(qdot_field *f, fmpz_mpoly_t g, const qdot_groups *groups)
+common_divisor_of_groups(qdot_field *f, fmpz_mpoly_t g, const qdot_groups *groups)
 {
     fmpz_mpoly_set(g, groups->poly, f->ctx);
     for (slong i = 1; i < groups->n && !fmpz_mpoly_is_fmpz(g, f->ctx); i++)
@@ -150,7 +150,7 @@ factor_holds_time(const qdot_form *form, const fmpz_mpoly_t g)
     return false;
 }
 
-/* Of first degree in velocities: m*(x*y' - y*x' + w*x). */
+/* Whether the expression is of first degree in velocities, as m*(x*y' - y*x' + w*x) is. */
 static bool
 is_linear_in_velocities(const qdot_form *form, const qdot_groups *groups)
 {
@@ -404,7 +404,7 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
                 pool, &best,
                 scaled_by(pool, c, say_collected(form, &groups, unit, one, false)));
         qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, true));
-        common(f, g, &groups);
+        common_divisor_of_groups(f, g, &groups);
         out = qdot_form_coefficient(form, g);
         for (int merged = 0; merged < 2 && goes_out_whole(form, g, &groups); merged++) {
             qdot_expr inner = say_collected(form, &groups, g, one, merged);

@@ -14,7 +14,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* The exponent of b in a term; nil: none. */
+/* The exponent of b in a term; nil if b is no factor. */
 static qdot_expr
 exponent_in(const qdot_pool *pool, qdot_expr term, qdot_expr b)
 {
@@ -66,7 +66,7 @@ shared_number(qdot_pool *pool, qdot_expr sum)
 /* The shared factors of a SUM; 1: none. A factor that is in all, but not alike, leaves the sum as
  * it is: L1 stays in (m1 + m2)*L1^2*x'' + m2*L1*L2*y'', and m2 with it. */
 static qdot_expr
-shared(qdot_pool *pool, qdot_expr sum)
+factors_shared(qdot_pool *pool, qdot_expr sum)
 {
     qdot_expr term = qdot_expr_arg(pool, sum, 1), number = shared_number(pool, sum);
     bool product = qdot_expr_kind(pool, term) == QDOT_PROD, alike;
@@ -97,7 +97,7 @@ of_sum(qdot_pool *pool, qdot_expr sum)
 
     if (qdot_expr_arg(pool, sum, 0) != QDOT_ZERO || qdot_expr_count(pool, sum) < 5)
         return sum;
-    c = shared(pool, sum);
+    c = factors_shared(pool, sum);
     if (c == QDOT_ONE || c == QDOT_NIL)
         return sum;
     for (uint32_t i = 1; i < qdot_expr_count(pool, sum); i += 2)
@@ -125,7 +125,7 @@ sole_sum(const qdot_pool *pool, qdot_expr product)
     return at;
 }
 
-/* 1/4 m (2 x'^2 + R^2 y'^2) is 1/2 m x'^2 + 1/4 m R^2 y'^2. */
+/* Undo a fraction in front of a sum: 1/4 m (2 x'^2 + R^2 y'^2) becomes 1/2 m x'^2 + 1/4 m R^2 y'^2. */
 static qdot_expr
 without_fraction(qdot_pool *pool, qdot_expr product, qdot_expr sum)
 {

@@ -15,7 +15,7 @@
 
 enum { MOST_PARTS = 40, MOST_TURNS = 4 };
 
-/* k n/d times a monomial; n, d primitive. */
+/* One part of a sum: k n/d times a monomial, with primitive polynomials n and d. */
 struct part {
     qdot_ratio r;
     fmpq_t k;
@@ -153,7 +153,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
     return e;
 }
 
-/* All fractions with the same denominator as number i, as one quotient. */
+/* Write all fractions that have the same denominator as fraction i as one quotient. */
 static qdot_expr
 say_group(struct parts *p, slong i)
 {
@@ -247,7 +247,7 @@ say_part(struct parts *p, struct part *one, unsigned which)
     one->said = false;
 }
 
-/* The factors besides the sums in fraction i, with like terms merged. */
+/* Write the factors of fraction i other than the sums, with like terms merged. */
 static qdot_expr
 say_beside(struct parts *p, slong i)
 {

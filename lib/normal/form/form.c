@@ -104,7 +104,7 @@ take_content(qdot_field *f, fmpz_mpoly_t rest, fmpz_t c, const fmpz_mpoly_t p)
     return e;
 }
 
-/* --- without trigonometric variables: common powers out ---------------------------- */
+/* --- polynomials without trigonometric variables: common powers factored out ------- */
 
 /* What taking out a power of each variable saves; the power in power[]. The one that saves most; -1:
  * there is none. */
@@ -137,7 +137,7 @@ best_power(qdot_field *f, const fmpz_mpoly_t p, ulong *power, slong *saved)
     return best;
 }
 
-/* q = the terms of p divisible by v^power, divided by it; r = the other terms. */
+/* Split p: q = the terms divisible by v^power, divided by it; r = the other terms. */
 static void
 part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong v,
      ulong power)
@@ -162,7 +162,7 @@ part(qdot_field *f, fmpz_mpoly_t q, fmpz_mpoly_t r, const fmpz_mpoly_t p, slong 
     fmpz_mpoly_clear(x, f->ctx);
 }
 
-/* `rest` with v^power factored out of its terms; kept if it is the shortest form. */
+/* Factor v^power out of the terms of `rest`; keep the result if it is the shortest form. */
 static void
 keep_collected(qdot_form *form, const fmpz_mpoly_t rest, slong v, ulong power,
                qdot_expr factor, qdot_expr plain, qdot_expr *best)
@@ -324,7 +324,7 @@ plain_product(qdot_form *form, const qdot_factors *factors)
     return product;
 }
 
-/* A polynomial without fast and trigonometric variables. */
+/* The shortest form of a polynomial without trigonometric variables and without velocities. */
 qdot_expr
 qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
 {
@@ -357,9 +357,9 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
     return qdot_form_remember(form, p, best);
 }
 
-/* --- with trigonometric variables: sum of (coefficient) * (trigonometric part) ----- */
+/* --- polynomials with trigonometric variables: sum of (coefficient) * (trigonometric part) --- */
 
-/* coefficient * trigonometric factor; integers are moved to where they shorten it (2 sin a cos a). */
+/* Write coefficient * trigonometric factor; integers are moved to where they shorten it (2 sin a cos a). */
 static qdot_expr
 say_item(qdot_form *form, const fmpz_mpoly_t coefficient, const fmpz_mpoly_t trig)
 {
@@ -451,7 +451,7 @@ qdot_form_has_trig(const qdot_form *form, const fmpz_mpoly_t p)
     return false;
 }
 
-/* The polynomial p as a sum. */
+/* Write the polynomial p as a sum. */
 static qdot_expr
 say_sum(qdot_form *form, const fmpz_mpoly_t p)
 {

@@ -23,7 +23,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_form_begin(qdot_form *form, qdot_field *f);
 void qdot_form_end(qdot_form *form);
 
-/* c times a polynomial: collected in velocities and accelerations, or as a product. */
+/* Write c times a polynomial: collected in velocities and accelerations, or as a product. */
 qdot_expr qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c);
 
 /* Compare the forms of a quotient with *best, and keep the shortest (quotient.c). */
@@ -35,7 +35,7 @@ void qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *
 void qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c,
                          qdot_expr *best);
 
-/* The coefficient of a monomial in velocities: no fast variable in p. */
+/* Write the coefficient of a monomial in velocities; p contains no velocities or accelerations. */
 qdot_expr qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p);
 
 /* The shortest form of a polynomial without trigonometric variables. */
@@ -62,7 +62,7 @@ qdot_expr qdot_form_remember(qdot_form *form, const fmpz_mpoly_t p, qdot_expr e)
 /* Replace *best (nil: none yet) by e if e is smaller. */
 void qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e);
 
-/* c * monomial, or a product of factors with exponents. */
+/* Write c * monomial, or a product of factors with exponents. */
 qdot_expr qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp);
 
 #endif

@@ -1,4 +1,4 @@
-/* items.c -- adds the values of equal keys. */
+/* items.c -- sums of key * value, in which the values of equal keys are added. */
 #include "normal/form/items.h"
 
 #include "base/memory.h"

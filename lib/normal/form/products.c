@@ -10,7 +10,7 @@
 #include "expr/walk.h"
 #include "normal/form/common.h"
 
-/* In a product sin(a)^m cos(a)^-n is tan(a)^min(m, n) ..., likewise cot and tanh. */
+/* Write sin(a)^m cos(a)^-n in a product as tan(a)^min(m, n) ..., likewise cot and tanh. */
 static qdot_expr
 tangents(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -66,7 +66,7 @@ all_negative(const qdot_pool *pool, qdot_expr sum)
     return all;
 }
 
-/* (-a - b)*c is -(a + b)*c. */
+/* Write (-a - b)*c as -(a + b)*c. */
 static qdot_expr
 signs_in_front(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -165,7 +165,7 @@ qdot_products_signs(qdot_pool *pool, qdot_expr e)
     return qdot_walk_replace(pool, e, QDOT_PROD, signs_in_front, NULL);
 }
 
-/* sin(2 a) as 2 sin(a) cos(a). */
+/* Write sin(2 a) as 2 sin(a) cos(a). */
 static qdot_expr
 halved(qdot_pool *pool, qdot_expr e, void *user)
 {

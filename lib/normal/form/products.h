@@ -4,10 +4,10 @@
 
 #include "expr/id.h"
 
-/* sin(a)^m cos(a)^-n as tan(a)^k ..., likewise cot and tanh. Equal to e; nil as the pool failed. */
+/* e with sin(a)^m cos(a)^-n as tan(a)^k ..., likewise cot and tanh; nil if the pool failed. */
 qdot_expr qdot_products_tangents(qdot_pool *pool, qdot_expr e);
 
-/* (-a - b)*c as -(a + b)*c. */
+/* e with products such as (-a - b)*c as -(a + b)*c. */
 qdot_expr qdot_products_signs(qdot_pool *pool, qdot_expr e);
 
 /* sin(2 a) as 2 sin(a) cos(a), then common factors in front (common.c), a function to its least

@@ -17,9 +17,9 @@ struct saying {
     qdot_expr *best;
 };
 
-/* Each term over a monomial denominator by itself. */
+/* Write each term over the monomial denominator separately. */
 static qdot_expr
-spread(struct saying *s, const qdot_ratio *r, const fmpq_t c)
+write_each_term(struct saying *s, const qdot_ratio *r, const fmpq_t c)
 {
     qdot_expr over =
         qdot_div(s->pool, qdot_expr_fmpq(s->pool, c), qdot_field_expr(s->f, r->d));
@@ -136,7 +136,7 @@ comes_apart(const qdot_form *form, const qdot_ratio *r)
     return apart;
 }
 
-/* The denominator as the shorter one of d and -d; if equal the one without a leading minus. */
+/* Write the denominator d as the shorter of d and -d; if they are equal, without a leading minus. */
 static qdot_expr
 say_below(struct saying *s, qdot_ratio *r, fmpq_t c)
 {
@@ -215,7 +215,7 @@ qdot_form_say_quotient(qdot_form *form, const qdot_ratio *from, qdot_expr *best)
             qdot_form_keep(s->pool, s->best, qdot_products_tangents(s->pool, e));
         if (fmpz_mpoly_length(r.d, f->ctx) == 1 &&
             fmpz_mpoly_length(r.n, f->ctx) <= MOST_SPREAD)
-            qdot_form_keep(s->pool, s->best, spread(s, &r, c));
+            qdot_form_keep(s->pool, s->best, write_each_term(s, &r, c));
         if (apart && fmpz_mpoly_length(r.n, f->ctx) > 1)
             qdot_form_keep(s->pool, s->best, spread_alike(s, &r, c));
         qdot_form_say_apart(form, &r, c, s->best);

@@ -25,7 +25,7 @@
 enum { MOST_TERMS = 2000, MOST_TURNS = 4 };
 
 
-/* --- candidates -------------------------------------------------------------------- */
+/* --- candidates for the shortest form ---------------------------------------------- */
 
 struct simplifier {
     qdot_pool *pool;
@@ -146,7 +146,7 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
     }
 }
 
-/* --- functions and bases as they were before, where that is shorter ---------------- */
+/* --- functions and bases in their original form, where that is shorter ------------- */
 
 struct origins {
     qdot_map map;
@@ -190,7 +190,7 @@ as_one_root(qdot_pool *pool, const qdot_map *map, qdot_expr e, qdot_expr x, uint
 
 /* Rejoin roots of sums that were split: all with the same exponent, or two of them. */
 static qdot_expr
-together(qdot_pool *pool, const qdot_map *map, qdot_expr e)
+rejoin_roots(qdot_pool *pool, const qdot_map *map, qdot_expr e)
 {
     uint32_t n = (qdot_expr_count(pool, e) - 1) / 2;
 
@@ -224,7 +224,7 @@ roots_together(qdot_pool *pool, qdot_expr e, void *user)
     enum { TIMES = 4 };
 
     for (int k = 0; k < TIMES && qdot_expr_kind(pool, e) == QDOT_PROD; k++) {
-        qdot_expr one = together(pool, user, e);
+        qdot_expr one = rejoin_roots(pool, user, e);
 
         if (one == QDOT_NIL || one == e)
             break;
@@ -233,7 +233,7 @@ roots_together(qdot_pool *pool, qdot_expr e, void *user)
     return e;
 }
 
-/* --- scalars ----------------------------------------------------------------------- */
+/* --- simplifying a scalar ---------------------------------------------------------- */
 
 /* Clear a failure that occurred while a candidate was made, except out of memory and Ctrl-C. */
 static void
@@ -275,7 +275,7 @@ struct request {
 
 /* The shortest form of e; arguments of functions and bases of roots are not changed. */
 static qdot_expr
-outer(qdot_pool *pool, qdot_expr e, struct request *request)
+shortest_outer(qdot_pool *pool, qdot_expr e, struct request *request)
 {
     const qdot_facts *facts = request->facts;
     size_t nr = facts == NULL ? 0 : facts->n_relations;
@@ -379,7 +379,7 @@ outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
 
     if (qdot_map_get(&request->simplified, e, &before))
         return before;
-    simplest = outer(pool, e, request);
+    simplest = shortest_outer(pool, e, request);
     if (simplest != QDOT_NIL && qdot_map_set(&request->simplified, e, simplest) != QDOT_OK)
         return qdot_pool_fail(pool);
     return simplest;
@@ -404,7 +404,7 @@ inner_one(qdot_pool *pool, qdot_expr e, struct request *request)
 
 /* Simplify long arguments of functions and long bases of roots, inner ones first. */
 static qdot_expr
-inner(qdot_pool *pool, qdot_expr e, struct request *request)
+shorten_arguments(qdot_pool *pool, qdot_expr e, struct request *request)
 {
     qdot_expr result = e;
     qdot_walk w;
@@ -457,8 +457,8 @@ simplify_by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *w
         for (size_t k = 0; k < parts.entries.n && !request->spent; k++)
             sum = qdot_add(pool, sum,
                            *whole ? parts.entries.at[k]
-                                  : inner(pool, outer(pool, parts.entries.at[k], request),
-                                          request));
+                                  : shorten_arguments(pool, shortest_outer(pool, parts.entries.at[k], request),
+                                                      request));
         if (request->spent) /* one part is past the budget: similar ones would be, too */
             sum = e;
         request->spent |= spent;
@@ -483,9 +483,9 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
         return best;
     best = free ? simplify_by_roots(pool, e, user, &whole) : e;
     if (whole)
-        best = outer(pool, best, user);
+        best = shortest_outer(pool, best, user);
     if (best != QDOT_NIL && qdot_expr_is_scalar(pool, best))
-        qdot_form_keep(pool, &best, inner(pool, best, user));
+        qdot_form_keep(pool, &best, shorten_arguments(pool, best, user));
     return best;
 }
 
@@ -527,7 +527,7 @@ qdot_shortest_within(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, int6
     return status == QDOT_OK ? x.result : e;
 }
 
-/* What is kept of a simplification. */
+/* The stored result of a simplification. */
 struct simplified {
     qdot_expr result;
     bool spent;

@@ -10,7 +10,7 @@
 
 enum { MOST_COLLECTED = 16 };
 
-/* a + b + c, parameters. */
+/* Whether e is a sum a + b + c of parameters. */
 static bool
 is_plain_sum(const qdot_pool *pool, qdot_expr e)
 {
@@ -64,7 +64,7 @@ is_simple_product(const qdot_pool *pool, qdot_expr e)
 
 #define FAST (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)
 
-/* sin or cos of a coordinate or of the difference of two. */
+/* Whether e is the sine or cosine of a coordinate or of the difference of two. */
 static bool
 is_angle_function(const qdot_pool *pool, qdot_expr e)
 {

@@ -62,7 +62,7 @@ fits_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
     return good;
 }
 
-/* sqrt(c/g) times the root of the monomial divided by the common monomial. */
+/* The square root of term i divided by what it has in common with `other`: sqrt(c/g) times a monomial. */
 static qdot_expr
 root_of(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
 {
@@ -80,7 +80,7 @@ root_of(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
     return e;
 }
 
-/* g common (a +- b)^2, written with the first of both in front. */
+/* Write the complete square g common (a +- b)^2, with a, the first of both terms, in front. */
 static qdot_expr
 written_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g, ulong *exp)
 {

@@ -30,7 +30,7 @@ is_over(const qdot_pool *pool, qdot_expr e)
 /* What a person would rather not read in e, its sum factors and those of its terms: a minus in
  * front of a sum, a difference, a fraction within a product. */
 static int
-awkward(const qdot_pool *pool, qdot_expr e, bool inner)
+count_awkward(const qdot_pool *pool, qdot_expr e, bool inner)
 {
     uint32_t n = qdot_expr_count(pool, e);
     int count = 0;
@@ -43,7 +43,7 @@ awkward(const qdot_pool *pool, qdot_expr e, bool inner)
                 count += 2 +
                          8 * (qdot_expr_is_negative(pool, b) ||
                               (qdot_expr_node(pool, b)->sign & QDOT_LE0)) +
-                         awkward(pool, b, true);
+                         count_awkward(pool, b, true);
         }
     } else if (qdot_expr_kind(pool, e) == QDOT_SUM) {
         for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) {
@@ -55,7 +55,7 @@ awkward(const qdot_pool *pool, qdot_expr e, bool inner)
                 count += !fmpz_is_one(fmpq_denref(qdot_expr_rational(pool, c))) +
                          (i > 0 && is_over(pool, x));
             if (i > 0 && !inner && qdot_expr_kind(pool, x) == QDOT_PROD)
-                count += awkward(pool, x, true);
+                count += count_awkward(pool, x, true);
         }
     }
     return count;
@@ -71,7 +71,7 @@ qdot_form_keep(qdot_pool *pool, qdot_expr *best, qdot_expr e)
     now = qdot_expr_size(pool, e);
     before = *best == QDOT_NIL ? UINT64_MAX : qdot_expr_size(pool, *best);
     if (now < before || *best == QDOT_NIL ||
-        (now == before && awkward(pool, e, false) < awkward(pool, *best, false)))
+        (now == before && count_awkward(pool, e, false) < count_awkward(pool, *best, false)))
         *best = e;
 }
 
@@ -95,7 +95,7 @@ qdot_form_monomial(qdot_field *f, const fmpq_t c, const ulong *exp)
     return e;
 }
 
-/* --- Fourier: sums of sin and cos of combinations of the angles -------------------- */
+/* --- Fourier series: sums of sin and cos of combinations of the angles ------------- */
 
 struct harmonic {
     int k[MOST_ANGLES];
@@ -374,7 +374,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
     return e;
 }
 
-/* --- Pythagoras either way, as a sum and as a product ------------------------------ */
+/* --- sin^2 + cos^2 = 1 used either way, in sums and products ----------------------- */
 
 static qdot_expr
 by_factors(qdot_form *form, const fmpz_mpoly_t p)
@@ -409,7 +409,7 @@ keep_product(qdot_pool *pool, qdot_expr *best, qdot_expr e)
     if (e != QDOT_NIL && *best != QDOT_NIL && qdot_expr_kind(pool, *best) == QDOT_SUM &&
         qdot_expr_kind(pool, e) == QDOT_PROD &&
         qdot_expr_size(pool, e) == qdot_expr_size(pool, *best) &&
-        awkward(pool, e, false) <= awkward(pool, *best, false))
+        count_awkward(pool, e, false) <= count_awkward(pool, *best, false))
         *best = e;
     qdot_form_keep(pool, best, e);
 }

@@ -48,7 +48,7 @@ typedef struct {
     qdot_expr point;
 } cells;
 
-/* --- polynomials in symbols only ------------------------------------------------------- */
+/* --- cost, levels and lists of polynomials --------------------------------------------- */
 
 static bool
 charge(cells *c, int64_t work)
@@ -116,7 +116,7 @@ polynomials_keep(cells *c, polynomials *list, const fmpz_mpoly_t p)
     }
 }
 
-/* The irreducible factors of p into their levels, and into `also`. */
+/* Add the irreducible factors of p to the polynomials of their levels, and to `also`. */
 static void
 level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
 {
@@ -152,7 +152,7 @@ level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
     fmpz_mpoly_factor_clear(factors, c->f.ctx);
 }
 
-/* p <- its norm over roots and absolute values: a polynomial in the symbols that vanishes wherever p does. */
+/* Replace p by its norm over roots and absolute values: a polynomial in the symbols that is 0 wherever p is. */
 static void
 to_norm(cells *c, fmpz_mpoly_t p)
 {
@@ -228,7 +228,7 @@ level_project(cells *c, slong k)
     fmpz_mpoly_clear(p, c->f.ctx);
 }
 
-/* --- a point ---------------------------------------------------------------------------- */
+/* --- testing a point -------------------------------------------------------------------- */
 
 static bool
 cells_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
@@ -356,9 +356,9 @@ look_here(cells *c)
     return false;
 }
 
-/* --- the points of a level ---------------------------------------------------------------- */
+/* --- sample points of a level ------------------------------------------------------------- */
 
-/* p over the points chosen so far. */
+/* Set r to p as a polynomial in the next symbol, for the values of the symbols chosen so far. */
 static void
 polynomial_over_points(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
 {
@@ -436,7 +436,7 @@ is_outside(cells *c, arb_srcptr root, const fmpz_mpoly_struct *factor)
 
 /* With one symbol: the polynomial that has this zero; NULL if not known. */
 static const fmpz_mpoly_struct *
-owner(cells *c, arb_srcptr root)
+polynomial_with_zero(cells *c, arb_srcptr root)
 {
     const fmpz_mpoly_struct *found = NULL;
     int n = 0;
@@ -461,7 +461,7 @@ owner(cells *c, arb_srcptr root)
 /* Choose values for the symbols from level k on (recursion is bounded by MOST_SYMBOLS). False ends
  * the search. */
 static bool
-lift(cells *c, slong k)
+choose_values_from(cells *c, slong k)
 {
     slong room, n;
     arb_ptr zero;
@@ -482,10 +482,10 @@ lift(cells *c, slong k)
             if (cells_look_around(c) == OUTSIDE)
                 continue;
         }
-        go = lift(c, k + 1);
+        go = choose_values_from(c, k + 1);
         /* an isolated value whose neighbourhood is excluded on both sides */
         if (c->n == 1 && go && i > 0 && !before && !c->inside)
-            c->too_much |= !is_outside(c, zero + i - 1, owner(c, zero + i - 1));
+            c->too_much |= !is_outside(c, zero + i - 1, polynomial_with_zero(c, zero + i - 1));
         before = c->inside;
     }
     if (zero != NULL)
@@ -493,7 +493,7 @@ lift(cells *c, slong k)
     return go && !c->too_much;
 }
 
-/* --- the zeros of e, with one symbol ------------------------------------------------------- */
+/* --- zeros of e, if it has one symbol ------------------------------------------------------ */
 
 /* Whether a zero of a factor of the norm of e lies in the domain and may be a zero of e. */
 static bool
@@ -536,7 +536,7 @@ look_at_zeros(cells *c)
     fmpz_poly_clear(p);
 }
 
-/* --- all ----------------------------------------------------------------------------------- */
+/* --- the search for a counterexample ------------------------------------------------------- */
 
 /* Choose the order of the symbols: those of low degree are projected first. */
 static bool
@@ -641,7 +641,7 @@ cells_search(cells *c, qdot_cells *result)
         add_expression(c, c->all[i], i == 0);
     for (slong k = c->n - 1; k > 0 && !c->too_much; k--)
         level_project(c, k);
-    through = !c->too_much && lift(c, 0);
+    through = !c->too_much && choose_values_from(c, 0);
     if (!c->too_much && !through && c->point != QDOT_NIL)
         *result = QDOT_CELLS_NEGATIVE;
     else if (through && !c->too_much && !c->denied)

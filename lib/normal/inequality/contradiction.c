@@ -21,7 +21,7 @@ is_small_question(const qdot_pool *pool, const qdot_facts *facts)
     return true;
 }
 
-/* *found: left < right (or <=) is proved under `facts`. */
+/* Find whether left < right (or <=) is proved under `facts`: *found. */
 static qdot_status
 less_is_proved(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
                const qdot_facts *facts, bool *found)

@@ -23,7 +23,7 @@ bounds_of_product(uint8_t a, uint8_t b)
 
 /* The sign of a linear function between two ends, if it is the same at both. */
 static uint8_t
-both(uint8_t a, uint8_t b)
+common_sign(uint8_t a, uint8_t b)
 {
     return a & b & (QDOT_GE0 | QDOT_LE0) ? (uint8_t)(a & b) : 0;
 }
@@ -47,11 +47,11 @@ by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
         fmpz_mpoly_derivative(at_other, p, v,
                               f->ctx); /* A itself: its sign, at least as >= */
         sign =
-            both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
+            common_sign(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
     } else {
         fmpz_set_si(end, -1);
         fmpz_mpoly_evaluate_one_fmpz(at_other, p, v, end, f->ctx);
-        sign = both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth));
+        sign = common_sign(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth));
     }
     fmpz_clear(end);
     fmpz_mpoly_clear(at_one, f->ctx);

@@ -1,4 +1,4 @@
-/* half-plane.c -- zeros of characteristic polynomials, exactly or in balls. */
+/* half-plane.c -- finds on which side of the imaginary axis zeros of characteristic polynomials lie. */
 #include "normal/inequality/half-plane.h"
 
 #include <flint/fmpq_poly.h>
@@ -23,7 +23,7 @@ typedef struct {
     qdot_status status;
 } question;
 
-/* --- rationals ---------------------------------------------------------------------------- */
+/* --- rational coefficients ---------------------------------------------------------------- */
 
 static bool
 is_rational(const question *q)
@@ -35,7 +35,7 @@ is_rational(const question *q)
     return true;
 }
 
-/* A multiple of det(M s^2 + G s + H) over Z. */
+/* Find a multiple of det(M s^2 + G s + H), with integer coefficients. */
 static void
 integer_polynomial(const question *q, fmpz_poly_t p)
 {
@@ -64,9 +64,9 @@ integer_polynomial(const question *q, fmpz_poly_t p)
     fmpz_poly_mat_clear(A);
 }
 
-/* f(-s) */
+/* Set r(s) to f(-s). */
 static void
-mirrored(fmpz_poly_t r, const fmpz_poly_t f)
+mirror_argument(fmpz_poly_t r, const fmpz_poly_t f)
 {
     fmpz_poly_set(r, f);
     for (slong k = 1; k < fmpz_poly_length(r); k += 2)
@@ -124,7 +124,7 @@ add_factor(const fmpz_poly_t f, slong times, qdot_half_plane *found)
     fmpz_poly_init(g);
     fmpz_poly_init(h);
     fmpz_poly_init(rest);
-    mirrored(g, f);
+    mirror_argument(g, f);
     fmpz_poly_gcd(g, f, g);
     fmpz_poly_div(rest, f, g);
     zero = fmpz_is_zero(fmpz_poly_get_coeff_ptr(g, 0));
@@ -160,9 +160,9 @@ exactly(question *q)
     fmpz_poly_clear(p);
 }
 
-/* --- other constants ---------------------------------------------------------------------- */
+/* --- other constant coefficients ---------------------------------------------------------- */
 
-/* X [n x n] in balls. */
+/* Enclose the matrix X [n x n] in balls. */
 static bool
 matrix_enclose(const qdot_ball *ball, const qdot_expr *X, arb_mat_t A)
 {
@@ -178,7 +178,7 @@ matrix_enclose(const qdot_ball *ball, const qdot_expr *X, arb_mat_t A)
     return true;
 }
 
-/* p, the characteristic polynomial of y' = ((0, 1), (-M^-1 H, -M^-1 G)) y; with `even` of -M^-1 H. */
+/* Enclose the characteristic polynomial of y' = ((0, 1), (-M^-1 H, -M^-1 G)) y; with `even` that of -M^-1 H. */
 static bool
 enclosed_polynomial(const question *q, const qdot_ball *ball, bool even, arb_poly_t p, slong bits)
 {
@@ -206,7 +206,7 @@ enclosed_polynomial(const question *q, const qdot_ball *ball, bool even, arb_pol
     return fine;
 }
 
-/* p(s) = h(s^2): drop the odd coefficients of p, which contain 0. */
+/* For p(s) = h(s^2): drop the odd coefficients of p, whose balls contain 0. */
 static void
 keep_even(arb_poly_t p)
 {
@@ -230,7 +230,7 @@ is_real_zero(acb_srcptr z)
     return arb_contains_zero(acb_imagref(z));
 }
 
-/* false: more bits may tell more */
+/* Decide from enclosures of the polynomial's zeros; false if undecided, where more bits may help. */
 static bool
 judge_enclosed(arb_poly_t p, bool squares, slong bits, qdot_half_plane *found)
 {

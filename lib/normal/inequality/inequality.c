@@ -25,7 +25,7 @@ enum { MOST_CASES = 64, MOST_SLOPES = 3, MOST_MARGINS = 12, SMALLEST_PART = 128,
 #define WORK 20000
 #define ALL_WORK 30000000
 
-/* --- what is known ---------------------------------------------------------------------- */
+/* --- the facts of a question ------------------------------------------------------------ */
 
 /* Add the declared bounds of all symbols, including symbols in those bounds. */
 static void
@@ -78,7 +78,7 @@ question_begin(qdot_pool *pool, qdot_question *q, qdot_expr e, const qdot_facts 
         declared_bounds(pool, q);
 }
 
-/* --- cases ------------------------------------------------------------------------------ */
+/* --- case distinctions ------------------------------------------------------------------ */
 
 /* The innermost absolute value or if; nil: none. */
 static qdot_expr
@@ -153,7 +153,7 @@ drop_unconnected(qdot_pool *pool, qdot_question *q)
     q->n = kept;
 }
 
-/* --- one question ------------------------------------------------------------------------- */
+/* --- answering one question --------------------------------------------------------------- */
 
 /* Prove e > 0 from e - c m >= 0 for some c > 0 and m > 0; if refuted for a small c it is for every
  * larger one. */
@@ -310,7 +310,7 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
     return status;
 }
 
-/* --- by slopes ------------------------------------------------------------------------------ */
+/* --- by derivatives ------------------------------------------------------------------------- */
 
 /* Whether e is defined and smooth on the whole domain of its only symbol. */
 static bool
@@ -351,7 +351,7 @@ is_smooth(qdot_pool *pool, qdot_expr e)
 static qdot_status prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes,
                                  int64_t *work, bool *proved);
 
-/* e(a) >= 0 (> 0: *above). */
+/* Whether e(a) >= 0 is known; *above: e(a) > 0. */
 static bool
 known_at(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr a, bool *above)
 {
@@ -477,7 +477,7 @@ prove_somehow(qdot_pool *pool, qdot_expr e, bool strict, int slopes, int64_t *wo
     return by_slopes(pool, e, strict, slopes, work, proved);
 }
 
-/* --- all -------------------------------------------------------------------------------------- */
+/* --- the whole decision ----------------------------------------------------------------------- */
 
 /* Conditions, and relations that can be solved, put into the symbols; what is left of them. Slopes
  * too. */

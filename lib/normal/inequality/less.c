@@ -23,12 +23,12 @@
 
 enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200, FEW_TRIES = 8 };
 
-/* --- domains moved to zero, boxes -------------------------------------------------- */
+/* --- shifting domains to zero; boxes ----------------------------------------------- */
 
 /* x = lo + y or hi - y, y >= 0, for every bound that is a number but not zero;
  * expanded. */
 static qdot_expr
-moved(qdot_pool *pool, qdot_expr e)
+shift_to_bounds(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr atoms = qdot_expr_atoms(pool, e, false), result = e;
     uint32_t n = atoms == QDOT_NIL ? 0 : qdot_expr_count(pool, atoms);
@@ -167,7 +167,7 @@ positive_on_box(qdot_pool *pool, qdot_expr e)
     return positive;
 }
 
-/* --- the decision ------------------------------------------------------------------ */
+/* --- deciding left < right --------------------------------------------------------- */
 
 static bool
 enough(uint8_t sign, bool strict)
@@ -212,7 +212,7 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
         return false;
     if (enough(qdot_expr_sign(pool, s), strict) || enough(qdot_sign_by_factors(pool, s), strict))
         return true;
-    d = moved(pool, s);
+    d = shift_to_bounds(pool, s);
     if (d != s &&
         (enough(qdot_expr_sign(pool, d), strict) || enough(qdot_sign_by_factors(pool, d), strict)))
         return true;
@@ -280,7 +280,7 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
     return false;
 }
 
-/* A point where left - right is surely not negative (strict), or surely positive. */
+/* Look for a point where left - right is certainly not negative (strict), or certainly positive. */
 static qdot_status
 refute(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
        const qdot_facts *facts, qdot_decision *d)
@@ -440,7 +440,7 @@ decide_order(void *user)
     x->status = less_decide(x->pool, x->left, x->right, x->strict, x->facts, &x->d);
 }
 
-/* --- questions asked again ---------------------------------------------------------- */
+/* --- questions that were answered before -------------------------------------------- */
 
 /* What is kept of a decision: also whether a simplification on the way stopped at its budget. */
 struct decided {
@@ -492,7 +492,7 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
 }
 
-/* --- |u|, sign u and if where conditions decide them --------------------------------- */
+/* --- |u|, sign u and if, as far as conditions decide them ---------------------------- */
 
 /* The facts without the conditions that hold |u|, sign u or an if: asked about what such a condition says, they would ask
  * about these nodes again, without end or once for every order of them. Conditions are copied to `left`
@@ -569,7 +569,7 @@ known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return op == QDOT_NOT ? -least : op == QDOT_AND ? least : most;
 }
 
-/* The value of a node |u|, sign(u) or if(c, u, v) under the facts; nil for other nodes or if undecided. */
+/* The value of |u|, sign(u) or if(c, u, v) under the facts; nil if it is undecided, and for other nodes. */
 static qdot_expr
 known_node(qdot_pool *pool, qdot_expr node, void *user)
 {

@@ -15,7 +15,7 @@
 
 enum { MOST_SYMBOLS = 12, MOST_ROWS = 160 };
 
-/* c[0] x[0] + ... + c[width - 2] x[width - 2] + c[width - 1] > 0, or >= 0 where weak. */
+/* The inequality c[0] x[0] + ... + c[width - 2] x[width - 2] + c[width - 1] > 0, or >= 0 if weak. */
 typedef struct {
     fmpz *c; /* [width] */
     bool weak;
@@ -36,7 +36,7 @@ rows_clear(rows *s)
     qdot_free(s->row.at);
 }
 
-/* Add a row, which is taken over: without its common factor, once. */
+/* Add a row, taking it over, without the common factor of its coefficients; not if it is there already. */
 static void
 rows_add(rows *s, fmpz *c, bool weak)
 {
@@ -78,7 +78,8 @@ rows_add_copy(rows *s, const fmpz *from, bool weak)
     rows_add(s, c, weak);
 }
 
-/* The sum of two rows in which the symbol v drops out; up has a positive coefficient of it, down a negative one. */
+/* Add the combination of two rows in which v drops out; v has a positive coefficient in `up`, a
+ * negative one in `down`. */
 static void
 rows_add_without(rows *s, const row *up, const row *down, slong v)
 {
@@ -115,7 +116,7 @@ rows_next_symbol(const rows *s)
     return best;
 }
 
-/* Eliminate v. */
+/* Eliminate the symbol v from all rows. */
 static void
 rows_eliminate(rows *s, slong v)
 {
@@ -138,7 +139,7 @@ rows_eliminate(rows *s, slong v)
 
 /* --- expressions as rows ---------------------------------------------------------------- */
 
-/* The coefficients of e in the symbols, then e where all of them are 0. False: e is not linear. */
+/* Find the coefficients of e in the symbols, then e with all symbols 0. False: e is not linear. */
 static bool
 coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbol, fmpq *q)
 {
@@ -159,7 +160,8 @@ coefficients_of(qdot_pool *pool, qdot_expr e, uint32_t n, const qdot_expr *symbo
     return true;
 }
 
-/* The row [width] of sign e, sign 1 or -1, with whole coefficients; the caller clears it. NULL: e is not linear. */
+/* The row [width] for sign e > 0 (sign: 1 or -1) with integer coefficients; the caller clears it.
+ * NULL: e is not linear. */
 static fmpz *
 linear_row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width, int sign)
 {
@@ -187,7 +189,7 @@ linear_row_of(qdot_pool *pool, qdot_expr e, const qdot_expr *symbol, slong width
     return c;
 }
 
-/* --- the function ------------------------------------------------------------------------ */
+/* --- deciding by elimination ------------------------------------------------------------- */
 
 typedef enum { NOT_KNOWN, CONTRADICTION, POSSIBLE } rows_verdict;
 

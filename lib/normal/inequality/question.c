@@ -59,7 +59,7 @@ stand_for(substitutes *s, qdot_expr from, qdot_expr to)
     s->to[s->n++] = to;
 }
 
-/* lo < y < hi, or <=. */
+/* A new unknown y with lo < y < hi, or with <=. */
 static qdot_expr
 bounded_unknown(substitutes *s, const char *what, qdot_expr lo, qdot_expr hi, bool lo_weak,
                 bool hi_weak)
@@ -80,7 +80,7 @@ by_sign(substitutes *s, qdot_expr y, uint8_t sign)
         qdot_question_demand(s->q, qdot_neg(s->pool, y), !(sign & QDOT_NE0));
 }
 
-/* pi as an unknown between two close rationals, so that fractions of it are bounded on both sides. */
+/* Replace pi by an unknown between two close rationals, so that fractions of it are bounded on both sides. */
 static qdot_expr
 pi_itself(substitutes *s)
 {
@@ -117,7 +117,7 @@ plain_function(substitutes *s, qdot_expr e)
 
 /* Replace cosine and sine by (1 - t^2)/(1 + t^2), 2 t/(1 + t^2); their known signs bound t. */
 static void
-circle(substitutes *s, const qdot_field *f, slong sine)
+put_half_angle(substitutes *s, const qdot_field *f, slong sine)
 {
     qdot_pool *pool = s->pool;
     const qdot_gen *gs = &f->gen[sine], *gc = &f->gen[gs->pair];
@@ -226,7 +226,7 @@ generator(substitutes *s, qdot_field *f, slong v)
         else if (qdot_expr_kind(pool, g->expr) != QDOT_SYM)
             stand_for(s, g->expr, plain_function(s, g->expr));
         break;
-    case QDOT_GEN_SIN: circle(s, f, v); break;
+    case QDOT_GEN_SIN: put_half_angle(s, f, v); break;
     case QDOT_GEN_SINH: hyperbola(s, f, v); break;
     case QDOT_GEN_EXP: stand_for(s, g->expr, exponential(s, g->of)); break;
     case QDOT_GEN_ROOT:
@@ -239,9 +239,9 @@ generator(substitutes *s, qdot_field *f, slong v)
     }
 }
 
-/* floor(u) = u - y, mod(u, m) = m y for m > 0, 0 <= y < 1; max and min. */
+/* Replace floor(u) by u - y, mod(u, m) by m y (m > 0, 0 <= y < 1), and max and min. */
 static qdot_expr
-apart(qdot_pool *pool, qdot_expr e, void *user)
+put_whole_parts(qdot_pool *pool, qdot_expr e, void *user)
 {
     substitutes *s = user;
     qdot_expr y, m;
@@ -305,6 +305,6 @@ qdot_question_whole_parts(qdot_pool *pool, qdot_question *q)
 {
     substitutes s = {.pool = pool, .q = q};
 
-    q->e = qdot_prepare(pool, qdot_walk_map(pool, q->e, apart, &s));
+    q->e = qdot_prepare(pool, qdot_walk_map(pool, q->e, put_whole_parts, &s));
     q->too_much |= q->e == QDOT_NIL;
 }

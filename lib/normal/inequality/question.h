@@ -8,7 +8,7 @@
 
 enum { QDOT_QUESTION_CONDITIONS = 16 };
 
-/* Is e >= 0 (or > 0) where the conditions hold? */
+/* The question whether e >= 0 (or > 0) wherever the conditions hold. */
 typedef struct {
     qdot_expr e;
     qdot_cells_condition condition[QDOT_QUESTION_CONDITIONS];
@@ -24,7 +24,7 @@ void qdot_question_demand(qdot_question *q, qdot_expr gap, bool weak);
 /* Replace floor, mod, max and min in e, and prepare e. */
 void qdot_question_whole_parts(qdot_pool *pool, qdot_question *q);
 
-/* Replace all functions except roots. q->e holds neither absolute values nor if. */
+/* Replace all functions except roots. q->e contains neither absolute values nor if. */
 void qdot_question_reduce(qdot_pool *pool, qdot_question *q);
 
 #endif

@@ -19,7 +19,7 @@ enum { MOST_DEGREE = 160 };
 
 /* --- intervals that hold one zero ------------------------------------------------------- */
 
-/* p, scaled, over 0 < t < 1 with x = (number + t) 2^(scale - depth). */
+/* The polynomial p, scaled: 0 < t < 1 stands for x = (number + t) 2^(scale - depth). */
 typedef struct {
     fmpz_poly_t p;
     fmpz_t number;
@@ -50,7 +50,7 @@ sign_changes(const fmpz_poly_t p)
     return changes;
 }
 
-/* p <- p(t + 1); its cost is counted. */
+/* Replace p(t) by p(t + 1), and count the cost. */
 static void
 isolation_shift(isolation *s, fmpz_poly_t p)
 {
@@ -148,7 +148,7 @@ isolation_split(isolation *s)
     return good;
 }
 
-/* Note the positive zeros of p, p(0) != 0. False: too much work, interrupted, or no memory. */
+/* Record the positive zeros of p, where p(0) != 0. False: too much work, interrupted, or no memory. */
 static bool
 isolate_positive(isolation *s, const fmpz_poly_t p)
 {
@@ -259,7 +259,7 @@ bisect(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
     arf_clear(width);
 }
 
-/* --- the function ----------------------------------------------------------------------------- */
+/* --- isolating all real zeros ----------------------------------------------------------------- */
 
 static int
 by_middle(const void *a, const void *b)

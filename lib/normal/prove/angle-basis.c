@@ -100,7 +100,7 @@ dot(const struct basis *b, const double *x, const double *y)
     return sum;
 }
 
-/* The component of column j orthogonal to the earlier columns; computed twice because of rounding. */
+/* Find the component of column j orthogonal to the earlier columns; computed twice because of rounding. */
 static void
 basis_project(struct basis *b, size_t j)
 {
@@ -139,7 +139,7 @@ small_fraction(double x, long *n, long *d)
 
 /* Guess the dependent column j as a combination of earlier ones; nil if a coefficient is no small fraction. */
 static qdot_expr
-guess(struct basis *b, size_t j)
+guess_combination(struct basis *b, size_t j)
 {
     qdot_expr sum = QDOT_ZERO;
     double share[MOST + 1];
@@ -208,7 +208,7 @@ qdot_angle_basis(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *fact
         basis_project(&b, j);
         if (b.length[j] > 0)
             continue;
-        sum = guess(&b, j);
+        sum = guess_combination(&b, j);
         if (sum == QDOT_NIL && qdot_is_constant(pool, b.column[j]))
             sum = guess_constant(&b, j);
         if (sum == QDOT_NIL || sum == b.column[j])

@@ -41,7 +41,7 @@ times_pi(qdot_pool *pool, long n, long d)
     return qdot_mul(pool, qdot_expr_ratio(pool, n, d), QDOT_PI);
 }
 
-/* --- bounds -------------------------------------------------------------------------------- */
+/* --- bounds of angles ---------------------------------------------------------------------- */
 
 static void
 add_bounds(struct sum *s, long k, qdot_expr lo, bool lo_open, qdot_expr hi, bool hi_open)
@@ -110,7 +110,7 @@ stays_within(const struct sum *s, long n)
     return inside;
 }
 
-/* --- the product ---------------------------------------------------------------------------- */
+/* --- the complex number whose argument is the sum ------------------------------------------- */
 
 static qdot_expr
 root_of(qdot_pool *pool, qdot_expr e)
@@ -124,7 +124,7 @@ squared(qdot_pool *pool, qdot_expr e)
     return qdot_pow_int(pool, e, 2);
 }
 
-/* Times (re + i im)^k, conjugate for k < 0. */
+/* Multiply Z by (re + i im)^k, for k < 0 by powers of the conjugate. */
 static void
 sum_multiply(struct sum *s, long k, qdot_expr re, qdot_expr im, qdot_expr modulus)
 {
@@ -178,11 +178,11 @@ add_turn(struct sum *s, qdot_expr q)
                  QDOT_ONE);
 }
 
-/* --- sums in a polynomial ------------------------------------------------------------------- */
+/* --- sums of angles in a polynomial --------------------------------------------------------- */
 
 /* The generator if term i of p is a number times one generator; -1 otherwise. */
 static slong
-alone(qdot_field *f, const fmpz_mpoly_t p, slong i, ulong *exp)
+sole_generator(qdot_field *f, const fmpz_mpoly_t p, slong i, ulong *exp)
 {
     slong at = -1;
 
@@ -209,7 +209,7 @@ shared_factor(qdot_field *f, const fmpz_mpoly_t p, fmpz_t g, ulong *exp)
     fmpz_init(sum);
     fmpz_zero(g);
     for (slong i = 0; i < n && good; i++) {
-        slong v = alone(f, p, i, exp);
+        slong v = sole_generator(f, p, i, exp);
 
         good = v >= 0 && (is_angle(f, v) || f->gen[v].expr == QDOT_PI);
         if (!good || f->gen[v].expr == QDOT_PI)
@@ -238,7 +238,7 @@ put_together(qdot_field *f, struct sum *s, const fmpz_mpoly_t p, const fmpz_t g,
 
     fmpq_init(k);
     for (slong i = 0; i < fmpz_mpoly_length(p, f->ctx); i++) {
-        slong v = alone(f, p, i, exp);
+        slong v = sole_generator(f, p, i, exp);
 
         fmpz_mpoly_get_term_coeff_fmpz(fmpq_numref(k), p, i, f->ctx);
         fmpz_set(fmpq_denref(k), g);

@@ -34,9 +34,9 @@ is_told_apart(const qdot_pool *pool, qdot_expr e)
     return is_extreme(pool, e) || is_signed(pool, e) || qdot_expr_is_function(pool, e, QDOT_IF);
 }
 
-/* --- signs of products ------------------------------------------------------------------ */
+/* --- signs of powers and products ------------------------------------------------------- */
 
-/* sign(b^x): that of b for odd integers and roots; its square for even exponents. */
+/* The sign of b^x: that of b for odd integers and roots; its square for even exponents. */
 static qdot_expr
 sign_of_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
@@ -50,7 +50,7 @@ sign_of_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
                : sign;
 }
 
-/* sign(x y) = sign(x) sign(y), |x y| = |x| |y|. */
+/* Replace sign(x y) by sign(x) sign(y), and |x y| by |x| |y|. */
 static qdot_expr
 signs_apart(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -103,7 +103,7 @@ sign_key(qdot_pool *pool, qdot_expr u, int *sign)
     return u;
 }
 
-/* --- what there is to tell apart -------------------------------------------------------- */
+/* --- signs and orders that distinguish the cases ---------------------------------------- */
 
 struct cases {
     qdot_pool *pool;
@@ -123,7 +123,7 @@ struct cases {
         int turn;
     } alias[NODES];
     size_t n_aliases;
-    /* sign[k] is the sign of leaf[i] - leaf[j] */
+    /* the sign with index k is that of leaf[i] - leaf[j] */
     struct link {
         size_t k, i, j;
     } link[LINKS];
@@ -310,7 +310,7 @@ cases_gather(struct cases *c)
     return QDOT_OK;
 }
 
-/* --- a case ------------------------------------------------------------------------------ */
+/* --- evaluating one case ----------------------------------------------------------------- */
 
 static int
 sign_of_constant(struct cases *c, qdot_expr e)
@@ -323,7 +323,7 @@ sign_of_constant(struct cases *c, qdot_expr e)
     return sign == QDOT_CONSTANT_POSITIVE ? 1 : sign == QDOT_CONSTANT_NEGATIVE ? -1 : 0;
 }
 
-/* The sign of u in a case. */
+/* The sign that u has in a given case. */
 static int
 sign_in(struct cases *c, qdot_expr u, const int *sign)
 {
@@ -386,7 +386,7 @@ holds_in(struct cases *c, qdot_expr condition, const int *sign)
 
 /* The argument that max or min selects in this case. */
 static qdot_expr
-chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
+selected_argument(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
 {
     size_t best = SIZE_MAX;
 
@@ -407,7 +407,7 @@ chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
     return c->leaf[best];
 }
 
-/* order[]: the leaves, ascending; sign[]: 1, -1 or 0. */
+/* Insert the values of a case: order [] lists the leaves in ascending order, sign [] is 1, -1 or 0. */
 static void
 cases_put_in(struct cases *c, const size_t *order, const int *sign)
 {
@@ -421,7 +421,7 @@ cases_put_in(struct cases *c, const size_t *order, const int *sign)
         int s;
 
         if (is_extreme(pool, e)) {
-            c->to[k] = chosen(c, e, k, rank);
+            c->to[k] = selected_argument(c, e, k, rank);
         } else if (qdot_expr_is_function(pool, e, QDOT_IF)) {
             u = qdot_expr_arg(pool, e, holds_in(c, u, sign) ? 1 : 2);
             c->to[k] = qdot_subs(pool, u, k, c->node, c->to);
@@ -461,7 +461,7 @@ no_value_at_zero(const struct cases *c, qdot_status status, const int *sign)
     return status == QDOT_EDOMAIN && at_zero && has_no_branches(c);
 }
 
-/* e with key = c x + rest = 0 solved for x and inserted; e itself if key has no such x. */
+/* e with key = c x + rest = 0 solved for a symbol x and inserted; e itself if there is no such x. */
 static qdot_expr
 at_zero_of(qdot_pool *pool, qdot_expr e, qdot_expr key)
 {
@@ -500,8 +500,8 @@ nothing_is_claimed(struct cases *c, const int *sign, const qdot_facts *facts)
 
 /* Collect what is known in a case: the facts, and its order, signs and zeros. */
 static void
-learn(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
-      qdot_facts *known, qdot_expr *relation, qdot_expr *condition)
+collect_case_facts(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
+                   qdot_facts *known, qdot_expr *relation, qdot_expr *condition)
 {
     qdot_pool *pool = c->pool;
     size_t nr = 0, nc = 0;
@@ -558,7 +558,7 @@ cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_fa
         return qdot_grave(status);
     }
     relation = condition + (facts == NULL ? 0 : facts->n_conditions) + SIGNS + LEAVES;
-    learn(c, order, sign, facts, &known, relation, condition);
+    collect_case_facts(c, order, sign, facts, &known, relation, condition);
     *equal = nothing_is_claimed(c, sign, facts);
     if (!c->too_much && !*equal)
         status = qdot_prove_equal(c->pool, side[0], side[1], &known, equal);

@@ -22,7 +22,7 @@
 #define SMALL 400  /* nodes; smaller ones are compared at edges too */
 #define MOST_EDGES 160
 
-/* --- refutation -------------------------------------------------------------------- */
+/* --- looking for a counterexample -------------------------------------------------- */
 
 struct look {
     int points;    /* wanted */
@@ -36,7 +36,7 @@ static const struct look closer = {2, 24, {512, 0}, false};
 static const struct look thorough = {16, 240, {128, 512, 2048, 0}, false};
 /* under conditions, which may hold only in a small region: look longer */
 static const struct look patient = {60, 720, {128, 0}, false};
-/* at special values of one symbol: */
+/* the effort for special values of one symbol */
 static const struct look edges = {MOST_EDGES, MOST_EDGES, {128, 512, 0}, true};
 
 static double
@@ -58,7 +58,7 @@ digits_of(const arb_t difference, arb_srcptr left)
     return radius > 0 ? 0 : (int)fmin(-radius * 0.30103, 9999);
 }
 
-/* What is compared, at points where all of `defined` (a LIST) have values. */
+/* Two sides that are compared at points where all of `defined` (a LIST) have values. */
 struct sides {
     qdot_expr left, right, defined;
 };
@@ -227,7 +227,7 @@ arguments(qdot_pool *pool, qdot_expr e)
     return status == QDOT_OK ? list : qdot_pool_fail(pool);
 }
 
-/* --- the decision ------------------------------------------------------------------ */
+/* --- deciding an equation ---------------------------------------------------------- */
 
 static qdot_status
 need_scalars(qdot_pool *pool, qdot_expr a, qdot_expr b)

@@ -17,7 +17,7 @@ struct job {
     void *user;
 };
 
-/* --- a gap taken apart ----------------------------------------------------------------- */
+/* --- splitting a condition ------------------------------------------------------------- */
 
 /* Split g = c (a^2 - x^2), c > 0, a >= 0 (a number or of known sign), into two linear conditions. */
 static qdot_status
@@ -67,7 +67,7 @@ factor_is_defined(struct job *j, qdot_expr g, bool weak)
     return done ? QDOT_OK : j->tell(j->user, g, weak);
 }
 
-/* The product of the factors of p whose sign is not known. */
+/* Find the product of the factors of p whose sign is not known. */
 static qdot_status
 unknown_factors(qdot_field *f, const fmpz_mpoly_t p, bool weak, qdot_expr *product)
 {
@@ -129,7 +129,7 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
     return factor_is_defined(&j, product, weak);
 }
 
-/* --- what each node asks ---------------------------------------------------------------- */
+/* --- conditions for each node to be defined --------------------------------------------- */
 
 static qdot_status
 need(struct job *j, qdot_expr gap, bool weak)

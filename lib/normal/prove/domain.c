@@ -126,7 +126,7 @@ domain_move_bounds(job *j, qdot_expr x, qdot_symbol s)
     }
 }
 
-/* --- conditions ----------------------------------------------------------------- */
+/* --- conditions that become bounds ---------------------------------------------- */
 
 static uint32_t
 count_terms(const qdot_pool *pool, qdot_expr e)
@@ -134,7 +134,7 @@ count_terms(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_SUM ? (qdot_expr_count(pool, e) - 1) / 2 : 1;
 }
 
-/* Whether term i of g is c x, with a symbol x that no other term contains. */
+/* Whether term i of g is c x with a symbol x that occurs in no other term. */
 static bool
 linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x,
             qdot_expr *rest)
@@ -158,7 +158,7 @@ linear_term(qdot_pool *pool, qdot_expr g, uint32_t i, qdot_expr *c, qdot_expr *x
 
 /* Tighten the bounds of x by c x + rest > 0, if that gives a constant bound. */
 static void
-tighten(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
+tighten_bounds(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
 {
     qdot_expr v = qdot_neg(j->pool, qdot_div(j->pool, rest, c));
     qdot_symbol s = *qdot_expr_symbol(j->pool, x);
@@ -200,7 +200,7 @@ solve_gap(job *j, qdot_expr gap, bool weak)
         if (!linear_term(pool, g, i, &c, &x, &rest))
             continue;
         if (qdot_is_constant(pool, rest)) {
-            tighten(j, x, c, rest, weak);
+            tighten_bounds(j, x, c, rest, weak);
             return true;
         }
         to = qdot_sub(pool, fresh(pool, x, QDOT_ZERO, !weak, QDOT_NIL, false), rest);
@@ -217,9 +217,9 @@ solve_gap(job *j, qdot_expr gap, bool weak)
     return false;
 }
 
-/* --- relations ------------------------------------------------------------------ */
+/* --- relations solved for symbols ----------------------------------------------- */
 
-/* r = a x + b with a never zero and neither holding x: *to is -b/a. */
+/* Solve r = a x + b for x if a is never zero and neither a nor b contains x: *to is -b/a. */
 static bool
 solvable(qdot_pool *pool, qdot_expr r, qdot_expr x, qdot_expr *to)
 {
@@ -272,7 +272,7 @@ solve_relations(job *j, size_t nr)
     return QDOT_OK;
 }
 
-/* --- all ------------------------------------------------------------------------ */
+/* --- the whole elimination ------------------------------------------------------ */
 
 static qdot_status
 domain_add_gap(void *user, qdot_expr gap, bool weak)

@@ -16,9 +16,9 @@ is_inverse(const qdot_pool *pool, qdot_expr e, bool circular)
     return qdot_expr_is_function_that(pool, e, circular ? QDOT_FUN_ARC : QDOT_FUN_AREA);
 }
 
-/* The relations of h = f/n, once. */
+/* Add the relations of h = f/n, once for each h. */
 static qdot_status
-relate(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot_nth_parts *relations)
+add_nth_part_relations(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot_nth_parts *relations)
 {
     qdot_expr h = qdot_mul(pool, qdot_expr_ratio(pool, 1, n), f);
     qdot_expr c = qdot_fun1(pool, circular ? QDOT_COS : QDOT_COSH, h);
@@ -69,7 +69,7 @@ argument_look_at(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nth_parts *
             continue;
         parts = fmpz_get_si(fmpq_denref(qdot_expr_rational(pool, c)));
         if ((parts & (parts - 1)) != 0)
-            QDOT_TRY(relate(pool, f, parts, circular, relations));
+            QDOT_TRY(add_nth_part_relations(pool, f, parts, circular, relations));
     }
     return QDOT_OK;
 }

@@ -1,4 +1,4 @@
-/* range.c -- signs of generators of a field, and of polynomials in them. */
+/* range.c -- finds signs of generators of a field, and of polynomials in them, from declared ranges. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -27,15 +27,15 @@ range_of_product(uint8_t a, uint8_t b)
     return (uint8_t)(known | (a & b & QDOT_NE0));
 }
 
-/* --- angles ------------------------------------------------------------------------ */
+/* --- angles and their sines -------------------------------------------------------- */
 
-/* The least and greatest value of an angle, constants; open: not reached. */
+/* The least and greatest value of an angle, as constants; open: the angle does not reach them. */
 struct range {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
 };
 
-/* r <- r + c x. */
+/* Add c x to the range r. */
 static bool
 add_symbol(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
 {
@@ -83,7 +83,7 @@ range_of(qdot_pool *pool, qdot_expr e, struct range *r)
     }
 }
 
-/* 0 <= e, proved; *open gets whether 0 < e. */
+/* Whether 0 <= e is proved; *open: whether 0 < e is, too. */
 static bool
 not_negative(qdot_pool *pool, qdot_expr e, bool *open)
 {
@@ -144,7 +144,7 @@ qdot_range_sign(qdot_pool *pool, const qdot_gen *gen)
     return sign | sign_of_sine(pool, r);
 }
 
-/* --- polynomials ------------------------------------------------------------------- */
+/* --- signs of polynomials ---------------------------------------------------------- */
 
 static uint8_t
 monomial(const qdot_zero *z, const fmpz_mpoly_t p, slong i, ulong *exp)

@@ -14,7 +14,7 @@ half(qdot_pool *pool, qdot_expr e)
     return qdot_mul(pool, QDOT_HALF, e);
 }
 
-/* log(v + sqrt(v^2 + c)), an inverse hyperbolic function. */
+/* The inverse hyperbolic function log(v + sqrt(v^2 + c)). */
 static qdot_expr
 area(qdot_pool *pool, qdot_expr v, qdot_expr c)
 {
@@ -48,7 +48,7 @@ qdot_rewrite_extreme(qdot_pool *pool, qdot_expr e)
     return best;
 }
 
-/* floor(x + k) = floor(x) + k for an integer k. */
+/* Replace floor(x + k) by floor(x) + k for an integer k. */
 static qdot_expr
 whole_part(qdot_pool *pool, qdot_expr x)
 {
@@ -61,7 +61,7 @@ whole_part(qdot_pool *pool, qdot_expr x)
     return qdot_add(pool, k, qdot_fun1(pool, QDOT_FLOOR, qdot_sub(pool, x, k)));
 }
 
-/* mod(a, b) = a - b floor(a/b). */
+/* Write mod(a, b) as a - b floor(a/b). */
 static qdot_expr
 modulo(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -70,7 +70,7 @@ modulo(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_sub(pool, a, qdot_mul(pool, b, whole));
 }
 
-/* u^c for an argument c log(u), c a number; nil for other arguments. */
+/* u^c for an argument c log(u) with a number c; nil for other arguments. */
 static qdot_expr
 power_of_log(qdot_pool *pool, qdot_expr arg)
 {
@@ -86,7 +86,7 @@ power_of_log(qdot_pool *pool, qdot_expr arg)
     return qdot_pow(pool, qdot_expr_arg(pool, arg, 0), c);
 }
 
-/* sinh, cosh, tanh of c log u, w = u^c, or of any argument by exp: (w - 1/w)/2 ... */
+/* Rewrite sinh, cosh, tanh of c log u, or of any argument, by exponentials: (w - 1/w)/2 ... with w = u^c. */
 static qdot_expr
 rewrite_hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
 {

@@ -53,7 +53,7 @@ typedef struct {
     bool changed;
 } job;
 
-/* --- values ------------------------------------------------------------------------ */
+/* --- sample values of arguments ---------------------------------------------------- */
 
 static bool
 some_undefined(const job *j)
@@ -108,7 +108,7 @@ small_fraction(fmpq_t c, double x)
     return false;
 }
 
-/* Whether the values say a = c b with a rational c. */
+/* Whether the sample values agree with a = c b for a rational c. */
 static bool
 proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
 {
@@ -130,7 +130,7 @@ proportional(const job *j, size_t a, const struct seen *b, fmpq_t c)
     return fits;
 }
 
-/* --- arguments --------------------------------------------------------------------- */
+/* --- finding equal arguments ------------------------------------------------------- */
 
 /* Whether an argument is compared: a plain one is normal, but others may equal it. */
 static bool
@@ -139,7 +139,7 @@ worth_a_look(const qdot_pool *pool, qdot_expr arg)
     return qdot_expr_is_scalar(pool, arg) && qdot_expr_kind(pool, arg) != QDOT_NUM;
 }
 
-/* *with: the representative of `arg` (whose old node has the index `at`), with arg = *c times it. */
+/* Find *with, which represents `arg` (whose old node has the index `at`), such that arg = *c times it. */
 static qdot_status
 unify_find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
 {
@@ -197,7 +197,7 @@ argument_index(const job *j, qdot_expr old, uint32_t i)
     return qdot_walk_index(&j->walk, qdot_expr_arg(j->pool, old, i));
 }
 
-/* Unify the arguments of a function; *now is made of `old`, with unified arguments inside. */
+/* Unify the arguments of a function; *now is the node `old` with the arguments unified inside it. */
 static qdot_status
 unify_function(job *j, qdot_expr old, qdot_expr *now)
 {
@@ -320,7 +320,7 @@ unify_product(job *j, qdot_expr old, qdot_expr *now)
     return status;
 }
 
-/* --- the pass ---------------------------------------------------------------------- */
+/* --- unifying all arguments -------------------------------------------------------- */
 
 static qdot_status
 unify_node(job *j, qdot_expr old, qdot_expr *now)

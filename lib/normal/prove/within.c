@@ -1,4 +1,5 @@
-/* within.c -- compares bounds of a symbol with the range of an inverse function. */
+/* within.c -- simplifies arcsin(sin(x)) and the like by comparing bounds of x with the range of the
+ * inverse function. */
 #include "normal/prove/within.h"
 
 #include "expr/build.h"
@@ -56,7 +57,7 @@ lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
            bounded_by_quarters(pool, s->hi, to, false);
 }
 
-/* The angle phi with y = p sin(phi), x = p cos(phi), p > 0; nil if there is none. */
+/* The angle phi with y = p sin(phi), x = p cos(phi), p > 0; nil if y and x do not have this form. */
 static qdot_expr
 angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
 {

@@ -11,7 +11,7 @@
 
 #include "expr/id.h"
 
-/* e with such values simplified to their angle; nil on failure. */
+/* e with inverse functions of circular functions replaced by their angles; nil on failure. */
 qdot_expr qdot_within_values(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* zero.c -- constants by their root bounds, roots by norms and signs. */
+/* zero.c -- proves expressions zero: constants by root bounds, roots by norms and signs. */
 #include "normal/prove/zero.h"
 
 #include "base/memory.h"
@@ -56,7 +56,7 @@ zero_reduce(qdot_zero *z, fmpz_mpoly_t p)
     fmpz_clear(scale);
 }
 
-/* --- constants --------------------------------------------------------------------- */
+/* --- constant coefficients --------------------------------------------------------- */
 
 static bool
 has_constants(const qdot_field *f, const fmpz_mpoly_t p)
@@ -104,9 +104,9 @@ drop_constants(qdot_field *f, fmpz_mpoly_t p)
     return status;
 }
 
-/* --- one root ---------------------------------------------------------------------- */
+/* --- splitting by one root --------------------------------------------------------- */
 
-/* p = P + Q R, R = r^power, R^order = B. */
+/* A polynomial split by a root r: p = P + Q R with R = r^power and R^order = B. */
 struct split {
     fmpz_mpoly_t P, Q, B;
     slong order;
@@ -211,7 +211,7 @@ split_at(qdot_field *f, struct split *s, const fmpz_mpoly_t p, slong v)
     return qdot_field_goes(f);
 }
 
-/* n = P^k - (-Q)^k B. */
+/* Set n to the norm P^order - (-Q)^order B of the polynomial P + Q R, where R^order = B. */
 static void
 norm(qdot_field *f, fmpz_mpoly_t n, const struct split *s)
 {
@@ -360,7 +360,7 @@ analytic_generator(qdot_zero *z, slong v, int depth)
     return positive;
 }
 
-/* Whether P - Q R is analytic, as p is, and not zero everywhere. */
+/* Whether P - Q R is analytic, as p = P + Q R is, and not zero everywhere. */
 static bool
 only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 {
@@ -381,7 +381,7 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
     return all;
 }
 
-/* --- all --------------------------------------------------------------------------- */
+/* --- the whole proof --------------------------------------------------------------- */
 
 static qdot_status zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero);
 
@@ -419,7 +419,7 @@ prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
     return status;
 }
 
-/* depth bounds the recursion: a root less each time. */
+/* Prove p = 0; depth bounds the recursion, each level of which has one root less. */
 static qdot_status
 zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 {

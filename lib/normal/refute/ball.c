@@ -6,7 +6,7 @@
 #include "expr/function-ball.h"
 #include "expr/node.h"
 
-/* --- functions --------------------------------------------------------------------- */
+/* --- functions in ball arithmetic -------------------------------------------------- */
 
 /* Every domain error becomes an infinite or indeterminate ball, which is "not known"; so does the sign of what may
  * be 0. */
@@ -40,7 +40,7 @@ finite_args(const qdot_ball *b, qdot_expr e, uint32_t from)
     return true;
 }
 
-/* x - y floor(x/y), which has the sign of y. */
+/* Evaluate mod: x - y floor(x/y), which has the sign of y. */
 static void
 eval_mod(arb_t z, const arb_t x, const arb_t y, slong prec)
 {
@@ -186,7 +186,7 @@ logic(const qdot_ball *b, qdot_expr e)
     return all;
 }
 
-/* --- the pass ---------------------------------------------------------------------- */
+/* --- evaluation of all nodes ------------------------------------------------------- */
 
 qdot_status
 qdot_ball_begin(qdot_ball *b, qdot_pool *pool, size_t n, const qdot_expr *e)

@@ -7,7 +7,7 @@
 #include "expr/walk.h"
 #include "num/arb.h"
 
-/* Evaluates some expressions in balls; begun once, used at many points. */
+/* A list of expressions that is prepared once and evaluated in balls at many points. */
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;

@@ -27,7 +27,7 @@ qdot_is_constant(const qdot_pool *pool, qdot_expr e)
             ~(uint32_t)(QDOT_HAS_FUN | 1 << QDOT_CONST)) == 0;
 }
 
-/* log2 of the bounds of conjugates, rounded up. */
+/* Bounds of the conjugates of an algebraic number (constant.c), as log2, rounded up. */
 typedef struct {
     double u, l;
 } size;
@@ -45,9 +45,9 @@ typedef struct {
     ulong unity; /* the order of the roots of unity */
 } bound;
 
-/* A little above, for the rounding of the logarithms themselves. */
+/* x increased a little, to cover the rounding of the logarithms themselves. */
 static double
-up(double x)
+round_up_a_little(double x)
 {
     return x + 1e-9 * (1 + fabs(x));
 }
@@ -55,7 +55,7 @@ up(double x)
 static double
 log2_of(const fmpz_t n)
 {
-    return fmpz_is_zero(n) ? 0 : up((double)fmpz_bits(n));
+    return fmpz_is_zero(n) ? 0 : round_up_a_little((double)fmpz_bits(n));
 }
 
 static double
@@ -63,19 +63,19 @@ log2_sum(double a, double b)
 {
     double most = a > b ? a : b, least = a > b ? b : a;
 
-    return up(most + log2(1 + exp2(least - most)));
+    return round_up_a_little(most + log2(1 + exp2(least - most)));
 }
 
 static size
 size_add(size a, size b)
 {
-    return (size){log2_sum(a.u + b.l, b.u + a.l), up(a.l + b.l)};
+    return (size){log2_sum(a.u + b.l, b.u + a.l), round_up_a_little(a.l + b.l)};
 }
 
 static size
 size_multiply(size a, size b)
 {
-    return (size){up(a.u + b.u), up(a.l + b.l)};
+    return (size){round_up_a_little(a.u + b.u), round_up_a_little(a.l + b.l)};
 }
 
 static size
@@ -93,7 +93,7 @@ size_of_number(const fmpq *x)
 static size
 size_of_root(size a, double k)
 {
-    return (size){up((a.u + (k - 1) * a.l) / k), a.l};
+    return (size){round_up_a_little((a.u + (k - 1) * a.l) / k), a.l};
 }
 
 /* Record a root; roots of the same base get the least common order. */
@@ -116,7 +116,7 @@ get(const bound *b, qdot_expr e)
     return b->of[qdot_walk_index(&b->walk, e)];
 }
 
-/* QDOT_EFAILED where the rules do not apply. */
+/* Find the bounds of a power; QDOT_EFAILED if the rules do not apply. */
 static qdot_status
 size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
 {
@@ -134,8 +134,8 @@ size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
         QDOT_TRY(note_root(b, base, q));
         *s = size_of_root(*s, (double)q);
     }
-    s->u = up(s->u * (double)p);
-    s->l = up(s->l * (double)p);
+    s->u = round_up_a_little(s->u * (double)p);
+    s->l = round_up_a_little(s->l * (double)p);
     if (fmpq_sgn(x) < 0) {
         swap = s->u;
         s->u = s->l;
@@ -177,7 +177,7 @@ size_of_function(bound *b, qdot_expr e, size *s)
         ulong q = 4 * fmpz_get_ui(fmpq_denref(c));
 
         b->unity = b->unity / n_gcd(b->unity, q) * q;
-        /* 2 cos / 2, 2 sin / 2 cos, 2 / 2 cos */
+        /* 2 cos and 2 sin are algebraic integers; sin, cos and tan are quotients of these and 2 */
         *s = (size){1, 1};
         status = b->unity > 16 * MOST_DEGREE ? QDOT_EFAILED : QDOT_OK;
     }
@@ -228,7 +228,8 @@ degree(const bound *b)
     return d;
 }
 
-/* A constant with |e| below 2^-bits must be zero: *bits; QDOT_EFAILED if no such bound is known. */
+/* Find *bits such that a constant with |e| below 2^-bits must be zero; QDOT_EFAILED if no such
+ * bound is known. */
 static qdot_status
 separation(bound *b, qdot_expr e, double *bits)
 {
@@ -244,7 +245,7 @@ separation(bound *b, qdot_expr e, double *bits)
     if (status == QDOT_OK &&
         (isnan(s.u) || isnan(s.l) || s.u < 0 || s.l < 0 || degree(b) > MOST_DEGREE))
         status = QDOT_EFAILED;
-    *bits = status == QDOT_OK ? up((double)(degree(b) - 1) * s.u + s.l) + 1 : 0;
+    *bits = status == QDOT_OK ? round_up_a_little((double)(degree(b) - 1) * s.u + s.l) + 1 : 0;
     return status == QDOT_OK && *bits > MOST_BITS ? QDOT_EFAILED : status;
 }
 

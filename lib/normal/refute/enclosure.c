@@ -33,7 +33,7 @@ struct qdot_enclosure {
 
 /* --- functions of one variable --------------------------------------------------------------- */
 
-/* f(a), f'(a), and whether f is defined on a. */
+/* A function on an interval a: f(a), f'(a), and whether f is defined on a. */
 typedef struct {
     qdot_interval y, slope;
     qdot_enclosure_state state;
@@ -95,7 +95,7 @@ holds_zero(qdot_interval a)
 
 /* Where a lies relative to the domain least ... most of a function; `ends`: the ends belong to it. */
 static qdot_enclosure_state
-inside(qdot_interval a, double least, double most, bool ends)
+compare_with_domain(qdot_interval a, double least, double most, bool ends)
 {
     if (a.hi < least || a.lo > most || (!ends && (a.hi <= least || a.lo >= most)))
         return QDOT_ENCLOSURE_NOWHERE;
@@ -104,7 +104,7 @@ inside(qdot_interval a, double least, double most, bool ends)
     return QDOT_ENCLOSURE_PARTLY;
 }
 
-/* numerator/denominator where the denominator vanishes at poles only. */
+/* The quotient above/below of two intervals, where `below` vanishes at poles only. */
 static image
 fraction(qdot_interval above, qdot_interval below, qdot_interval slope)
 {
@@ -162,9 +162,9 @@ inverse_function(uint32_t op, qdot_interval a)
     case QDOT_ACOS:
         slope = inverse(interval_root(plus(1, qdot_interval_negative(interval_square(in)))));
         if (op == QDOT_ASIN)
-            return (image){qdot_interval_rising(asin, in), slope, inside(a, -1, 1, true)};
+            return (image){qdot_interval_rising(asin, in), slope, compare_with_domain(a, -1, 1, true)};
         return (image){qdot_interval_falling(acos, in), qdot_interval_negative(slope),
-                       inside(a, -1, 1, true)};
+                       compare_with_domain(a, -1, 1, true)};
     case QDOT_ATAN:
         return (image){qdot_interval_rising(atan, a), inverse(plus(1, interval_square(a))),
                        QDOT_ENCLOSURE_WHOLE};
@@ -174,17 +174,17 @@ inverse_function(uint32_t op, qdot_interval a)
     case QDOT_ACOSH:
         slope = inverse(interval_root(plus(-1, interval_square(qdot_interval_within(a, 1, INFINITY)))));
         return (image){qdot_interval_rising(acosh, qdot_interval_within(a, 1, INFINITY)),
-                       slope, inside(a, 1, INFINITY, true)};
+                       slope, compare_with_domain(a, 1, INFINITY, true)};
     default:
         return (image){qdot_interval_rising(atanh, in),
                        inverse(plus(1, qdot_interval_negative(interval_square(in)))),
-                       inside(a, -1, 1, false)};
+                       compare_with_domain(a, -1, 1, false)};
     }
 }
 
-/* 2/sqrt(pi) exp(-a^2) */
+/* The interval 2/sqrt(pi) exp(-a^2). */
 static qdot_interval
-bell(qdot_interval a)
+gaussian_slope(qdot_interval a)
 {
     return interval_scaled(
         M_2_SQRTPI,
@@ -203,13 +203,13 @@ exponential(uint32_t op, qdot_interval a)
         return (image){y, y, QDOT_ENCLOSURE_WHOLE};
     case QDOT_LOG:
         return (image){qdot_interval_rising(log, in), inverse(in),
-                       inside(a, 0, INFINITY, false)};
+                       compare_with_domain(a, 0, INFINITY, false)};
     case QDOT_ERF:
-        return (image){qdot_interval_within(qdot_interval_rising(erf, a), -1, 1), bell(a),
+        return (image){qdot_interval_within(qdot_interval_rising(erf, a), -1, 1), gaussian_slope(a),
                        QDOT_ENCLOSURE_WHOLE};
     default:
         return (image){qdot_interval_within(qdot_interval_falling(erfc, a), 0, 2),
-                       qdot_interval_negative(bell(a)), QDOT_ENCLOSURE_WHOLE};
+                       qdot_interval_negative(gaussian_slope(a)), QDOT_ENCLOSURE_WHOLE};
     }
 }
 
@@ -261,7 +261,7 @@ of_one(uint32_t op, qdot_interval a)
     }
 }
 
-/* --- nodes -------------------------------------------------------------------------------------- */
+/* --- operations on intervals -------------------------------------------------------------------- */
 
 static qdot_enclosure_state
 worse(qdot_enclosure_state a, qdot_enclosure_state b)
@@ -269,7 +269,7 @@ worse(qdot_enclosure_state a, qdot_enclosure_state b)
     return a < b ? a : b;
 }
 
-/* to += factor * slopes of v */
+/* Add factor times the slopes of v to those of `to`. */
 static void
 enclosure_add_slopes(const qdot_enclosure *s, qdot_enclosure_value *to, qdot_interval factor,
                      const qdot_enclosure_value *v)
@@ -299,7 +299,7 @@ eval_sum(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
     }
 }
 
-/* v^p and its derivative by v. */
+/* The image of v^p and of its derivative by v. */
 static image
 image_power(qdot_interval a, qdot_interval p, bool integer)
 {
@@ -308,7 +308,7 @@ image_power(qdot_interval a, qdot_interval p, bool integer)
     if (p.lo == 1 && p.hi == 1)
         return f;
     if (!integer) {
-        f.state = inside(a, 0, INFINITY, p.lo > 0);
+        f.state = compare_with_domain(a, 0, INFINITY, p.lo > 0);
         a = qdot_interval_within(a, 0, INFINITY);
     } else if (p.lo < 0 && holds_zero(a)) {
         f.state = a.lo == 0 && a.hi == 0 ? QDOT_ENCLOSURE_NOWHERE : QDOT_ENCLOSURE_PARTLY;
@@ -324,14 +324,14 @@ image_power(qdot_interval a, qdot_interval p, bool integer)
     return f;
 }
 
-/* v^p if the exponent is an expression: exp(p log v). */
+/* Evaluate v^p as exp(p log v), for an exponent that is an expression. */
 static image
 general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
               const qdot_enclosure_value *p, qdot_enclosure_value *to)
 {
     qdot_interval base = qdot_interval_within(v->y, 0, INFINITY);
     image f = {qdot_interval_whole, qdot_interval_whole,
-               worse(inside(v->y, 0, INFINITY, false), worse(v->state, p->state))};
+               worse(compare_with_domain(v->y, 0, INFINITY, false), worse(v->state, p->state))};
 
     f.y = qdot_interval_power(base, p->y);
     if (s->slopes) { /* all of them at once: y (p' log v + p v'/v) */
@@ -544,7 +544,7 @@ qdot_enclosure_count(const qdot_enclosure *s)
     return s->m;
 }
 
-/* --- translation ---------------------------------------------------------------------------------- */
+/* --- translating an expression -------------------------------------------------------------------- */
 
 /* The smallest interval of doubles that contains a rational. */
 static qdot_interval

@@ -45,7 +45,7 @@ QDOT_MUST_CHECK qdot_status qdot_enclosure_new(qdot_pool *pool, size_t m,
                                                const qdot_expr *x, qdot_enclosure **out);
 void qdot_enclosure_free(qdot_enclosure *s);
 
-/* Evaluate over X [n]; with slopes if wanted. */
+/* Evaluate all expressions over the box X [n], with their slopes if wanted. */
 void qdot_enclosure_eval(qdot_enclosure *s, const qdot_interval *X, bool slopes);
 
 /* The number of nodes in one evaluation. */

@@ -21,7 +21,7 @@
 
 #define WORK 4000000
 
-/* --- in closed form ---------------------------------------------------------------- */
+/* --- solutions in closed form ------------------------------------------------------ */
 
 /* The sign in front of a square root: 1 or -1, chosen at each point. */
 static qdot_expr
@@ -43,7 +43,7 @@ qdot_sample_is_sign(const qdot_pool *pool, qdot_expr e)
 
 /* The preference for solving a relation for this atom; 0: never. */
 static int
-fitness(const qdot_pool *pool, const qdot_gen *gen)
+preference_to_solve(const qdot_pool *pool, const qdot_gen *gen)
 {
     const qdot_symbol *symbol = qdot_expr_symbol(pool, gen->expr);
     int plain;
@@ -151,7 +151,7 @@ implicit_atom(qdot_pool *pool, qdot_expr relation, size_t n,
         qdot_gen gen = {.kind = QDOT_GEN_PLAIN, .expr = qdot_expr_arg(pool, atoms, i)};
         int here = qdot_expr_kind(pool, gen.expr) == QDOT_SYM &&
                            !qdot_sample_is_solved(n, solved, gen.expr)
-                       ? fitness(pool, &gen)
+                       ? preference_to_solve(pool, &gen)
                        : 0;
 
         if (here > fit) {
@@ -185,7 +185,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
         slong degree = fmpz_mpoly_degree_si(r->n, v, f.ctx);
         int here = degree == 0 || degree > 2
                        ? 0
-                       : fitness(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
+                       : preference_to_solve(pool, &f.gen[v]) * (degree == 1 ? 2 : 1);
 
         if (here > fit && !qdot_sample_is_solved(n, solved, f.gen[v].expr) &&
             !inside_another(&f, r->n, v)) {
@@ -207,7 +207,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
     return out->atom != QDOT_NIL;
 }
 
-/* --- at a point -------------------------------------------------------------------- */
+/* --- roots at a point -------------------------------------------------------------- */
 
 enum { PLACES = 24, HALVINGS = 60, SECANTS = 24, LEAST = 64 };
 
@@ -301,9 +301,9 @@ encloses(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong p
     return holds;
 }
 
-/* A zero between left and right by secants, as sharp as prec allows. */
+/* Find a zero between left and right by the secant method, as precisely as prec allows. */
 static bool
-sharpen(qdot_sample *s, qdot_sample_atom *a, const arf_t left, const arf_t right, slong prec)
+secant_zero(qdot_sample *s, qdot_sample_atom *a, const arf_t left, const arf_t right, slong prec)
 {
     slong bits = prec - 16;
     arf_t x, y, fx, fy, step;
@@ -350,7 +350,7 @@ qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec)
     }
     arf_init(left);
     arf_init(right);
-    found = bracket_root(s, a, left, right) && sharpen(s, a, left, right, prec);
+    found = bracket_root(s, a, left, right) && secant_zero(s, a, left, right, prec);
     arf_clear(left);
     arf_clear(right);
     a->ready = found;

@@ -17,7 +17,7 @@
 #define SIMPLE 24 /* points with small numbers */
 #define FAR 96    /* from here on some with large ones */
 
-/* --- begin ------------------------------------------------------------------------- */
+/* --- preparing samples ------------------------------------------------------------- */
 
 static uint32_t
 order_of(const qdot_pool *pool, qdot_expr ufun)
@@ -130,7 +130,7 @@ bound_rank(const qdot_pool *pool, qdot_expr atom)
     return 1;
 }
 
-/* 0 < c x + rest, c a number: x is above (below, if c < 0) -rest/c. */
+/* Record the bound of x from 0 < c x + rest, where c is a number: x is above (below, if c < 0) -rest/c. */
 static qdot_status
 bounds_by_condition(qdot_sample *s, qdot_expr condition)
 {
@@ -279,7 +279,7 @@ qdot_sample_end(qdot_sample *s)
     qdot_ball_end(&s->ball);
 }
 
-/* --- points ------------------------------------------------------------------------ */
+/* --- drawing points ---------------------------------------------------------------- */
 
 static uint32_t
 sample_draw(qdot_sample *s, uint32_t below)
@@ -332,7 +332,7 @@ rational_between(fmpq_t x, double lo, double hi, double where, double about)
 /* Ranges tried in turn: functions with narrow domains need small arguments. */
 static const double reach[] = {3, 1, 7, 0.5, 20, 2, 0.9, 0.1};
 
-/* The range of an atom narrowed by conditions, as far as the other atoms in them have values. */
+/* Find the range in which an atom is drawn, narrowed by conditions in which the other atoms have values. */
 static void
 sample_narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
 {

@@ -74,11 +74,11 @@ qdot_expr qdot_sample_list(qdot_sample *s);
 /* For the files of samples: the value of a free atom, put in; whether a symbol is the sign before a
  * root that solves a relation. */
 void qdot_sample_set(qdot_sample_atom *a, slong prec);
-/* The range in which a value of an atom is searched at the present point. */
+/* Find the range in which a value of the atom may be searched, with the other atoms at the present point. */
 void qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to);
 /* The value of an atom at the sample, as a callback of qdot_ball_eval. */
 bool qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec);
-/* atom = solution; or (implicit) the solution is a relation that vanishes at the atom's value. */
+/* A solved atom: atom = solution; or (implicit) `solution` vanishes at the atom's value. */
 typedef struct {
     qdot_expr atom, solution;
     bool implicit;

@@ -20,7 +20,7 @@ typedef struct {
     bool failed;
 } kinks;
 
-/* --- the sign of u with one absolute value in it ------------------------------------------------ */
+/* --- the sign of u inside other absolute values ------------------------------------------------- */
 
 /* Whether u = c w with a number c, or a parameter of known sign; *sign: that of c. */
 static bool
@@ -56,7 +56,7 @@ sign_everywhere(qdot_pool *pool, qdot_expr u)
     return above >= 0 && below >= 0 ? 1 : above <= 0 && below <= 0 ? -1 : 0;
 }
 
-/* --- the form ------------------------------------------------------------------------------------- */
+/* --- removing kinks ------------------------------------------------------------------------------- */
 
 static qdot_expr
 absolute_of(qdot_pool *pool, qdot_expr u, kinks *k)
@@ -97,7 +97,7 @@ write_by_absolute(qdot_pool *pool, qdot_expr e, void *user)
                     qdot_add(pool, qdot_add(pool, a, b), greatest ? difference : qdot_neg(pool, difference)));
 }
 
-/* How many different nodes of e are |u|, max or min. */
+/* Count the different nodes of e that are |u|, max or min. */
 static qdot_status
 count_kinks(const qdot_pool *pool, qdot_expr e, size_t *count)
 {

@@ -27,7 +27,7 @@ qdot_expr qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 /* The relation 0 < e, with negative terms moved to the other side. */
 qdot_expr qdot_positive_without_minus(qdot_pool *pool, qdot_expr e);
 
-/* e - b for a relation b < e or b <= e: the expression that the relation states to be positive. */
+/* The expression e - b that a relation b < e or b <= e states to be positive (or not negative). */
 qdot_expr qdot_positive_of(qdot_pool *pool, qdot_expr relation);
 
 #endif

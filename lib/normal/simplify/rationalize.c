@@ -1,4 +1,4 @@
-/* rationalize.c -- numerator and denominator times the conjugate, root by root. */
+/* rationalize.c -- multiplies numerator and denominator by conjugates, root by root, to remove roots. */
 #include "normal/simplify/rationalize.h"
 
 #include "base/memory.h"
@@ -10,7 +10,7 @@
 
 enum { WORK = 500000 };
 
-/* conjugate = A - B r of p = A + B r, r the variable v. */
+/* Set out to A - B r for p = A + B r, where v is the variable of the root r. */
 static void
 conjugate(qdot_field *f, fmpz_mpoly_t out, const fmpz_mpoly_t p, slong v)
 {

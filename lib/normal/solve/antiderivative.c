@@ -56,9 +56,9 @@ term_take_apart(qdot_pool *pool, qdot_expr term, qdot_expr x)
     return f;
 }
 
-/* The integral of u^n by u. */
+/* The integral of u^n with respect to u. */
 static qdot_expr
-power(qdot_pool *pool, qdot_expr u, qdot_expr n)
+integrate_power(qdot_pool *pool, qdot_expr u, qdot_expr n)
 {
     if (n == QDOT_MINUS_ONE)
         return qdot_fun1(pool, QDOT_LOG, u);
@@ -66,7 +66,7 @@ power(qdot_pool *pool, qdot_expr u, qdot_expr n)
     return qdot_div(pool, qdot_pow(pool, u, n), n);
 }
 
-/* The integral of fun(u) by u; nil: not in the table. */
+/* The integral of f(u) du; nil if the table does not have it. */
 static qdot_expr
 function(qdot_pool *pool, qdot_fun_id id, qdot_expr u)
 {
@@ -83,7 +83,7 @@ function(qdot_pool *pool, qdot_fun_id id, qdot_expr u)
         return qdot_fun1(pool, QDOT_SINH, u);
     case QDOT_TAN:
         u = qdot_fun1(pool, QDOT_COS, u);
-        return qdot_neg(pool, power(pool, u, QDOT_MINUS_ONE));
+        return qdot_neg(pool, integrate_power(pool, u, QDOT_MINUS_ONE));
     default:
         return QDOT_NIL;
     }
@@ -105,11 +105,11 @@ one_factor(const table *t, qdot_expr base, qdot_expr exponent, qdot_expr x)
         return QDOT_NIL;
     whole = inner != base
                 ? function(pool, (qdot_fun_id)qdot_expr_node(pool, base)->op, inner)
-                : power(pool, base, exponent);
+                : integrate_power(pool, base, exponent);
     return whole == QDOT_NIL ? whole : qdot_div(pool, whole, slope);
 }
 
-/* x^n f(x), n a small positive integer: x^n F - int n x^(n-1) F. */
+/* Integrate x^n f(x) by parts, for a small positive integer n: x^n F - int n x^(n-1) F. */
 static qdot_expr
 by_parts(const table *t, const factors *f, qdot_expr x, int depth)
 {
@@ -197,7 +197,7 @@ integrate(const table *t, qdot_expr e, qdot_expr x, int depth)
         return e == QDOT_NIL ? e : integrate_term(t, e, x, depth);
     n = qdot_expr_count(pool, e);
     for (uint32_t i = 0; i < n && sum != QDOT_NIL; i += i == 0 ? 1 : 2) {
-        /* c0, c1, t1, c2, t2 ... */
+        /* the args of a sum are its constant c0, then pairs of coefficient and term: c1, t1, c2, t2 ... */
         qdot_expr term = qdot_expr_arg(pool, e, i), part;
 
         if (i > 0)

@@ -12,7 +12,7 @@
 
 #include "normal/field/facts.h"
 
-/* F with dF/dx = e, x a symbol; nil if none is known, or if the pool failed. */
+/* The antiderivative F with dF/dx = e, x a symbol; nil if none is known or the pool failed. */
 qdot_expr qdot_antiderivative(qdot_pool *pool, qdot_expr e, qdot_expr x,
                               const qdot_facts *facts);
 

@@ -28,7 +28,7 @@ qdot_expr qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool 
  * positive, or the gap has another form. */
 qdot_expr qdot_condition_of_logarithms(qdot_pool *pool, qdot_expr gap);
 
-/* s^2 - t^2 for a condition s - t with a square root, if s and t are never negative; else nil. */
+/* For a condition s - t with a square root: s^2 - t^2 if s and t are never negative; else nil. */
 qdot_expr qdot_condition_squared(qdot_pool *pool, qdot_expr gap);
 
 #endif

@@ -22,11 +22,11 @@
  * LARGEST_COMPARED operations each. */
 enum { MOST_COMPARED = 6, LARGEST_COMPARED = 24 };
 
-/* --- one relation --------------------------------------------------------------------- */
+/* --- single relations ----------------------------------------------------------------- */
 
 /* The strict relation 0 < rest with <= instead of <. */
 static qdot_expr
-weaken(qdot_pool *pool, qdot_expr strict)
+weaken_relation(qdot_pool *pool, qdot_expr strict)
 {
     return qdot_expr_kind(pool, strict) == QDOT_REL
                ? qdot_rel(pool, QDOT_LE, qdot_expr_arg(pool, strict, 0),
@@ -55,7 +55,7 @@ qdot_is_generic(const qdot_pool *pool, qdot_expr e)
     return (qdot_expr_node(pool, e)->holds & ~generic) == 0;
 }
 
-/* -1 < x for 0 < x + 1. */
+/* Move a number to the left side: -1 < x for 0 < x + 1. */
 static qdot_expr
 number_apart(qdot_pool *pool, qdot_expr relation)
 {
@@ -79,7 +79,7 @@ inverse_of(qdot_fun_id h)
                                                                                 : QDOT_FUNCTION_KINDS;
 }
 
-/* Whether h(at) is the number, and not another branch: to be seen in doubles. */
+/* Whether h(at) equals the number rather than the value on another branch; compared in doubles. */
 static bool
 is_value(qdot_pool *pool, qdot_fun_id h, qdot_expr at, qdot_expr number)
 {
@@ -136,7 +136,7 @@ qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     return (facts == NULL || !facts->exact) && qdot_is_generic(pool, e) && !qdot_vanishes_in_regions(pool, e);
 }
 
-/* u if the condition is 0 < |u|, which means u != 0; else nil. */
+/* The expression u if the condition is 0 < |u|, which means u != 0; else nil. */
 static qdot_expr
 magnitude_of(const qdot_pool *pool, qdot_expr gap)
 {
@@ -164,7 +164,7 @@ argument_at_zero(qdot_pool *pool, qdot_expr u)
                : u;
 }
 
-/* 0 < gap or 0 <= gap in its shortest form. Expressions with coordinates are not factored. */
+/* Write 0 < gap or 0 <= gap in its shortest form. Expressions with coordinates are not factored. */
 static qdot_expr
 condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
@@ -179,7 +179,7 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
                : qdot_is_generic(pool, gap) ? qdot_positive_exact(pool, gap, facts)
                                             : number_apart(pool, qdot_positive_without_minus(pool, gap));
     return shortest == QDOT_NIL ? QDOT_NIL
-                                : unfold(pool, strict ? shortest : weaken(pool, shortest));
+                                : unfold(pool, strict ? shortest : weaken_relation(pool, shortest));
 }
 
 static qdot_expr
@@ -254,7 +254,7 @@ qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *fa
     return qdot_pool_failed(pool) ? QDOT_NIL : by_squares == QDOT_NIL ? relation : by_squares;
 }
 
-/* --- sets ----------------------------------------------------------------------------- */
+/* --- sets of relations ---------------------------------------------------------------- */
 
 qdot_expr
 qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation)
@@ -459,7 +459,7 @@ relation_at(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *from
                           qdot_expr_node(pool, there)->op == QDOT_LT, facts);
 }
 
-/* The set and a relation; 0 < |u v| as u != 0 and v != 0, 0 < u^2 v as u != 0 and 0 < v. */
+/* Add a relation to the set; 0 < |u v| becomes u != 0 and v != 0, 0 < u^2 v becomes u != 0 and 0 < v. */
 static qdot_expr
 conditions_add_factors(qdot_pool *pool, qdot_expr set, qdot_expr relation)
 {
@@ -518,8 +518,8 @@ qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *fr
 
 /* Whether a relation follows from the relations of a set other than number i. */
 static bool
-follows(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr relation, bool with_itself,
-        const qdot_facts *facts)
+follows_from_others(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr relation, bool with_itself,
+                    const qdot_facts *facts)
 {
     qdot_expr others = QDOT_NIL, room[QDOT_CONDITIONS_MOST];
     qdot_facts known;
@@ -588,10 +588,10 @@ conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 static bool
 is_follower(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const qdot_facts *facts)
 {
-    bool yes = follows(pool, set, i, qdot_expr_arg(pool, set, i), false, facts);
+    bool yes = follows_from_others(pool, set, i, qdot_expr_arg(pool, set, i), false, facts);
 
     for (uint32_t k = 0; yes && domain != QDOT_NIL && k < qdot_expr_count(pool, domain); k++)
-        yes = follows(pool, set, i, qdot_expr_arg(pool, domain, k), false, facts);
+        yes = follows_from_others(pool, set, i, qdot_expr_arg(pool, domain, k), false, facts);
     return yes;
 }
 
@@ -627,7 +627,7 @@ qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
             qdot_expr_node(pool, one)->op != QDOT_LE)
             continue;
         strict = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
-        if (follows(pool, set, i, strict, true, facts))
+        if (follows_from_others(pool, set, i, strict, true, facts))
             set = conditions_replace(pool, set, i, strict);
     }
     /* first those with roots: they imply that the roots are defined, and simpler relations might be

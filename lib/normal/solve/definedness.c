@@ -189,7 +189,7 @@ qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
     return conditions_of_parts(pool, f, x, domain_of_part);
 }
 
-/* --- where it is divided -------------------------------------------------------------- */
+/* --- where its divisors vanish -------------------------------------------------------- */
 
 static qdot_expr
 conditions_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)

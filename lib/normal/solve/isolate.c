@@ -1,4 +1,4 @@
-/* isolate.c -- Krawczyk's test in balls. */
+/* isolate.c -- proves zeros of a system by Krawczyk's test in ball arithmetic. */
 #include "normal/solve/isolate.h"
 
 #include <float.h>
@@ -142,7 +142,7 @@ mid(arb_srcptr v)
     return arf_get_d(arb_midref(v), ARF_RND_NEAR);
 }
 
-/* y = C f(x0), and C itself. */
+/* Find the Newton step y = C f(x0), and C, the inverse of the derivatives. */
 static bool
 newton_step(qdot_isolate *s, const double *x0)
 {

@@ -1,4 +1,4 @@
-/* linear.c -- linear systems, block by block: Bareiss' fraction-free elimination over polynomials. */
+/* linear.c -- solves linear systems block by block, by Bareiss' fraction-free elimination over polynomials. */
 #include "normal/solve/linear.h"
 
 #include <stdlib.h>
@@ -20,7 +20,7 @@
 /* An expanded solution is not simplified if it is this many times longer than Cramer's. */
 #define TOO_LONG 4
 
-/* The rows of [A b] as polynomials, each multiplied by the common denominator of its entries. */
+/* Write the rows of [A b] as polynomials, each multiplied by the common denominator of its entries. */
 static void
 rows_fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
 {
@@ -56,7 +56,7 @@ rows_fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
 
 /* Whether p is zero modulo the rules. */
 static bool
-vanishes(qdot_field *f, const fmpz_mpoly_t p)
+is_zero_by_rules(qdot_field *f, const fmpz_mpoly_t p)
 {
     fmpz_mpoly_t x;
     bool zero;
@@ -116,7 +116,7 @@ find_pivot(qdot_field *f, const fmpz_mpoly_struct *m, uint32_t n, uint32_t k)
     for (uint32_t i = k; i < n; i++) {
         const fmpz_mpoly_struct *p = m + i * (n + 1) + k;
 
-        if (!vanishes(f, p) &&
+        if (!is_zero_by_rules(f, p) &&
             (best == n || fmpz_mpoly_length(p, f->ctx) <
                               fmpz_mpoly_length(m + best * (n + 1) + k, f->ctx)))
             best = i;
@@ -377,7 +377,7 @@ solve_block(struct system *s, uint32_t k, uint32_t m, const uint32_t *block)
     return status;
 }
 
-/* block[i]: the first unknown to which i is coupled, directly or through others. */
+/* Find block[i], the first unknown to which i is coupled, directly or through others. */
 static void
 find_blocks(uint32_t n, const qdot_expr *A, uint32_t *block)
 {

@@ -1,4 +1,4 @@
-/* null-space.c -- splits the entries by monomials and eliminates the parameters. */
+/* null-space.c -- finds the null space of a matrix for all values of coordinates and velocities. */
 #include "normal/solve/null-space.h"
 
 #include <stdlib.h>
@@ -35,7 +35,7 @@ typedef struct {
     size_t rank;
 } elimination;
 
-/* The order of monomials; without generators there is only one, without key. */
+/* Compare two monomials for sorting; without generators there is only one, without a key. */
 static int
 key_order(const piece *x, const piece *y)
 {
@@ -57,7 +57,7 @@ is_zero(const elimination *e, const qdot_ratio *r)
     return fmpz_mpoly_is_zero(r->n, e->f->ctx);
 }
 
-/* a -= c b, [n] each. */
+/* Subtract c times b from a, [n] each. */
 static void
 subtract(elimination *e, qdot_ratio *a, const qdot_ratio *c, const qdot_ratio *b)
 {
@@ -79,7 +79,7 @@ subtract(elimination *e, qdot_ratio *a, const qdot_ratio *c, const qdot_ratio *b
 
 /* Reduce the present row by the pivots; if it does not vanish it becomes a new pivot. */
 static void
-absorb(elimination *e)
+reduce_by_pivots(elimination *e)
 {
     qdot_field *f = e->f;
     qdot_ratio *fresh = e->pivots + e->rank * e->n, head;
@@ -121,12 +121,12 @@ absorb_pieces(elimination *e, piece *pieces, size_t n)
             fmpz_mpoly_zero(e->row[j].n, f->ctx), fmpz_mpoly_one(e->row[j].d, f->ctx);
         for (b = a; b < n && key_order(&pieces[a], &pieces[b]) == 0; b++)
             fmpz_mpoly_set(e->row[pieces[b].column].n, pieces[b].coefficient, f->ctx);
-        absorb(e);
+        reduce_by_pivots(e);
     }
     return QDOT_OK;
 }
 
-/* The least common multiple of the denominators. */
+/* Find the least common multiple of the denominators of a row. */
 static void
 common_denominator(elimination *e, const qdot_expr *row, fmpz_mpoly_t lcm)
 {
@@ -204,7 +204,7 @@ take_row(elimination *e, const qdot_expr *row)
     return status;
 }
 
-/* A null vector for each column without a pivot. */
+/* Make a null vector for each column without a pivot. */
 static qdot_status
 vectors(elimination *e, qdot_expr **basis, size_t *m)
 {

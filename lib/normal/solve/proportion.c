@@ -132,7 +132,7 @@ nonzero_factors(qdot_field *f, const fmpz_mpoly_t p)
     return nonzero;
 }
 
-/* The value of an atom in a LIST of equations atom = number. */
+/* The value of an atom from a LIST of equations atom = number. */
 static bool
 point_value_of_motion(void *user, qdot_expr atom, arb_t value, slong prec)
 {

@@ -18,7 +18,7 @@ qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
     return qdot_expr_find_function(pool, e, sizeof choices / sizeof *choices, choices, x);
 }
 
-/* --- one function ---------------------------------------------------------------------------------- */
+/* --- switching functions --------------------------------------------------------------------------- */
 
 /* The values of a switching function for left > right, left < right and left = right. */
 typedef struct {
@@ -64,7 +64,7 @@ sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
     return (sign & QDOT_POS) == QDOT_POS ? 1 : (sign & QDOT_NEG) == QDOT_NEG ? -1 : 0;
 }
 
-/* --- the switch ------------------------------------------------------------------------------------- */
+/* --- replacing them on either side ------------------------------------------------------------------ */
 
 /* Collect the functions of e that switch by the sign of u in s->choice; with[2]: which sides agree at u = 0. */
 static qdot_status
@@ -111,7 +111,7 @@ collect(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
     return status;
 }
 
-/* left > right and left < right. */
+/* Add the two sides left > right and left < right of a switch. */
 static qdot_status
 two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
 {

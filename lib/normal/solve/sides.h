@@ -37,7 +37,7 @@ qdot_expr qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x);
 /* The switch to which `choice` belongs, with all functions in e (or a LIST) that it decides. *out
  * is cleared by the caller in any case. */
 QDOT_MUST_CHECK qdot_status qdot_sides_of(qdot_pool *pool, qdot_expr e, qdot_expr choice, qdot_sides *out);
-/* e on a side of the switch; side s->n: at u = 0. Nil (QDOT_EDOMAIN): undefined there. */
+/* e on side number `side` of the switch; for s->n at u = 0. Nil (QDOT_EDOMAIN): e is undefined there. */
 qdot_expr qdot_sides_put(const qdot_sides *s, size_t side, qdot_expr e);
 void qdot_sides_clear(qdot_sides *s);
 

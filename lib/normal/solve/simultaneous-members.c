@@ -17,7 +17,7 @@
 
 enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16, MOST_LISTED = 64 };
 
-/* --- periods --------------------------------------------------------------------------- */
+/* --- common periods of equations ------------------------------------------------------- */
 
 /* The different rates c at which u occurs in circular functions sin(c u + d); false if one is not
  * linear in u. */
@@ -49,7 +49,7 @@ circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
     return linear && *n > 0;
 }
 
-/* 2 pi over the largest rate of which all rates are integer multiples; nil if there is none. */
+/* The period 2 pi/r with the largest r of which all rates are integer multiples; nil if there is none. */
 static qdot_expr
 common_period(qdot_simultaneous *s, const qdot_expr *rate, size_t n)
 {
@@ -114,7 +114,7 @@ qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period)
     return QDOT_OK;
 }
 
-/* --- solutions ------------------------------------------------------------------------- */
+/* --- solutions and their families ------------------------------------------------------ */
 
 /* Whether e contains a division by a constant that is proved to be 0. */
 static bool

@@ -16,7 +16,7 @@
 /* The budget; typical textbook systems take some hundred units. */
 enum { WORK = 6000 };
 
-/* --- each once ---------------------------------------------------------------------------------------- */
+/* --- each solution once ------------------------------------------------------------------------------- */
 
 /* Whether d is an integer number of full turns. */
 static bool
@@ -129,7 +129,7 @@ leave_out_twice(qdot_simultaneous *s)
     return qdot_pool_check(s->pool);
 }
 
-/* --- in order ----------------------------------------------------------------------------------------- */
+/* --- sorting solutions -------------------------------------------------------------------------------- */
 
 /* Whether a is listed before b: by the first value that differs, if both are constants. */
 static bool
@@ -220,7 +220,7 @@ aliased(const alias *a, qdot_expr e)
     return renamed(a->pool, e, a->n, a->name, a->symbol);
 }
 
-/* The facts of the aliases, in room [relations + conditions]. */
+/* Write the facts with the aliases for their parameters, in room [relations + conditions]. */
 static qdot_facts
 facts_aliased(const alias *a, const qdot_facts *facts, qdot_expr *room)
 {

@@ -24,7 +24,7 @@
 
 enum { MOST_MEMBERS = 64 };
 
-/* --- values put in --------------------------------------------------------------- */
+/* --- inserting values; special parameter values ---------------------------------- */
 
 qdot_expr
 qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values)
@@ -124,7 +124,7 @@ has_kinks(const qdot_simultaneous *s, qdot_expr e, qdot_expr u)
 /* How hard it is to solve a factor for an unknown: 0 the only one in it; 1 linear, never
  * divided by anything unknown; 2 linear, or so in pieces; 3 else; 9 not there. */
 static int
-effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
+effort_to_solve(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
 {
     qdot_expr slope;
 
@@ -146,12 +146,12 @@ effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
 
 /* The unknown for which a factor is solved most easily; of equal ones the last. */
 static int
-easiest(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
+easiest_unknown(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
 {
     int least = 9;
 
     for (size_t i = s->unknowns.n; i-- > 0;) {
-        int one = effort(s, factor, s->unknowns.at[i]);
+        int one = effort_to_solve(s, factor, s->unknowns.at[i]);
 
         if (one < least) {
             least = one;
@@ -305,7 +305,7 @@ with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e
                       qdot_conditions_all(pool, root->condition, root->members));
 }
 
-/* Continue with a branch on which a divisor (an expression, or all of a LIST) is 0. */
+/* Continue with a branch on which a divisor is 0 (for a LIST: all its members). */
 static qdot_status
 with_divisor_zero(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr factor,
                   qdot_expr divisor)
@@ -375,7 +375,7 @@ split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others,
     qdot_expr u;
     qdot_status status;
 
-    if (easiest(s, factor, &which) == 9) /* no unknown: generic parameters, not 0 */
+    if (easiest_unknown(s, factor, &which) == 9) /* no unknown: generic parameters, not 0 */
         return add_special(s, factor);
     u = s->unknowns.at[which];
     status = qdot_solve(s->pool, factor, u, &s->facts, &found);
@@ -392,7 +392,7 @@ split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others,
     return status;
 }
 
-/* --- sides ----------------------------------------------------------------------------- */
+/* --- sides of switching functions ------------------------------------------------------ */
 
 /* Continue a branch on one side of a switch, with further conditions and the equation `jump` (nil: none). */
 static qdot_status
@@ -456,7 +456,7 @@ shared_choice(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
     return choice;
 }
 
-/* --- the next equation ----------------------------------------------------------------- */
+/* --- choosing the next equation -------------------------------------------------------- */
 
 /* Note whether e, without unknowns and not proved 0, is proved to be non-zero; otherwise the set
  * may be incomplete. */
@@ -518,7 +518,7 @@ with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qd
     return status;
 }
 
-/* The equation that is solved next. */
+/* The equation that is solved next, and the others. */
 typedef struct {
     qdot_expr equation, factors; /* factors: nil where nothing is left to solve */
     qdot_expr others;            /* equations */
@@ -527,7 +527,7 @@ typedef struct {
 
 /* Factor every equation, and choose the one whose hardest factor is easiest to solve. */
 static qdot_status
-choose(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_equation *next)
+choose_equation(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_equation *next)
 {
     qdot_pool *pool = s->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
@@ -552,7 +552,7 @@ choose(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_
         if (holds_unknowns(s, e) == 0)
             next->dead = e;
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
-            int one = easiest(s, qdot_expr_arg(pool, list, k), &which);
+            int one = easiest_unknown(s, qdot_expr_arg(pool, list, k), &which);
 
             if (one < 9 && one > hardest)
                 hardest = one;
@@ -573,7 +573,7 @@ choose(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_
     return qdot_pool_check(pool);
 }
 
-/* The factors of a divisor that must vanish first; nil if it is 0 already. */
+/* Choose the factors of a divisor that must vanish first; nil if it is 0 already. */
 static qdot_status
 choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
 {
@@ -647,7 +647,7 @@ step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
         QDOT_TRY(choose_divisor(s, b->first, &next));
     if (next.factors == QDOT_NIL) { /* the divisor is 0 */
         left.first = QDOT_NIL;
-        QDOT_TRY(choose(s, b->equations, &facts, &next));
+        QDOT_TRY(choose_equation(s, b->equations, &facts, &next));
     }
     if (next.dead != QDOT_NIL)
         return with_dead(s, &left, &next, &facts);

@@ -80,7 +80,7 @@ qdot_expr qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values);
 /* The window of the unknown u (solutions.h), with values inserted into its ends. */
 qdot_window qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle);
 
-/* The smallest shift of the unknown u that leaves all equations unchanged; nil if none is known. */
+/* Find the smallest shift of the unknown u that leaves all equations unchanged; nil if none is known. */
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period);
 
 /* Append the solutions of a branch without equations: all its members inside the declared domains, with the conditions

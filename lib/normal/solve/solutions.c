@@ -25,7 +25,7 @@ enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12, MOST_INTEGERS = 16 };
 
 static const qdot_window window_whole = {.lo = QDOT_NIL, .lo_open = true, .hi_open = true};
 
-/* --- windows --------------------------------------------------------------------------- */
+/* --- windows in which roots are listed ------------------------------------------------- */
 
 qdot_window
 qdot_window_turn(qdot_pool *pool, qdot_window w)
@@ -198,7 +198,7 @@ typedef struct {
     qdot_solutions *out;
 } members;
 
-/* --- one value ------------------------------------------------------------------------- */
+/* --- the members: one value ------------------------------------------------------------ */
 
 qdot_expr
 qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value)
@@ -214,7 +214,7 @@ qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value)
     return relations;
 }
 
-/* The conditions, and that `value` lies in the window. */
+/* The conditions, with those that `value` lies in the window. */
 static qdot_expr
 conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
        const qdot_facts *facts)
@@ -251,9 +251,9 @@ members_add_value(const members *m, qdot_expr value, const qdot_window *w)
     return one.condition == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&m->out->root, one);
 }
 
-/* --- families -------------------------------------------------------------------------- */
+/* --- the members: families ------------------------------------------------------------- */
 
-/* Whether e is a constant; *v its double. */
+/* Whether e is a constant; *v: its value as a double. */
 static bool
 as_number(qdot_pool *pool, qdot_expr e, double *v)
 {
@@ -261,7 +261,7 @@ as_number(qdot_pool *pool, qdot_expr e, double *v)
            qdot_ball_double(pool, e, NULL, NULL, v) && isfinite(*v);
 }
 
-/* The number of periods (end - base)/period, if it is a constant. */
+/* Find the number of periods (end - base)/period, if it is a constant. */
 static bool
 periods_to(const members *m, qdot_expr end, double *v)
 {
@@ -293,7 +293,7 @@ members_add_between(const members *m, double first, double last)
     return QDOT_OK;
 }
 
-/* --- families whose values are bounded ---- */
+/* --- the members: families with bounded values --- */
 
 /* Bounds of the declared end of a domain; the whole line if there is none or it contains a symbol. */
 static qdot_interval
@@ -302,7 +302,7 @@ bounds_of_end(qdot_pool *pool, qdot_expr end)
     return end == QDOT_NIL ? qdot_interval_whole : qdot_zeros_constant(pool, end);
 }
 
-/* Bounds of e [m] over the declared domains of all their symbols; the whole line if unknown. */
+/* Find bounds of e [m] over the declared domains of all their symbols; the whole line if unknown. */
 static qdot_status
 bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval *to)
 {
@@ -394,7 +394,7 @@ members_add_turn(const members *m, bool *few)
     return qdot_pool_check(m->pool);
 }
 
-/* Add the whole family, value + n period, with the condition on n. */
+/* Add the whole family, value + n period, with the conditions on n. */
 static qdot_status
 members_add_family(const members *m)
 {

@@ -64,13 +64,13 @@ QDOT_MUST_CHECK qdot_status qdot_solve_members(qdot_pool *pool, qdot_expr x, con
 /* The k-th symbol for an integer, k = 0, 1 ...: n, n1, n2 ... without declared names. */
 qdot_expr qdot_solve_integer(qdot_pool *pool, unsigned k);
 
-/* The number of these symbols, from n on, that are needed to include those in e. */
+/* How many of the symbols n, n1, n2 ... must be counted to include those in e. */
 unsigned qdot_solve_integers(qdot_pool *pool, qdot_expr e);
 
 /* e without multiples of full turns in circular functions: sin(x) for sin(x + 2 pi n). */
 qdot_expr qdot_solve_without_turns(qdot_pool *pool, qdot_expr e);
 
-/* e with all these integers set to 0: one member of a family. */
+/* e with the integers n, n1 ... set to 0: one member of a family. */
 qdot_expr qdot_solve_one_member(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -37,7 +37,7 @@ members_with(qdot_solver *s, qdot_expr e, const qdot_root *root, qdot_expr when)
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* Roots of u, at which sign u jumps, if e itself is proved to vanish there. */
+/* Add the roots of u, at which sign u jumps, if e itself is proved to vanish there. */
 static qdot_status
 at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
 {

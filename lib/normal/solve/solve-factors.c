@@ -22,7 +22,7 @@
 
 enum { WORK = 2000000 };
 
-/* Irreducible factors with their exponents times `turn`, and the content, to a product. */
+/* Multiply a product by the irreducible factors of p, with their exponents times `turn`, and its content. */
 static qdot_status
 collect(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
         qdot_expr **list, size_t *n, size_t *capacity)
@@ -53,7 +53,8 @@ collect(qdot_field *f, const fmpz_mpoly_t p, long turn, qdot_expr *product,
     return status;
 }
 
-/* The product of factors and, if asked for, the factors of the numerator (*list stays NULL if over budget). */
+/* Find the product of factors and, if asked for, the factors of the numerator (*list stays NULL if
+ * over budget). */
 static qdot_status
 factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, size_t *n)
 {
@@ -89,7 +90,7 @@ factors_of(qdot_pool *pool, qdot_expr e, qdot_expr *product, qdot_expr **list, s
     return status;
 }
 
-/* --- roots of parameters ----------------------------------------------------------------- */
+/* --- roots of parameters, replaced by symbols -------------------------------------------- */
 
 /* Parameters written by v >= 0, v^n = base, where base^(1/n) stands: the field has no relations to factor modulo then.
  * x^3 - 3 x^2 sqrt(c) + 3 x c - c sqrt(c) is (x - v)^3. */
@@ -100,7 +101,7 @@ struct roots {
     qdot_expr v[MOST_ROOTS], root[MOST_ROOTS]; /* the i-th root may hold v of those before it */
 };
 
-/* A parameter of which base is a linear function, with a number as its slope; nil: there is none. */
+/* A parameter in which `base` is linear with a number as slope; nil if there is none. */
 static qdot_expr
 linear_parameter(qdot_pool *pool, qdot_expr base, qdot_expr *slope)
 {
@@ -213,7 +214,7 @@ with_roots(qdot_pool *pool, qdot_expr e, const struct roots *r)
     return e;
 }
 
-/* --- guarded ----------------------------------------------------------------------------- */
+/* --- factors, within the budget ---------------------------------------------------------- */
 
 struct factoring {
     qdot_pool *pool;
@@ -257,7 +258,7 @@ qdot_solve_factors(qdot_pool *pool, qdot_expr e)
     return status == QDOT_OK ? x.result : qdot_pool_fail(pool);
 }
 
-/* --- functions as they stand ----------------------------------------------------------------- */
+/* --- functions that are not taken apart ------------------------------------------------------ */
 
 enum { MOST_FUNCTIONS = 32 };
 

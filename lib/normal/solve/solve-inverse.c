@@ -7,9 +7,9 @@
 #include "expr/walk.h"
 #include "normal/solve/solver.h"
 
-/* --- angles ---------------------------------------------------------------------------- */
+/* --- equations for angles -------------------------------------------------------------- */
 
-/* x with u(x) = w + 2 pi k for every integer k: u is linear in x. */
+/* Solve u(x) = w + 2 pi k for every integer k, where u is linear in x. */
 static qdot_status
 turns_of(qdot_solver *s, qdot_expr u, qdot_expr w, qdot_expr when)
 {
@@ -37,7 +37,7 @@ qdot_solver_turns(qdot_solver *s, qdot_expr u, size_t n, const qdot_expr *w, qdo
     return QDOT_OK;
 }
 
-/* sin u = v or cos u = v. */
+/* Solve sin u = v or cos u = v. */
 static qdot_status
 circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
 {
@@ -63,7 +63,7 @@ circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
         when);
 }
 
-/* The solution u of tan(u/2) = a/b. */
+/* The solution u of tan(u/2) = a/b, by the function atan2. */
 static qdot_expr
 twice_the_angle(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -104,7 +104,7 @@ mixed_at_quarter(const qdot_solver *s, qdot_expr a, qdot_expr b, qdot_expr d, qd
     return qdot_pool_check(pool);
 }
 
-/* With R = sqrt(a^2 + b^2): R cos(u - atan2(a, b)) = -d. */
+/* Solve a sin u + b cos u + d = 0: R cos(u - atan2(a, b)) = -d with R = sqrt(a^2 + b^2). */
 qdot_status
 qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_expr d,
                   qdot_expr when)
@@ -137,9 +137,9 @@ qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_ex
         s, u, 2, (qdot_expr[]){qdot_add(pool, shift, v), qdot_sub(pool, shift, v)}, when);
 }
 
-/* --- the others ------------------------------------------------------------------------ */
+/* --- equations for other functions ----------------------------------------------------- */
 
-/* The conditions and lo < v < hi (<= at an end that is not open); nil: no such end. */
+/* The conditions, with lo < v < hi (<= at an end that is not open); a nil end adds nothing. */
 static qdot_expr
 in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool lo_open, bool hi_open)
 {
@@ -174,7 +174,7 @@ in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
                     f->lo.open, f->hi.open);
 }
 
-/* floor(u) = v: v <= u < v + 1 for an integer v. */
+/* Solve floor(u) = v: v <= u < v + 1 for an integer v. */
 static qdot_status
 whole_part(qdot_solver *s, qdot_expr u, qdot_expr v, qdot_expr when)
 {

@@ -29,7 +29,7 @@ qdot_specials_clear(qdot_specials *s)
 
 /* --- where a root exists --------------------------------------------------------------- */
 
-/* The set, and those relations of `more` that do not contain x. */
+/* The set, with those relations of `more` that do not contain x. */
 static qdot_expr
 conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
 {
@@ -41,7 +41,7 @@ conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
     return set;
 }
 
-/* --- the search ------------------------------------------------------------------------- */
+/* --- the search for special values ------------------------------------------------------ */
 
 /* The solutions at certain parameter values, whose own special values are then sought. */
 typedef struct {
@@ -64,7 +64,7 @@ leave_open(special_search *s, qdot_expr equation)
                : qdot_vec_push(&s->out->open, equation);
 }
 
-/* --- sets there ------------------------------------------------------------------------ */
+/* --- solutions that are known already -------------------------------------------------- */
 
 /* Whether `root`, wherever it exists, is one of these roots with the values inserted. */
 static bool

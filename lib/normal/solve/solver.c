@@ -57,7 +57,7 @@ qdot_solver_divide(qdot_solver *s, qdot_expr d)
                : qdot_vec_push(&s->out->divisor, d);
 }
 
-/* --- is it one? -------------------------------------------------------------------- */
+/* --- roots and whether they satisfy the equation ----------------------------------- */
 
 /* Whether e is 0 at some points of the parameters' domains, as far as can be seen. */
 static qdot_status
@@ -343,7 +343,7 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
     return qdot_solver_equation(s, A, when);
 }
 
-/* sinh u and cosh u: a polynomial in E = exp u > 0. */
+/* Solve an equation in sinh u and cosh u as a polynomial equation in E = exp u > 0. */
 static qdot_status
 hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh, qdot_expr when)
 {
@@ -384,7 +384,7 @@ hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh,
     return status;
 }
 
-/* A + B r = 0 with r^q = b: A^q = (-B)^q b, where r = -A/B is not negative. */
+/* Solve A + B r = 0 with r^q = b: A^q = (-B)^q b, where r = -A/B is not negative. */
 static qdot_status
 root_and_rest(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
 {
@@ -409,7 +409,7 @@ root_and_rest(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
     return qdot_solver_equation(s, A, when);
 }
 
-/* g(x) = v for a generator g. */
+/* Solve g(x) = v for a generator g. */
 static qdot_status
 generator_is(qdot_solver *s, const qdot_gen *gen, qdot_expr v, qdot_expr when)
 {
@@ -500,7 +500,7 @@ one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr whole,
     return status;
 }
 
-/* Every factor of e's numerator; where e is 0 identically, every x is a root. */
+/* Solve every factor of e's numerator; if e is 0 identically, every x is a root. */
 static qdot_status
 by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
 {

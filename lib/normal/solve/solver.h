@@ -18,7 +18,7 @@ typedef struct {
 
 /* In all of these `when` is a set of conditions; those that contain x are decided at each root. */
 
-/* Every x with e = 0, e an expression in x (solver.c). */
+/* Find every x with e = 0, e being an expression in x (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when);
 /* Add the root `value`, with a period or nil, if it satisfies the equation and `when` (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period,
@@ -33,7 +33,7 @@ bool qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_e
 QDOT_MUST_CHECK qdot_status qdot_solver_divide(qdot_solver *s, qdot_expr d);
 /* e simplified (solver.c). */
 qdot_expr qdot_solver_tidy(const qdot_solver *s, qdot_expr e);
-/* 0 <= gap as a condition (solver.c); 0 < gap of generic parameters. */
+/* The condition 0 <= gap; 0 < gap if the gap contains only generic parameters (solver.c). */
 qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
 
 typedef struct {
@@ -49,10 +49,10 @@ QDOT_MUST_CHECK qdot_status qdot_solver_polynomial(qdot_solver *s, const qdot_ex
 /* Solve g(x) = v for an elementary function g of one argument (solve-inverse.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v,
                                                qdot_expr when);
-/* x with u(x) = w[i] + 2 pi k (solve-inverse.c). */
+/* Solve u(x) = w[i] + 2 pi k for every integer k (solve-inverse.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_turns(qdot_solver *s, qdot_expr u, size_t n,
                                               const qdot_expr *w, qdot_expr when);
-/* a sin u + b cos u + d = 0 (solve-inverse.c). */
+/* Solve a sin u + b cos u + d = 0 (solve-inverse.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a,
                                               qdot_expr b, qdot_expr d, qdot_expr when);
 

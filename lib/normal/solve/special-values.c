@@ -86,7 +86,7 @@ zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
     return zeros_of_all(s, n, there, all);
 }
 
-/* d = s p + r with a slope s that may vanish: p = -r/s, or s = 0 and r = 0. */
+/* Solve d = s p + r = 0 where the slope s may vanish: p = -r/s, or s = 0 and r = 0. */
 static qdot_status
 zeros_of_linear(search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_t n,
                 const qdot_expr *d, qdot_expr where)
@@ -146,7 +146,7 @@ zeros_of_factor(search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdo
                            qdot_subs(pool, d, 1, &linear, &zero), n, others, where);
 }
 
-/* Parameter values at which all of d [n] vanish; for n = 0 those of `where`. */
+/* Find parameter values at which all of d [n] vanish; for n = 0 those of `where`. */
 static qdot_status
 zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
 {

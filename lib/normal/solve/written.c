@@ -171,7 +171,7 @@ qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_exp
     return qdot_pool_check(pool);
 }
 
-/* The relation at x = value if no split root is left in it; nil if one is left, or if there was none. */
+/* Find the relation at x = value if no split root is left in it; nil if one is left, or if there was none. */
 static qdot_status
 without_roots(qdot_pool *pool, qdot_expr relation, qdot_expr apart, qdot_expr x, qdot_expr value, qdot_expr *there)
 {

@@ -25,7 +25,7 @@ QDOT_MUST_CHECK qdot_status qdot_written_add(qdot_pool *pool, qdot_expr base, qd
  * becomes |x| sqrt(a - x^2), and `apart` gets what that asks and `domain` does not. */
 QDOT_MUST_CHECK qdot_status qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written *w);
 
-/* The set without the relations that are in `some`. */
+/* The set without the relations that the set `some` contains. */
 qdot_expr qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some);
 
 /* Whether f vanishes at x = value for any values of the roots whose conditions are `apart`. */

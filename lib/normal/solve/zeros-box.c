@@ -146,7 +146,7 @@ invert(size_t n, double A[MOST][MOST], double C[MOST][MOST])
     return true;
 }
 
-/* C = the inverse of the slopes' middles. */
+/* Set C to the inverse of the matrix of the slopes' midpoints. */
 static bool
 invert_middles(size_t n, const image *f, double C[MOST][MOST])
 {
@@ -158,7 +158,7 @@ invert_middles(size_t n, const image *f, double C[MOST][MOST])
     return invert(n, A, C);
 }
 
-/* R = 1 - C f'(X); returns its norm, the largest row sum. */
+/* Compute R = 1 - C f'(X), where C is an approximate inverse of f'; returns its norm, the largest row sum. */
 static double
 remainder_of(size_t n, double C[MOST][MOST], const image *f, qdot_interval R[MOST][MOST])
 {
@@ -198,7 +198,7 @@ qdot_zeros_is_regular(const qdot_enclosure *bounds, size_t n)
     return invert_middles(n, &f, C) && remainder_of(n, C, &f, R) < 1;
 }
 
-/* K - m = -C f(m) + R (X - m) */
+/* Component i of Krawczyk's image: K - m = -C f(m) + R (X - m). */
 static qdot_interval
 krawczyk(size_t n, size_t i, double C[MOST][MOST], qdot_interval R[MOST][MOST],
          const image *at_m, const qdot_interval *X, const double *m)
@@ -358,7 +358,7 @@ is_known(qdot_zeros_system *s, const qdot_interval *X)
 
 /* If a box slightly larger than X contains at most one zero: find and prove it. */
 static qdot_status
-settle(qdot_zeros_system *s, const qdot_interval *X, const double *m, bool *settled)
+prove_zero_in(qdot_zeros_system *s, const qdot_interval *X, const double *m, bool *settled)
 {
     size_t n = s->n;
     qdot_interval wide[MOST], R[MOST][MOST], z[MOST];
@@ -386,7 +386,7 @@ settle(qdot_zeros_system *s, const qdot_interval *X, const double *m, bool *sett
     return qdot_vec_push(&s->found, place);
 }
 
-/* --- a box ---------------------------------------------------------------------------------------------- */
+/* --- deciding about one box ----------------------------------------------------------------------------- */
 
 static bool
 is_narrow(const qdot_zeros_system *s, const qdot_interval *X)
@@ -480,7 +480,7 @@ widest(size_t n, const image *f, const qdot_interval *X)
     return best;
 }
 
-/* Exclude X, shrink it, or find its zero. */
+/* Exclude the box X, shrink it, or find its zero. */
 static qdot_status
 look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
 {
@@ -518,7 +518,7 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
         if (hides_in_rounding(n, C, &at_m, X))
             *how = DOUBT;
         if (norm < 0.9) {
-            QDOT_TRY(settle(s, X, m, &settled));
+            QDOT_TRY(prove_zero_in(s, X, m, &settled));
             if (settled) {
                 *how = DONE;
                 return QDOT_OK;
@@ -542,9 +542,9 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
     return QDOT_OK;
 }
 
-/* Where to cut: by magnitude where X spans many. */
+/* The place where an interval is cut: by magnitude if it spans many orders. */
 static double
-cut(qdot_interval X)
+cutting_point(qdot_interval X)
 {
     double lo = X.lo, hi = X.hi;
 
@@ -563,7 +563,7 @@ static qdot_status
 halve(qdot_zeros_system *s, const qdot_interval *X, size_t j)
 {
     qdot_zero_box a, b;
-    double at = cut(X[j]);
+    double at = cutting_point(X[j]);
 
     if (!(at > X[j].lo && at < X[j].hi))
         at = middle(X[j]);
@@ -631,7 +631,7 @@ qdot_zeros_search(qdot_zeros_system *s)
     }
 }
 
-/* --- boxes in doubt ---------------------------------------------------------------------------------------- */
+/* --- undecided boxes that touch ---------------------------------------------------------------------------- */
 
 static bool
 touch(size_t n, const qdot_interval *a, const qdot_interval *b)

@@ -16,7 +16,7 @@
 /* Exponents are integer multiples of 1/UNIT, so that their sums are exact. */
 enum { UNIT = 5040, LARGEST = 10000, TERMS = 4, FIRST = 2, LAST = 30, SIZE = 400 };
 
-/* S(x) = x^power log(x)^logs exp(sum of rate x^exponent), the exponents descending and > 0. */
+/* A scale S(x) = x^power log(x)^logs exp(sum of rate x^exponent), the exponents descending and > 0. */
 typedef struct {
     long power, logs;
     size_t n;
@@ -47,7 +47,7 @@ typedef struct {
 static const far_form form_unknown = {.bounds = {-INFINITY, INFINITY}};
 static const far_form form_nowhere = {.bounds = {-INFINITY, INFINITY}, .nowhere = true};
 
-/* --- scales ---------------------------------------------------------------------------------------- */
+/* --- scales: functions S(x) that measure growth ---------------------------------------------------- */
 
 /* Multiply the scale s by exp(rate x^exponent). */
 static bool
@@ -74,7 +74,7 @@ scale_add_term(qdot_pool *pool, far_scale *s, long exponent, qdot_expr rate)
     return s->term[k].bounds.lo > 0 || s->term[k].bounds.hi < 0;
 }
 
-/* s multiplied by r to the power num / den. */
+/* Multiply the scale s by r to the power num / den. */
 static bool
 scale_multiply(qdot_pool *pool, far_scale *s, const far_scale *r, long num, long den)
 {
@@ -171,7 +171,7 @@ scale_range(const far_task *t, const far_scale *s)
     }
 }
 
-/* --- forms ----------------------------------------------------------------------------------------- */
+/* --- forms: a scale times a bounded factor --------------------------------------------------------- */
 
 static const far_form *
 form_at(const far_task *t, qdot_expr e)
@@ -264,9 +264,9 @@ form_sum(const far_task *t, const far_form *f, const far_form *g)
     return form_checked(sum);
 }
 
-/* --- exponentials and logarithms ------------------------------------------------------------------- */
+/* --- exponentials and logarithms of forms ---------------------------------------------------------- */
 
-/* Whether e is K x^p, p > 0: *rate K, *exponent p in UNITs. */
+/* Whether e is K x^p with p > 0; then *rate is K, and *exponent is p in UNITs. */
 static bool
 is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
 {
@@ -296,7 +296,7 @@ is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
     return *rate != QDOT_NIL && !qdot_expr_contains(pool, *rate, x) && *exponent > 0;
 }
 
-/* exp(u) for u of one sign with |u| >= c x: at least exp(c x), or at most exp(-c x). */
+/* The form of exp(u) for u of one sign with |u| >= c x: at least exp(c x), or at most exp(-c x). */
 static far_form
 form_exp_of_fast(const far_task *t, const far_form *u)
 {
@@ -320,7 +320,7 @@ form_exp_of_fast(const far_task *t, const far_form *u)
     return form_checked(f);
 }
 
-/* exp(by u) for a constant `by`, as a product over the terms of u. */
+/* The form of exp(by u) for a constant `by`, as a product over the terms of u. */
 static far_form
 form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
 {
@@ -352,7 +352,7 @@ form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
     return form_checked(f);
 }
 
-/* exp(by u) for a constant `by`. */
+/* The form of exp(by u) for a constant `by`. */
 static far_form
 form_exp(const far_task *t, qdot_expr u, qdot_expr by)
 {
@@ -365,7 +365,7 @@ form_exp(const far_task *t, qdot_expr u, qdot_expr by)
     return form_exp_of_fast(t, &all);
 }
 
-/* log u = log m + power log x + sum of rate x^exponent. */
+/* The form of log u = log m + power log x + sum of rate x^exponent. */
 static far_form
 form_log(const far_task *t, const far_form *u)
 {
@@ -390,7 +390,7 @@ form_log(const far_task *t, const far_form *u)
     return sum;
 }
 
-/* --- other functions ------------------------------------------------------------------------------- */
+/* --- forms of other functions ---------------------------------------------------------------------- */
 
 /* Bounds of h(v)/v for 0 < |v| <= most, h odd; empty if unknown. */
 static qdot_interval
@@ -458,7 +458,7 @@ form_function(const far_task *t, qdot_expr e)
     }
 }
 
-/* base^exponent = exp(exponent log base), x in both. */
+/* The form of base^exponent = exp(exponent log base), if both contain x. */
 static far_form
 form_of_both(const far_task *t, const far_form *base, const far_form *exponent)
 {
@@ -551,9 +551,9 @@ form_of_node(const far_task *t, qdot_expr e)
     }
 }
 
-/* --- the question ---------------------------------------------------------------------------------- */
+/* --- whether there are zeros far away -------------------------------------------------------------- */
 
-/* exp(u) with u expanded; sinh and cosh as exponentials. */
+/* exp(u) with u expanded; sinh and cosh written as exponentials. */
 static qdot_expr
 as_exponentials(qdot_pool *pool, qdot_expr e, void *user)
 {

@@ -1,4 +1,5 @@
-/* zeros-find.c -- all zeros in a box: splits into systems, treats infinity and ends, and merges the results. */
+/* zeros-find.c -- finds all zeros in a box: splits equations into systems, treats infinity and
+ * ends, merges results. */
 #include "expr/build.h"
 #include "expr/node.h"
 #include "normal/solve/zeros.h"
@@ -23,7 +24,7 @@ enum {
     FACTORING = 200
 }; /* what an equation in a chart costs before it is evaluated */
 
-/* --- ranges ----------------------------------------------------------------------------------------- */
+/* --- ranges of the unknowns ------------------------------------------------------------------------- */
 
 static qdot_status
 read_ranges(qdot_zeros_task *t)
@@ -81,7 +82,7 @@ read_held(qdot_zeros_task *t)
     return QDOT_OK;
 }
 
-/* --- systems ---------------------------------------------------------------------------------------- */
+/* --- factors as separate systems -------------------------------------------------------------------- */
 
 /* Form a system for every choice of one factor from each equation. */
 static qdot_status
@@ -113,7 +114,7 @@ split(qdot_zeros_task *t)
     return QDOT_OK;
 }
 
-/* --- the search -------------------------------------------------------------------------------------------- */
+/* --- searching the box and beyond -------------------------------------------------------------------------- */
 
 static qdot_status
 task_search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, uint64_t most)
@@ -134,7 +135,7 @@ task_search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, 
     return status;
 }
 
-/* Whether f [n] have no zero in the chart, proved. */
+/* Whether it is proved that f [n] have no zero in the chart. */
 static qdot_status
 is_empty_chart(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_expr *of,
                bool *empty)
@@ -360,7 +361,7 @@ search_system(qdot_zeros_task *t, size_t k)
     return status;
 }
 
-/* --- the answer -------------------------------------------------------------------------------------------- */
+/* --- merging the results ----------------------------------------------------------------------------------- */
 
 static int
 by_place(const void *a, const void *b)

@@ -19,7 +19,7 @@
 /* MOST_GROWN: undecided intervals at which the growth of terms is examined. */
 enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100, MOST_GROWN = 32 };
 
-/* --- exact candidates ------------------------------------------------------------------------------- */
+/* --- guessing exact zeros --------------------------------------------------------------------------- */
 
 /* Whether f is monotonic on either side of c, where it may have a kink. */
 static bool
@@ -150,7 +150,7 @@ roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
     return qdot_pool_check(s->pool);
 }
 
-/* The roots of a short equation by formulas; none if unknown. */
+/* Find the roots of a short equation by formulas; none if unknown. */
 static qdot_status
 solve_by_formulas(qdot_zeros_system *s, qdot_solutions *roots)
 {
@@ -214,7 +214,7 @@ decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
     return QDOT_OK;
 }
 
-/* --- more bits -------------------------------------------------------------------------------------------- */
+/* --- more than double precision --------------------------------------------------------------------------- */
 
 typedef struct {
     qdot_zeros_system *s;
@@ -250,7 +250,7 @@ sign_over(fine *d, int i, const arf_t lo, const arf_t hi)
     return v == NULL ? 0 : arb_is_positive(v) ? 1 : arb_is_negative(v) ? -1 : 0;
 }
 
-/* The zero between lo and hi, where f rises or falls, to a double. */
+/* Find the zero between lo and hi, where f rises or falls, to double precision. */
 static qdot_status
 push_zero(fine *d, arf_t lo, arf_t hi, int below)
 {
@@ -353,7 +353,7 @@ decide_by_bits(qdot_zeros_system *s, qdot_interval X)
     return status;
 }
 
-/* --- where f is not defined, or has no slope ---- */
+/* --- places where f or its slope is undefined --- */
 
 /* Whether f(at) is not defined, or another number than 0. */
 static qdot_status

@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_decide_doubts(qdot_zeros_system *s,
 /* The k-th exact number that may be meant by a value within X: the simplest fraction, the simplest part
  * of pi; nil: there is none. */
 qdot_expr qdot_zeros_candidate(qdot_pool *pool, qdot_interval X, int k);
-/* Whether f [m] all vanish at x = value [n], proved. */
+/* Whether it is proved that f [m] all vanish at x = value [n]. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_vanish(qdot_pool *pool, size_t m,
                                               const qdot_expr *f, size_t n,
                                               const qdot_expr *x, const qdot_expr *value,
@@ -80,7 +80,7 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_ex
                                            int sign, double *R);
 
 /* --- systems (zeros-systems.c) ---- */
-/* The factors of f's numerator that may vanish, as a LIST; f itself if it does not factor. */
+/* Find the factors of f's numerator that may vanish, as a LIST; f itself if it does not factor. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n,
                                                const qdot_expr *x, qdot_expr *list);
 
@@ -97,14 +97,15 @@ typedef struct {
     qdot_zero_box box;
 } qdot_zeros_chart;
 
-/* The k-th chart; k = 0: the box within R. lo, hi [n]: bounds of the ranges. *out->n = 0: there is no k-th. */
+/* Make the k-th chart; k = 0: the box within R. lo, hi [n]: bounds of the ranges. *out->n = 0:
+ * there is no k-th. */
 void qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
                          const qdot_zeros_range *range, const qdot_interval *bounds,
                          size_t k, qdot_zeros_chart *out);
-/* The k-th chart, k < 2 n, of the neighbourhood of size `reach` of a point. */
+/* Make the k-th chart, k < 2 n, of the neighbourhood of size `reach` of a point. */
 void qdot_zeros_chart_near(qdot_pool *pool, size_t n, const qdot_expr *centre,
                            double reach, size_t k, qdot_zeros_chart *out);
-/* to [n] = f [n] in the chart's unknowns. */
+/* Write f [n] in the chart's unknowns, to [n]. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_chart_put(qdot_pool *pool, const qdot_expr *x,
                                                  const qdot_zeros_chart *chart,
                                                  const qdot_expr *f, qdot_expr *to);

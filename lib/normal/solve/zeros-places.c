@@ -10,7 +10,7 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, BITS = 128 };
 
-/* --- what was found ------------------------------------------------------------------------------------ */
+/* --- the zero of a system ------------------------------------------------------------------------------ */
 
 static double
 distance(const qdot_zeros_task *t, size_t j, double a, double b)
@@ -131,7 +131,7 @@ is_defined(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
     return QDOT_OK;
 }
 
-/* --- ends ------------------------------------------------------------------------------------------------ */
+/* --- zeros near the ends of ranges ----------------------------------------------------------------------- */
 
 typedef enum { INSIDE, OUTSIDE, AT_END, NOT_KNOWN } side;
 
@@ -185,7 +185,8 @@ is_on_face(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, siz
     return status;
 }
 
-/* One unknown: on which side of the end the only zero p lies, from the signs of f there and of f'. */
+/* Find on which side of the end the zero p lies, if it is the only one of one unknown, from signs
+ * of f there and of f'. */
 static qdot_status
 side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
              qdot_expr end, bool upper, side *where)
@@ -206,7 +207,7 @@ side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
     return QDOT_OK;
 }
 
-/* On which side of an end of x_j the zero p of f lies. */
+/* Find on which side of an end of x_j the zero p of f lies. */
 static qdot_status
 side_of(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t j,
         bool upper, side *where)

@@ -15,7 +15,7 @@
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, SIZE = 4000, FACTORS = 64 };
 
-/* --- factors --------------------------------------------------------------------------------------- */
+/* --- factors of an equation ------------------------------------------------------------------------ */
 
 static bool
 holds_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
@@ -26,9 +26,10 @@ holds_unknown(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
     return false;
 }
 
-/* A factor without parts that never vanish: b for b^p with p > 0; nil if it never vanishes. */
+/* A factor without powers and without parts that never vanish: b for b^p with p > 0; nil if it
+ * never vanishes. */
 static qdot_expr
-bare(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
+factor_that_may_vanish(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 {
     for (;;) {
         const qdot_node *node = qdot_expr_node(pool, e);
@@ -105,7 +106,7 @@ qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *x,
 
         if (one == QDOT_ZERO)
             return qdot_fail(QDOT_EDOMAIN, "the equation holds everywhere");
-        one = bare(pool, one, n, x);
+        one = factor_that_may_vanish(pool, one, n, x);
         if (one != QDOT_NIL && qdot_expr_place(count, kept, one) == count)
             kept[count++] = one;
     }
@@ -116,11 +117,11 @@ qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *x,
     return qdot_pool_check(pool);
 }
 
-/* --- charts ---------------------------------------------------------------------------------------------- */
+/* --- charts that reach to infinity ----------------------------------------------------------------------- */
 
 /* The size R of the inner box: beyond every end, and not a round number. */
 static double
-reach(size_t n, const qdot_interval *bounds)
+size_of_inner_box(size_t n, const qdot_interval *bounds)
 {
     double R = 1.37;
 
@@ -178,7 +179,7 @@ qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
                     const qdot_zeros_range *range, const qdot_interval *bounds, size_t k,
                     qdot_zeros_chart *out)
 {
-    double R = reach(n, bounds);
+    double R = size_of_inner_box(n, bounds);
     bool seen[MOST] = {false};
 
     memset(out, 0, sizeof *out);

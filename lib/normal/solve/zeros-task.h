@@ -32,7 +32,7 @@ typedef struct {
 } qdot_zeros_task;
 
 /* (zeros-places.c) */
-/* Exact values within the radius of a zero at which f [n] vanish: value [n]; *found. */
+/* Find exact values, value [n], within the radius of a zero at which f [n] vanish; *found. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_exact_place(const qdot_zeros_task *t,
                                                    const qdot_expr *f,
                                                    const qdot_zero_place *p,
