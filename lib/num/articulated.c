@@ -101,7 +101,7 @@ kernels_of(size_t m, size_t c)
     return NULL;
 }
 
-/* --- building ----------------------------------------------------------------------- */
+/* --- building the tables ------------------------------------------------------------ */
 
 /* Whether each node has at most one parent, with a smaller number. */
 static bool
@@ -229,7 +229,7 @@ make_numbers(qdot_articulated *a)
     a->down = numbers_reserve(&at, 3 * m * m * pieces);
     if (a->plane)
         make_plane(a, at);
-    /* slots without a node pass on what they get */
+    /* let slots without a node pass on unchanged what they receive */
     for (size_t i = 0; i < m; i++)
         for (size_t s = 0; s < a->slots; s++)
             a->A[(i * m + i) * a->slots + s] = 1;
@@ -337,7 +337,7 @@ qdot_articulated_is_path(const qdot_articulated *a)
     return a->path;
 }
 
-/* --- factors ------------------------------------------------------------------------ */
+/* --- factorisation along the tree --------------------------------------------------- */
 
 #define INLINE static inline __attribute__((always_inline))
 

@@ -81,7 +81,7 @@ typedef struct {
     double *const *q, *const *F; /* [c], [m] */
 } qdot_articulated_equations;
 
-/* Solve. Unused slots must contain finite numbers. */
+/* Solve the linear system along the tree. Unused slots must contain finite numbers. */
 void qdot_articulated_solve(qdot_articulated *a, const qdot_articulated_equations *equations);
 
 #endif

@@ -1,4 +1,4 @@
-/* balance.c -- scales rows and columns of a matrix to similar norms, one after another. */
+/* balance.c -- scales rows and columns of a matrix in turn until their norms are similar. */
 #include "num/balance.h"
 
 #include <math.h>

@@ -31,7 +31,7 @@ typedef struct {
     const double *x;
 } qdot_batch_series;
 
-/* Values y + carry, [n] groups. */
+/* The values y + carry of many systems, [n] groups of lanes. */
 typedef struct {
     double *y, *carry;
 } qdot_batch_sum;

@@ -1,4 +1,4 @@
-/* chebyshev.c -- fits, Clenshaw's sums, and roots by halving. */
+/* chebyshev.c -- fits Chebyshev series, sums them by Clenshaw's method, and finds roots by halving. */
 #include "num/chebyshev.h"
 
 #include <float.h>
@@ -196,7 +196,7 @@ qdot_chebyshev_sign(int n, const double *c)
     return fabs(c[0]) > qdot_chebyshev_spread(n, c) ? (c[0] > 0) - (c[0] < 0) : 0;
 }
 
-/* --- roots -------------------------------------------------------------------------- */
+/* --- roots of a series -------------------------------------------------------------- */
 
 typedef struct {
     double lo, hi; /* of the whole */

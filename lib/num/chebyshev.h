@@ -20,22 +20,22 @@ enum { QDOT_CHEBYSHEV_MOST = 64 };
 /* Node j of n, descending in x; n: 8, 16, 32 or 64. */
 double qdot_chebyshev_node(int n, int j);
 
-/* The point of a ... b that corresponds to x in -1 ... 1. */
+/* The point of the interval a ... b that corresponds to x in -1 ... 1. */
 static inline double
 qdot_chebyshev_place(double a, double b, double x)
 {
     return 0.5 * (a + b) + 0.5 * (b - a) * x;
 }
 
-/* c [n] of the polynomial through values [n] at the nodes. */
+/* Find the coefficients c [n] of the polynomial through values [n] at the nodes. */
 void qdot_chebyshev_fit(int n, const double *values, double *c);
 
 double qdot_chebyshev_at(int n, const double *c, double x);
 
-/* d [n - 1] of the derivative by x; n > 1. */
+/* Find the coefficients d [n - 1] of the derivative by x; n > 1. */
 void qdot_chebyshev_derivative(int n, const double *c, double *d);
 
-/* The integral over -1 ... 1. */
+/* The integral of the series over -1 ... 1. */
 double qdot_chebyshev_integral(int n, const double *c);
 
 /* The coefficients on -1 ... 0 and on 0 ... 1: left [n], right [n]; n at most
@@ -47,7 +47,7 @@ void qdot_chebyshev_halves(int n, const double *c, double *left, double *right);
 double qdot_chebyshev_tail(int n, const double *c);
 double qdot_chebyshev_size(int n, const double *c);
 
-/* sum_{k > 0} |c_k|, a bound for |p - c_0|. */
+/* The sum of |c_k| over k > 0, which bounds the distance of the polynomial from its mean coefficient c_0. */
 double qdot_chebyshev_spread(int n, const double *c);
 
 /* A bound of |p - c_0| on the ellipse with foci -1, 1 whose half axes add up to rho >= 1,

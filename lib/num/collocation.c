@@ -1,4 +1,5 @@
-/* collocation.c -- zeros of Legendre's polynomials, and integrals of Lagrange's. */
+/* collocation.c -- computes nodes (zeros of Legendre polynomials) and weights (integrals of
+ * Lagrange polynomials). */
 #include "num/collocation.h"
 
 #include <stdbool.h>
@@ -6,7 +7,7 @@
 /* Families of nodes: the zeros of P_s, P_s - P_(s-1), P_s - P_(s-2); the value is the difference of degrees. */
 typedef enum { GAUSS, RADAU, LOBATTO } family;
 
-/* P_s(x) minus the second polynomial; s >= 1, for Lobatto s >= 2. */
+/* P_s(x) minus the polynomial that the family subtracts; s >= 1, for Lobatto s >= 2. */
 static qdot_two
 legendre(int s, family of, qdot_two x)
 {
@@ -81,7 +82,7 @@ find_nodes(int s, family of, qdot_two *c)
         c[s - 1] = (qdot_two){1, 0};
 }
 
-/* L_j as a polynomial: the product of (x - c_k)/(c_j - c_k) over k != j. */
+/* Find L_j as a polynomial: the product of (x - c_k)/(c_j - c_k) over k != j. */
 static void
 find_lagrange(qdot_collocation *m, int j)
 {

@@ -36,12 +36,12 @@ typedef struct {
     qdot_two l[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST];
 } qdot_collocation;
 
-/* stages 1 .. QDOT_COLLOCATION_MOST, which the caller must check */
+/* fills Gauss's method; the caller must check that stages is 1 .. QDOT_COLLOCATION_MOST */
 void qdot_collocation_gauss(int stages, qdot_collocation *m);
 void qdot_collocation_radau(int stages, qdot_collocation *m);
 void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* stages >= 2 */
 
-/* The interpolation weights w_j(x) into w [stages]. */
+/* Find the interpolation weights w_j(x), into w [stages]. */
 void qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w);
 
 #endif

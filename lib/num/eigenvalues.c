@@ -156,7 +156,7 @@ find_planes(const solver *s, size_t k, size_t j, double complex *Q, double compl
     return size > 0 && isfinite(cabs(det)) && cabs(det) > 0;
 }
 
-/* The change of the k-th eigenvalue by E within the plane of the k-th and j-th eigenvectors. */
+/* The change of eigenvalue k by E within the plane of eigenvectors k and j. */
 static double
 error_in_plane(const solver *s, const double *A, const double *E, const double complex *Q, const double complex *L)
 {
@@ -230,7 +230,7 @@ numbers_exchange(double *x, size_t j, size_t k)
     x[k] = kept;
 }
 
-/* Insertion sort of first..end-1; `before` tells whether k must come before j. */
+/* Sort first..end-1 by insertion; `before` tells whether k must come before j. */
 static void
 eigenvalues_sort(size_t first, size_t end, bool (*before)(const double *re, const double *im, size_t k, size_t j),
                  double *re, double *im, double *error)
@@ -309,11 +309,11 @@ qdot_eigenvalues(size_t n, const double *A, const double *E, double *re, double 
     return status;
 }
 
-/* --- products ------------------------------------------------------------------------------------ */
+/* --- eigenvalues of products of matrices --------------------------------------------------------- */
 
 /* Raise [count] numbers to the K-th power, with their errors. */
 static void
-raise(size_t K, size_t count, double *re, double *im, double *error)
+raise_to_power(size_t K, size_t count, double *re, double *im, double *error)
 {
     for (size_t i = 0; i < count; i++) {
         const double size = modulus(re, im, i), angle = (double)K * atan2(im[i], re[i]);
@@ -362,7 +362,7 @@ cluster_take(size_t K, size_t n, const double *all, bool *taken, size_t *own, do
     return real;
 }
 
-/* Find [n] numbers, each present K times in all [3 x K n], by descending modulus: re, im, error. */
+/* Find n numbers, each of which occurs K times in all [3 x K n], sorted by modulus: re, im, error. */
 static void
 cluster_means(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
 {
@@ -410,7 +410,7 @@ qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E
         status = qdot_eigenvalues(count, C, D, all, all + count, all + 2 * count);
     }
     if (status == QDOT_OK) {
-        raise(K, count, all, all + count, all + 2 * count);
+        raise_to_power(K, count, all, all + count, all + 2 * count);
         cluster_means(K, n, all, taken, own, re, im, error);
         qdot_eigenvalues_arrange(n, re, im, error);
     }

@@ -26,11 +26,12 @@
 
 #include "base/status.h"
 
-/* A and E [n x n] row by row; re, im, error [n] sorted by _arrange. Errors: QDOT_EFAILED, QDOT_ENOMEM. */
+/* The eigenvalues of A [n x n] with errors E [n x n], by rows; re, im, error [n] sorted by
+ * _arrange. QDOT_EFAILED, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues(size_t n, const double *A, const double *E,
                                              double *re, double *im, double *error);
 
-/* The eigenvalues of the product of A [K x n x n], the first to act first, with errors E [K x n x n]. */
+/* Find the eigenvalues of the product of A [K x n x n], the first to act first, with errors E [K x n x n]. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E,
                                                         double *re, double *im, double *error);
 

@@ -24,7 +24,7 @@ typedef struct {
 double qdot_hermite_at(const qdot_hermite_end *from, const qdot_hermite_end *to, double h,
                        double s, double *v);
 
-/* Set a at both ends to that of the cubic through y and v. */
+/* Set a at both ends to the second derivatives of the cubic through y and v. */
 void qdot_hermite_cubic_ends(qdot_hermite_end *from, qdot_hermite_end *to, double h);
 
 #endif

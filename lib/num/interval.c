@@ -103,7 +103,7 @@ of_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
     return qdot_interval_outward(lo, hi);
 }
 
-/* A product with 0 times infinity = 0. */
+/* The product, with 0 times infinity = 0. */
 static double
 bound_times(double x, double y)
 {

@@ -36,10 +36,10 @@ qdot_interval qdot_interval_sum(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_product(qdot_interval a, qdot_interval b, bool same);
 qdot_interval qdot_interval_quotient(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_power(qdot_interval a, qdot_interval b);
-/* x - y floor(x/y) */
+/* the interval of x - y floor(x/y) */
 qdot_interval qdot_interval_remainder(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* atan2 */
-/* The image of a under a function that is increasing, or decreasing, on all of it. */
+/* The image of the interval a under a function that is increasing (_falling: decreasing) on all of it. */
 qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
 qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);
 /* Bounds of sin (top = pi/2) or cos (top = 0): maxima at top + 2 pi k, minima halfway between. */

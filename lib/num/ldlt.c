@@ -1,4 +1,4 @@
-/* ldlt.c -- the lower triangle, column by column, outer-product form. */
+/* ldlt.c -- LDL^T factorisation with symmetric pivoting of the lower triangle, column by column. */
 #include "num/ldlt.h"
 
 #include <float.h>
@@ -41,7 +41,7 @@ singular(size_t unknown, size_t *failed)
     return qdot_fail(QDOT_ESINGULAR, "the matrix is singular (row %zu)", unknown + 1);
 }
 
-/* The largest |entry| of each row of S A S, into `largest`. */
+/* Find the largest |entry| of each row of S A S, into `largest`, where S holds the scales of the unknowns. */
 static void
 row_maxima(const double *a, size_t n, const double *scale, double *largest)
 {
@@ -148,7 +148,7 @@ eliminate_one(double *a, size_t n, size_t k)
         a[i * n + k] /= a[k * n + k];
 }
 
-/* x, y <- D^-1 (x, y) for the 2 x 2 block D at k, in a form that does not overflow. */
+/* Solve a 2 x 2 block D at row k: replace (x, y) by D^-1 (x, y), in a form that does not overflow. */
 static void
 solve_pair(const double *a, size_t n, size_t k, double *x, double *y)
 {

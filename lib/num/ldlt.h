@@ -29,7 +29,7 @@ typedef struct {
     double *work;  /* [n] */
 } qdot_ldlt;
 
-/* Errors: QDOT_ENOMEM, with `f` cleared. */
+/* Allocate work space for n unknowns. Errors: QDOT_ENOMEM, with `f` cleared. */
 QDOT_MUST_CHECK qdot_status qdot_ldlt_init(qdot_ldlt *f, size_t n);
 void qdot_ldlt_clear(qdot_ldlt *f);
 

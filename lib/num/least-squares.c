@@ -37,7 +37,7 @@ qdot_least_squares_clear(qdot_least_squares *x)
     x->f = x->J = x->covariance = x->left = x->undetermined = NULL;
 }
 
-/* --- the model ---------------------------------------------------------------------------- */
+/* --- the residuals of the model ----------------------------------------------------------- */
 
 static bool
 is_nowhere(qdot_status status)
@@ -105,7 +105,7 @@ gsl_J(const gsl_vector *u, void *user, gsl_matrix *J)
     return GSL_SUCCESS;
 }
 
-/* --- J = U S V^T with columns of length 1 ---------------------------------------------------- */
+/* --- singular values: J = U S V^T with columns of length 1 ----------------------------------- */
 
 static qdot_status
 jacobian_decompose(search *s)
@@ -128,7 +128,7 @@ jacobian_decompose(search *s)
 
 /* |U^T f| / |f|, the part of the residuals that a step could still reduce. */
 static double
-offset(search *s)
+reducible_part(search *s)
 {
     const gsl_vector_const_view f = gsl_vector_const_view_array(s->x->f, s->x->n);
 
@@ -136,7 +136,7 @@ offset(search *s)
     return gsl_blas_dnrm2(s->along) / fmax(gsl_blas_dnrm2(&f.vector), 1e-300);
 }
 
-/* C J^T f, into x->left. */
+/* Compute C J^T f into x->left, the step that is left. */
 static void
 gradient_in_covariance(const search *s)
 {
@@ -151,7 +151,7 @@ gradient_in_covariance(const search *s)
     }
 }
 
-/* C = D V S^-2 V^T D and the step left, D V S^-1 U^T f, D = 1/size; the direction without slope. */
+/* Compute C = D V S^-2 V^T D, the step left D V S^-1 U^T f (D = 1/size), and a direction without slope. */
 static void
 least_squares_conclude(search *s)
 {
@@ -159,7 +159,7 @@ least_squares_conclude(search *s)
     const size_t p = x->p;
     const bool lost = !(gsl_vector_get(s->S, p - 1) > x->least * gsl_vector_get(s->S, 0));
 
-    (void)offset(s);
+    (void)reducible_part(s);
     for (size_t i = 0; i < p; i++) {
         for (size_t j = 0; j < p; j++) {
             double sum = lost ? NAN : 0;
@@ -182,11 +182,11 @@ least_squares_conclude(search *s)
     }
 }
 
-/* --- the search ------------------------------------------------------------------------------ */
+/* --- the search for the minimum -------------------------------------------------------------- */
 
 /* Whether the last step moved u [p] by no more than rounding. */
 static bool
-stands(const search *s, const gsl_vector *move, const gsl_vector *u)
+has_stopped_moving(const search *s, const gsl_vector *move, const gsl_vector *u)
 {
     for (size_t k = 0; k < s->x->p; k++)
         if (fabs(gsl_vector_get(move, k)) > least_move * fabs(gsl_vector_get(u, k)))
@@ -205,12 +205,12 @@ step_is_rounding(const search *s)
     return gsl_blas_dnrm2(s->along) <= rounding * most;
 }
 
-/* Steps of Gauss and Newton, as long as each makes the offset less. */
+/* Take Gauss-Newton steps as long as each reduces the offset. */
 static qdot_status
-polish(search *s)
+gauss_newton_steps(search *s)
 {
     qdot_least_squares *x = s->x;
-    double before = offset(s);
+    double before = reducible_part(s);
 
     x->converged = true;
     while (before > least_offset && x->steps++ < 2 * x->most_steps) {
@@ -219,13 +219,13 @@ polish(search *s)
             x->u[k] -= x->left[k];
         QDOT_TRY(least_squares_evaluate(s, x->u));
         QDOT_TRY(jacobian_decompose(s));
-        if (!(offset(s) < before)) {
+        if (!(reducible_part(s) < before)) {
             for (size_t k = 0; k < x->p; k++)
                 x->u[k] += x->left[k];
             QDOT_TRY(least_squares_evaluate(s, x->u));
             return jacobian_decompose(s);
         }
-        before = offset(s);
+        before = reducible_part(s);
     }
     return QDOT_OK;
 }
@@ -243,8 +243,8 @@ least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
         QDOT_TRY(least_squares_evaluate(s, x->u)); /* anew only after a step that was taken back */
         QDOT_TRY(jacobian_decompose(s));
         x->converged = over && step_is_rounding(s);
-        if (offset(s) <= near_offset)
-            return polish(s);
+        if (reducible_part(s) <= near_offset)
+            return gauss_newton_steps(s);
         if (over || x->steps == x->most_steps)
             return QDOT_OK;
         code = gsl_multifit_nlinear_iterate(w);
@@ -253,7 +253,7 @@ least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
         if (code != GSL_SUCCESS && code != GSL_ENOPROG)
             return qdot_fail(QDOT_EFAILED, "the search stopped: %s", gsl_strerror(code));
         x->steps++;
-        over = code == GSL_ENOPROG || stands(s, w->dx, w->x);
+        over = code == GSL_ENOPROG || has_stopped_moving(s, w->dx, w->x);
     }
 }
 
@@ -268,7 +268,7 @@ run(search *s)
     gsl_multifit_nlinear_workspace *w;
     qdot_status status;
 
-    QDOT_TRY(least_squares_evaluate(s, x->u)); /* it must have numbers where it begins */
+    QDOT_TRY(least_squares_evaluate(s, x->u)); /* the model must have finite values at the start */
     how.scale = gsl_multifit_nlinear_scale_more;
     how.solver = gsl_multifit_nlinear_solver_svd;
     w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, x->n, x->p);

@@ -38,7 +38,7 @@ find_ends(size_t n, const double *re, const double *im, qdot_lu_row *rows)
 
 /* Move row `best` to position k. */
 static void
-bring(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t best)
+bring_row(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t best)
 {
     const qdot_lu_row kept = rows[k];
 
@@ -66,7 +66,7 @@ qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows)
         for (size_t i = k + 1; i < n; i++)
             if (fabs(A[i * n + k]) > fabs(A[best * n + k]))
                 best = i;
-        bring(n, A, NULL, rows, k, best);
+        bring_row(n, A, NULL, rows, k, best);
         inverse = 1 / from[k];
         if (!isfinite(inverse) || inverse == 0)
             return false;
@@ -134,7 +134,7 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
                 best = i;
             }
         }
-        bring(n, re, im, rows, k, best);
+        bring_row(n, re, im, rows, k, best);
         a = re[k * n + k] / most;
         b = im[k * n + k] / most;
         size = most * (a * a + b * b);
@@ -187,7 +187,7 @@ qdot_lu_solve_complex(size_t n, const double *re, const double *im,
     }
 }
 
-/* --- order ---------------------------------------------------------------------------- */
+/* --- ordering rows to save work ------------------------------------------------------- */
 
 static size_t
 neighbours(size_t n, const bool *pattern, size_t i)

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 
-/* --- many in one block -------------------------------------------------------------- */
+/* --- arrays of numbers -------------------------------------------------------------- */
 
 static mpfr_prec_t
 bits_of_whole_limbs(mpfr_prec_t bits)
@@ -94,7 +94,7 @@ largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponen
     return true;
 }
 
-/* sum = +-acc 2^exponent, where acc [m] has its binary point below the highest limb. */
+/* Set sum to +-acc 2^exponent, where acc [m] has its binary point below the highest limb. */
 static void
 sum_settle(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
 {
@@ -181,7 +181,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
     sum_settle(sum, acc, m, top);
 }
 
-/* --- linear equations --------------------------------------------------------------- */
+/* --- systems of linear equations ---------------------------------------------------- */
 
 static double
 largest_of_row(size_t n, const mpfr_t *row)

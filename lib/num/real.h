@@ -27,7 +27,7 @@ typedef struct {
     mp_limb_t *limbs;
 } qdot_reals;
 
-/* bits is rounded up to whole limbs. Errors: QDOT_ENOMEM; QDOT_EINVAL (bits). */
+/* Make n numbers of `bits` bits, rounded up to whole limbs. Errors: QDOT_ENOMEM; QDOT_EINVAL (bits). */
 QDOT_MUST_CHECK qdot_status qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits);
 void qdot_reals_clear(qdot_reals *v);
 
@@ -37,7 +37,7 @@ double qdot_reals_size(size_t n, mpfr_prec_t bits);
 /* log2 |x|; -INFINITY for 0, NaN if x is not finite. */
 double qdot_real_log2(mpfr_srcptr x);
 
-/* The number of limbs of work space that qdot_real_dot needs for `bits`. */
+/* The number of limbs that qdot_real_dot needs as work space for `bits`. */
 size_t qdot_real_dot_work(mpfr_prec_t bits);
 
 /* sum = sum_{j=0..n-1} a[j] b[-j], to within 2^(3 - bits) of n times its largest term. All

@@ -49,7 +49,7 @@ length(const double *x, size_t n)
     return most * sqrt(sum);
 }
 
-/* x [n] -= beta (v x) v */
+/* Apply a reflection: x [n] -= beta (v . x) v. */
 static void
 reflect(const double *v, double beta, size_t n, double *x)
 {
@@ -115,7 +115,7 @@ qdot_row_space_factor(qdot_row_space *f, const double *A, double tol, bool in_or
     }
 }
 
-/* x <- Q [z; 0], in place. */
+/* Replace x by Q times the vector (z, 0). */
 static void
 turn_back(const qdot_row_space *f, double *x)
 {

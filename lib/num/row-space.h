@@ -28,7 +28,7 @@ typedef struct {
     double *z;     /* [m + n] */
 } qdot_row_space;
 
-/* Errors: QDOT_ENOMEM, with *f cleared. */
+/* Allocate work space for matrices of at most m x n. Errors: QDOT_ENOMEM, with *f cleared. */
 QDOT_MUST_CHECK qdot_status qdot_row_space_init(qdot_row_space *f, size_t m, size_t n);
 void qdot_row_space_clear(qdot_row_space *f);
 

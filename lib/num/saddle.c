@@ -1,4 +1,5 @@
-/* saddle.c -- pivoted QR of A^T, the projected M, complete orthogonal decomposition. */
+/* saddle.c -- solves saddle-point systems: pivoted QR of A^T, projected M, complete orthogonal
+ * decomposition. */
 #include "num/saddle.h"
 
 #include <float.h>
@@ -102,7 +103,7 @@ qdot_saddle_clear(qdot_saddle *s)
     *s = (qdot_saddle){0};
 }
 
-/* --- the pattern -------------------------------------------------------------------- */
+/* --- the sparsity pattern ----------------------------------------------------------- */
 
 qdot_status
 qdot_saddle_pattern(qdot_saddle *s, size_t masses, const qdot_saddle_entry *of_M,
@@ -175,7 +176,7 @@ add_multiple(size_t n, double c, const double *a, double *y)
         y[i] += c * a[i];
 }
 
-/* --- factorisation ------------------------------------------------------------------ */
+/* --- factorisation of the system ---------------------------------------------------- */
 
 /* A power of two that scales x to about 1: 2^-k, with its square if `root`; 1 for x = 0. */
 static double
@@ -220,7 +221,7 @@ size_of_row(const qdot_saddle *s, size_t k, double norm)
     return least > 1 ? least * norm : norm;
 }
 
-/* Compute S = D M D, and the rows of R = E A D. */
+/* Compute S = D M D and the rows of R = E A D, where D and E are diagonal scales. */
 static void
 saddle_scale(qdot_saddle *s)
 {
@@ -273,7 +274,7 @@ bring_forward(qdot_saddle *s, size_t k)
     return sqrt(most);
 }
 
-/* x -= beta v (v . x) with v = (1, column k below its diagonal) */
+/* Apply a reflection: x -= beta v (v . x) with v = (1, column k below its diagonal). */
 static void
 reflect(const qdot_saddle *s, size_t k, double *x)
 {
@@ -305,7 +306,7 @@ column_reflect(qdot_saddle *s, size_t k, double norm)
         reflect(s, k, s->R + j * n);
 }
 
-/* R, the reflections and the rank. */
+/* Factor A^T: find R, the reflections and the rank. */
 static qdot_status
 triangulate(qdot_saddle *s, size_t *failed)
 {
@@ -357,7 +358,7 @@ form_Q(qdot_saddle *s)
     }
 }
 
-/* y = S x */
+/* Multiply: y = S x. */
 static void
 times_mass(const qdot_saddle *s, const double *x, double *y)
 {
@@ -498,9 +499,9 @@ qdot_saddle_independence(qdot_saddle *s)
     return found;
 }
 
-/* --- solution ----------------------------------------------------------------------- */
+/* --- solution of the system --------------------------------------------------------- */
 
-/* mu, scaled back, from u = Y^T (b - M x). */
+/* Find the multipliers mu, scaled back, from u = Y^T (b - M x). */
 static void
 multipliers(qdot_saddle *s, double *u, double *mu)
 {
@@ -580,7 +581,7 @@ qdot_saddle_solve(qdot_saddle *s)
         saddle_solve_null_space(s);
 }
 
-/* sum += a b, in twice the precision */
+/* Add a b to the sum, in twice the precision. */
 static void
 sum_add_product(qdot_sum *sum, double a, double b)
 {
@@ -590,7 +591,7 @@ sum_add_product(qdot_sum *sum, double a, double b)
     sum->carry += fma(a, b, -p);
 }
 
-/* b -= K x, in twice the precision. */
+/* Subtract K x from b, in twice the precision. */
 static void
 subtract_product(const qdot_saddle *s, const double *x, double *b)
 {

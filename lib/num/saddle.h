@@ -86,7 +86,8 @@ typedef struct {
 
 #define QDOT_SADDLE_UNKNOWN ((size_t)-1)
 
-/* n > 0; m may be 0 and may exceed n. Errors: QDOT_ENOMEM; clear s in any case. */
+/* Allocate work space for n > 0 unknowns and m rows, where m may be 0 and may exceed n.
+ * QDOT_ENOMEM; clear s in any case. */
 QDOT_MUST_CHECK qdot_status qdot_saddle_init(qdot_saddle *s, size_t n, size_t m,
                                              bool indefinite);
 void qdot_saddle_clear(qdot_saddle *s);
@@ -98,7 +99,7 @@ QDOT_MUST_CHECK qdot_status qdot_saddle_pattern(qdot_saddle *s, size_t masses,
                                                 size_t slopes,
                                                 const qdot_saddle_entry *of_A);
 
-/* Row k of A times x [n]; and sum |A_ki| max(|x_i|, least). */
+/* Row k of A times x [n]; _row_size: sum |A_ki| max(|x_i|, least). */
 double qdot_saddle_row(const qdot_saddle *s, size_t k, const double *x);
 double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
                             double least);

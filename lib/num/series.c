@@ -1,4 +1,4 @@
-/* series.c -- the kernels of series.def for each kind of processor, and the choice. */
+/* series.c -- the kernels of series.def for each kind of processor, and their selection. */
 #include "num/series.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ log_largest(size_t n, const double *x, size_t stride, const double *scale, int k
     return log2(most);
 }
 
-/* `reach` for any coefficients, also 0 and not finite. */
+/* The reach of a series for any coefficients, also 0 and not finite. */
 static qdot_series_reach
 reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights *w,
              const double *scale)

@@ -1,4 +1,4 @@
-/* sort.h -- numbers in ascending order. */
+/* sort.h -- sorts numbers in ascending order. */
 #ifndef QDOT_NUM_SORT_H
 #define QDOT_NUM_SORT_H
 

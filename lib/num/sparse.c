@@ -29,7 +29,7 @@ qdot_sparse_clear(qdot_sparse *s)
     *s = (qdot_sparse){0};
 }
 
-/* --- the order ---------------------------------------------------------------------- */
+/* --- the order of elimination ------------------------------------------------------- */
 
 /* Unknowns not yet eliminated, with their neighbours. */
 typedef struct {
@@ -127,7 +127,7 @@ sparse_order(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, num
     return status;
 }
 
-/* --- the pattern -------------------------------------------------------------------- */
+/* --- the pattern of L --------------------------------------------------------------- */
 
 static int
 by_number(const void *a, const void *b)
@@ -238,7 +238,7 @@ qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive, size_t count,
     return status;
 }
 
-/* --- numbers ------------------------------------------------------------------------ */
+/* --- factorisation and solution ----------------------------------------------------- */
 
 /* Compute row k of L, and its D; *made: the value from which D was computed, to judge its accuracy. */
 static double

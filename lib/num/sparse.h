@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
     size_t n, positive;
     uint32_t *order; /* [n] the unknown at each place */
-    /* Offsets: of the given entries by row, of K, and of the rows of L with the positions of their entries. */
+    /* Offsets of the given entries by row, of the rows of K, and of the columns of L. */
     size_t *given_start, *row_start, *column_start; /* [n + 1] */
     qdot_sparse_entry *given;
     uint32_t *row_column;
@@ -44,7 +44,8 @@ typedef struct {
     bool definite;   /* last factorisation: the positive unknowns are definite beyond rounding */
 } qdot_sparse;
 
-/* `entries` [count], rows and columns below n. Errors: QDOT_ENOMEM; clear s in any case. */
+/* Prepare for a matrix with these entries [count], rows and columns below n. QDOT_ENOMEM; clear s
+ * in any case. */
 QDOT_MUST_CHECK qdot_status qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive,
                                              size_t count,
                                              const qdot_sparse_entry *entries);
@@ -55,10 +56,10 @@ void qdot_sparse_clear(qdot_sparse *s);
  * before it. 0, with the factors undefined, if a sign is wrong or something is not finite. */
 double qdot_sparse_factor(qdot_sparse *s);
 
-/* Solve with a factored s; b [n] is overwritten. */
+/* Solve with the factors in s; b [n] is overwritten by the solution. */
 void qdot_sparse_solve(const qdot_sparse *s, double *b);
 
-/* b -= K x, in twice the precision. */
+/* Subtract K x from b, for the given matrix K, in twice the precision. */
 void qdot_sparse_subtract(const qdot_sparse *s, const double *x, double *b);
 
 #endif

@@ -75,7 +75,7 @@ fill_tables(void)
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* Sine and cosine by MPFR, for angles too large for `reduce`. */
+/* Evaluate sine and cosine by MPFR, for angles too large for `reduce`. */
 static void
 sincos_beyond(qdot_two x, qdot_two *sine, qdot_two *cosine)
 {

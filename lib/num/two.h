@@ -33,7 +33,7 @@ qdot_two_rounded_sum(double a, double b, double *e)
     return s;
 }
 
-/* hi + lo, |lo| not beyond |hi| */
+/* The number hi + lo, where |lo| does not exceed |hi|. */
 QDOT_TWO_INLINE qdot_two
 qdot_two_of(double hi, double lo)
 {
@@ -88,7 +88,7 @@ qdot_two_mul_double(qdot_two a, double b)
     return qdot_two_of(p, fma(a.lo, b, fma(a.hi, b, -p)));
 }
 
-/* a times a power of two: exact. */
+/* The product of a and a power of two, which is exact. */
 QDOT_TWO_INLINE qdot_two
 qdot_two_scale(qdot_two a, double power)
 {
@@ -144,10 +144,10 @@ qdot_two_dot_value(qdot_two_dot d)
     return qdot_two_of(d.sum, d.rest);
 }
 
-/* Sums of products; for the processor at hand. */
+/* Sums of products in twice the precision, for one kind of processor. */
 typedef struct {
     qdot_two (*mul)(qdot_two a, qdot_two b);
-    /* sum_{j<n} a[j] b[j], sum_{j<n} a[j] b[-j] */
+    /* The products sum_{j<n} a[j] b[j] and sum_{j<n} a[j] b[-j]. */
     qdot_two (*dot)(size_t n, const qdot_two *a, const qdot_two *b);
     qdot_two (*convolve)(size_t n, const qdot_two *a, const qdot_two *b);
     /* two[k] = s^k for k <= m and power[k] = s^k, as a double, for k <= p; p >= m >= 1 */

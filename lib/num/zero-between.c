@@ -1,13 +1,14 @@
-/* zero-between.c -- a zero of one function of one unknown between bounds, by Newton's method and bisection. */
+/* zero-between.c -- finds a zero of one function of one unknown between bounds, by Newton's method
+ * and bisection. */
 #include "num/zero-parts.h"
 
 #include <float.h>
 #include <math.h>
 
-/* MOST_STEPS of the method; PARTS: intervals that are searched for a change of sign. */
+/* The most steps of the method; the number of intervals that are searched for a change of sign. */
 enum { MOST_STEPS = 60, PARTS = 16 };
 
-/* f(u) of the only function, NaN if undefined; its error goes to s->error[0]. */
+/* Evaluate the only function at u; NaN if undefined. Its error goes to s->error[0]. */
 static qdot_status
 between_value(qdot_zero_search *s, double u, double *f)
 {
@@ -56,7 +57,7 @@ next_place(const qdot_zero_search *s, const double *end, double slope, double la
     return to > a && to < b && fabs(to - u) < last_move / 2 ? to : a + (b - a) / 2;
 }
 
-/* Newton's method and bisection between ends [2] where f [2] differs in sign. */
+/* Find the zero between ends [2], where f [2] differs in sign, by Newton's method and bisection. */
 static qdot_status
 between_refine(qdot_zero_search *s, double *end, double *f)
 {

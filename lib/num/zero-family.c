@@ -69,7 +69,7 @@ look_beside(const family *x, double h, int corrections, beside_answer *answer)
     return QDOT_OK;
 }
 
-/* The smallest distance along `way`, in its units, at which F is distinguishable from 0. */
+/* Find the smallest distance along `way`, in its units, at which F is distinguishable from 0. */
 static qdot_status
 find_open(const family *x, double *open)
 {

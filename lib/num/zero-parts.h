@@ -23,46 +23,46 @@ typedef struct {
     double *last_u, *last;     /* [n] the place at which `order` was measured last, and `whole` there, */
     bool has_last;             /* whether these two are set */
     double reach;              /* the step is no longer than that where J is nearly singular */
-    double *step, *whole;      /* [n] the step, and what it were by mu = 0, of any length */
-    double *from_error;        /* [n] what errors of F make of it */
+    double *step, *whole;      /* [n] the step, and the full step without damping (mu = 0) */
+    double *from_error;        /* [n] the change of the step by errors of F */
     gsl_matrix *U, *V;
     gsl_vector *singular, *work;
 } qdot_zero_search;
 
-/* --- zero-step.c --- */
+/* --- steps of the search (zero-step.c) --- */
 
-/* Evaluate F, its errors and J at r->u. */
+/* Evaluate F, its errors and its Jacobian J at r->u. */
 QDOT_MUST_CHECK qdot_status qdot_zero_evaluate(qdot_zero_search *s);
-/* u moved into the bounds of the j-th unknown. */
+/* The value u, moved inside the bounds of the j-th unknown if it lies outside. */
 double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
-/* |f| in units of the functions. */
+/* The norm of the function values f, each in its own unit. */
 double qdot_zero_norm(const qdot_zero_search *s, const double *f);
-/* Units of unknowns and functions, by J at r->u. */
+/* Choose units of unknowns and functions from J at r->u. */
 void qdot_zero_choose_units(qdot_zero_search *s);
 /* Whether |F| fell, from r->f to f along the fraction `part` of the step, by at least half of what
  * J predicts. */
 bool qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part);
 /* The Newton step [n] for values f [m] with this J; returns its length in units of the unknowns. */
 double qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step);
-/* The step, the errors of the unknowns, the rank. False: J is 0, to rounding, or not finite. */
+/* Find the step, the errors of the unknowns and the rank. False: J is 0 to rounding, or not finite. */
 bool qdot_zero_find_step(qdot_zero_search *s);
 /* Whether f [m] is 0 within its errors [m] and rounding. */
 bool qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const double *error);
-/* Whether the step says nothing more than the errors of F and rounding. */
+/* Whether the step is so small that errors of F and rounding can explain it. */
 bool qdot_zero_step_is_nothing(const qdot_zero_search *s);
 /* Whether F is 0 within its errors and rounding of u, which are small beside what F was at the guess, or beside what
  * it is made of: where the last bit of u moves F by as much as the guess was off, nothing is found. */
 bool qdot_zero_is_zero(const qdot_zero_search *s);
-/* Estimate the order (multiplicity) of the zero from this and the last position. */
+/* Estimate the order (multiplicity) of the zero from the last two positions. */
 void qdot_zero_estimate_order(qdot_zero_search *s);
 /* Compute the errors of the unknowns; a zero with large errors is called vague. */
 void qdot_zero_state_errors(qdot_zero_search *s);
 
 /* --- zero-search.c, zero-between.c, zero-family.c --- */
 
-/* Newton's method from the guess; if that fails, from points around it. */
+/* Search by Newton's method from the guess; if that fails, from points around it. */
 QDOT_MUST_CHECK qdot_status qdot_zero_descend(qdot_zero_search *s);
-/* Solve for one unknown of one function between bounds. */
+/* Find a zero of one function of one unknown between bounds. */
 QDOT_MUST_CHECK qdot_status qdot_zero_find_between(qdot_zero_search *s);
 /* Of a zero that J leaves open in some directions: are these directions of a family? Those of an isolated zero are
  * added to the rank. */

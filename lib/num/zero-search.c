@@ -15,12 +15,12 @@ static const double farther = 1.6;
 /* Where J is nearly singular, the first step is no longer than first_reach, in units of the unknowns, and each one after
  * a whole step no longer than `reaching` times that. */
 static const double first_reach = 0.1, reaching = 4;
-/* How strongly |F| shortens the steps of a search at first. */
+/* How strongly large |F| shortens the steps of a search at first. */
 static const double damping = 0.01;
-/* Steps of a search; halvings of a step; steps in which |F| must halve; searches besides the first. */
+/* The most steps of a search, halvings of a step, steps within which |F| must halve, and further searches. */
 enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PATIENCE = 8, TRIES = 8 };
 
-/* --- shortened steps --------------------------------------------------------------------------- */
+/* --- steps that reduce |F| --------------------------------------------------------------------- */
 
 /* Move along the step, halved until |F|, or the next step with this J, becomes smaller. *gone: that
  * succeeded. */
@@ -54,7 +54,7 @@ walk_along(qdot_zero_search *s, bool *gone)
     return QDOT_OK;
 }
 
-/* Newton's method from r->u on. A search in which |F| does not halve within some steps is given up. */
+/* Search by Newton's method from r->u on; give up if |F| does not halve within some steps. */
 static qdot_status
 descend_once(qdot_zero_search *s)
 {
@@ -195,7 +195,7 @@ qdot_zero_descend(qdot_zero_search *s)
     return status;
 }
 
-/* --- all ----------------------------------------------------------------------------------------- */
+/* --- the whole search ---------------------------------------------------------------------------- */
 
 static bool
 zero_search_allocate(qdot_zero_search *s)

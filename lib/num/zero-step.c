@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Singular values below so much of the largest count as 0. */
+/* Singular values below this fraction of the largest one count as 0. */
 static const double least_singular = 1e-8;
 /* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by
  * this error then. */
@@ -18,7 +18,7 @@ static const double nearly_singular = 0.3;
 static const double least_part = 1e-6;
 /* The order of a zero is estimated only if F exceeds its error by the factor `clear`, up to highest_order. */
 static const double clear = 100, highest_order = 20;
-/* An unknown is not known if its error exceeds this part of it, or of its unit. */
+/* An unknown counts as not determined if its error exceeds this fraction of it, or of its unit. */
 static const double least_known = 0.1;
 
 qdot_status
@@ -36,7 +36,7 @@ qdot_zero_within(const qdot_zero_problem *p, size_t j, double u)
     return p->high != NULL ? fmin(u, p->high[j]) : u;
 }
 
-/* --- the step -------------------------------------------------------------------------------- */
+/* --- the Newton step ------------------------------------------------------------------------- */
 
 double
 qdot_zero_norm(const qdot_zero_search *s, const double *f)
@@ -75,7 +75,7 @@ qdot_zero_choose_units(qdot_zero_search *s)
     }
 }
 
-/* J = U S V^T in these units, with at least as many rows as columns. */
+/* Decompose J = U S V^T in the chosen units, with at least as many rows as columns. */
 static void
 slope_decompose(qdot_zero_search *s)
 {
@@ -157,7 +157,7 @@ slope_noise(const qdot_zero_search *s)
     return sqrt(sum);
 }
 
-/* The step, the errors of the unknowns, the rank. False: J is 0, to rounding, or not finite. */
+/* Find the step, the errors of the unknowns and the rank. False: J is 0 to rounding, or not finite. */
 bool
 qdot_zero_find_step(qdot_zero_search *s)
 {
@@ -205,9 +205,9 @@ qdot_zero_find_step(qdot_zero_search *s)
     return s->r->rank > 0 && most > least_slope;
 }
 
-/* --- where it ends ---------------------------------------------------------------------------- */
+/* --- accuracy of the result ------------------------------------------------------------------- */
 
-/* Whether the step says nothing more than the errors of F and rounding. */
+/* Whether the step is no larger than errors of F and rounding explain. */
 bool
 qdot_zero_step_is_nothing(const qdot_zero_search *s)
 {

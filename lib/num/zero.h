@@ -39,7 +39,7 @@ typedef struct {
     void *user;
     const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
     const double *unit;       /* [n] of u, at a guess near a zero; NULL: |u| at the guess, 1 where that is 0 */
-    /* Set by `at`, may be NULL: errors of J [m x n]; sizes of the terms whose differences are F [m]. */
+    /* Set by `at`, may be NULL: errors of J [m x n], and sizes of the terms whose differences give F [m]. */
     const double *slope_error, *size;
     bool once;                /* a search in vain is not begun again */
     bool verify;              /* look whether what J leaves open is a family */
@@ -68,7 +68,7 @@ typedef struct {
     size_t steps;        /* evaluations of J */
 } qdot_zero_result;
 
-/* Errors: those of `at`, QDOT_ENOMEM. */
+/* Search for a zero of F. Errors: those of `at`, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_zero_find(const qdot_zero_problem *p,
                                            qdot_zero_result *r);
 
