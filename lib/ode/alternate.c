@@ -7,10 +7,10 @@
 #include "ode/taylor.h"
 #include "ode/whole.h"
 
-/* The number of steps between two comparisons: of the stiff method, and of series. */
+/* The number of steps between two comparisons: while the stiff method is used, and while series are. */
 enum { looks = 32, looks_at_series = 512 };
 
-/* The factor by which series must be faster, and the work (expansions) to wait before changing. */
+/* The factor by which series must be faster for a change, and the work (in expansions) to wait before it. */
 static const double gain = 4, first_patience = 1000;
 
 /* Series are left only if at least this much work (about ns) remains. */
@@ -55,7 +55,7 @@ turns_compare_pace(turns *a, double t, const double *y)
     return QDOT_OK;
 }
 
-/* Whether series have become slower than the method was. */
+/* Whether Taylor series have become slower than the stiff method was. */
 static void
 look_at_series(turns *a, double t)
 {

@@ -1,4 +1,4 @@
-/* batch.c -- steps by Taylor series in independent lanes. */
+/* batch.c -- Taylor-series steps of independent solutions, one in each lane. */
 #include "ode/batch.h"
 #include "ode/run.h"
 
@@ -24,7 +24,7 @@ static const double rounding_of_projection = 1e-13;
 /* The fraction of the interval for a first step if the upper half of its series is 0. */
 static const double part_of_way = 0.31830988618379067;
 
-/* Groups; counts and flags are integers, a flag has all bits set or none. */
+/* Data of groups of lanes; counts and flags are integers, a flag has all bits set or none. */
 typedef struct {
     _Alignas(64) double t[L], t1[L];
     double direction[L], unit[L], old_unit[L];
@@ -73,7 +73,7 @@ typedef struct {
     double lower[QDOT_SERIES_MOST + 1], nothing[QDOT_SERIES_MOST + 1];
 } batch;
 
-/* --- members come and go ------------------------------------------------------------ */
+/* --- solutions begin and end in lanes ----------------------------------------------- */
 
 /* Put the next member into lane l at its start; without a further member the lane is ignored. */
 static void
@@ -121,7 +121,7 @@ lane_leave(batch *b, size_t l, qdot_batch_outcome outcome)
     lane_enter(b, l);
 }
 
-/* --- steps -------------------------------------------------------------------------- */
+/* --- steps of all lanes ------------------------------------------------------------- */
 
 static void
 lanes_begin_series(batch *b)
@@ -168,7 +168,7 @@ confirm(batch *b)
             a->good[l] = 0;
 }
 
-/* Return to the start of the step, to try a quarter of its length. */
+/* Return a lane to the start of its step, to try a quarter of the length. */
 static void
 reject(batch *b, size_t l)
 {
@@ -244,7 +244,7 @@ lane_try_step(batch *b, size_t l, double h)
     a->now[l] = h / a->unit[l];
 }
 
-/* log2 of the steps in units, by the halves of the series: see `log_step` of taylor.c. */
+/* Find log2 of the steps, in units, from the halves of the series: see `log_step` of taylor.c. */
 static void
 log_steps(const batch *b, const double *weight, double *upper, double *lower)
 {

@@ -43,7 +43,7 @@ typedef struct {
                         and above are 0 */
     const double *x; /* x_ik of lane l = x[(i stride + k) QDOT_LANES + l] */
     size_t stride;
-    /* Lane `lane` now computes member `member`: load its parameters. NULL: nothing to load. */
+    /* Lane `lane` now computes solution `member`: load its parameters. NULL: nothing to load. */
     void (*take)(size_t lane, size_t member, void *user);
     /* Compute orders 0 and 1 through y [n groups] at t [a group], in units of time [a group]. */
     void (*begin)(const double *t, const double *y, const double *unit, void *user);

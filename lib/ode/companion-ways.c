@@ -30,7 +30,7 @@ static const double most_floor = 32;
  * become many; a coarse run is this far above it, so as not to share the run's rounding. */
 static const double above_rounding = 10, beyond_rounding = 10;
 
-/* Factors by which tolerances of companions are coarser or finer than the run's. */
+/* The factors by which the tolerances of companions are coarser or finer than that of the run. */
 static const double coarser = 4, finer[] = {16, 32};
 
 /* What both companions by Taylor series should cost, of the work of the run, and which powers of their
@@ -55,7 +55,7 @@ qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *meth
                                                                                       : method->partner);
 }
 
-/* The relative work of a run by Taylor series with that tolerance. */
+/* The work of a run by Taylor series with tolerance tol, except for a common factor. */
 static double
 work_of(const qdot_ode_series *series, double tol, int more)
 {
@@ -67,7 +67,7 @@ work_of(const qdot_ode_series *series, double tol, int more)
 /* For a run by Taylor series with tolerance tol: the tightest of these tolerances that both
  * companions can afford. */
 static double
-affordable(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
+affordable_tolerance(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
 {
     const double most = foreseen * work_of(series, tol, 0);
     double theirs = tol, work;
@@ -89,7 +89,7 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
     bool same = partner == method;
 
     if (same && partner->series)
-        return affordable(system->series, partner, tol);
+        return affordable_tolerance(system->series, partner, tol);
     if (partner->series)
         return fmax(fmin(partner->companion_ratio, method->companion_ratio) * tol,
                     partner->companion_tol);
@@ -183,7 +183,7 @@ doubles_away(size_t number)
 /* The shift of component i (of that size, see scale.h) at the start of companion `number` of a run
  * in two doubles. */
 static double
-aside(double tol, double size, size_t i, size_t number)
+initial_shift(double tol, double size, size_t i, size_t number)
 {
     const double by = doubles_away(number) * QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
 

@@ -25,7 +25,7 @@ static const double reading = 0.12, readings = 3.5;
  * where they step over what a finer one sees; by less than that, the two distances differ by chance. */
 static const double refutes = 10;
 
-/* Differences before the end raise the error to at most this many times that at the end. */
+/* Errors before the end raise the error estimate at the end by at most this factor. */
 static const double most_between = 30;
 
 /* Times at which states are compared before the end, as parts of the run. They are irregular, so
@@ -34,7 +34,7 @@ static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };
 
-/* One companion. */
+/* The state of one companion run. */
 typedef struct {
     const qdot_companion *of;
     qdot_ode_system system;
@@ -107,7 +107,8 @@ run_by(follower *f, const qdot_companion_plan *by)
                                       .leading = c->leading,
                                       .alternates = c->alternates,
                                       .meter = &f->meter,
-                                      .stiff_work = INFINITY, /* the meter bounds it */
+                                      /* the meter bounds the work */
+                                      .stiff_work = INFINITY,
                                       .apart = true,
                                       .carry = f->low,
                                       .t0_low = c->t0_low,
@@ -261,7 +262,7 @@ qdot_companion_show(qdot_companion *c, size_t k, const double *y)
     c->n_shown = k + 1;
 }
 
-/* max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)). */
+/* The scaled distance max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)). */
 static double
 scaled_distance(const qdot_companion *c, const double *scales, const double *a, const double *b)
 {
@@ -320,7 +321,7 @@ bound_at(const qdot_companion *c, const double *scales, const double *y, size_t 
     return worst;
 }
 
-/* The median of the error bounds at the times between. */
+/* The median of the error bounds at the sampled times. */
 static double
 median_between(const qdot_companion *c, const double *scales)
 {
@@ -465,9 +466,9 @@ read_between(follower *f)
     return status == QDOT_OK;
 }
 
-/* Finish the companion: its end, and (whole) whether its states at the sampled times are known. */
+/* Finish the companion: evaluate its end, and (whole) whether its states at the sampled times are known. */
 static bool
-arrive(follower *f, bool whole, qdot_companion_estimate *out)
+finish_companion(follower *f, bool whole, qdot_companion_estimate *out)
 {
     const qdot_companion *c = f->of;
     double each;
@@ -483,12 +484,12 @@ arrive(follower *f, bool whole, qdot_companion_estimate *out)
     out->tol = fmax(out->tol, f->tol);
     if (f->number == 0 || f->arrived)
         out->way = f->way > out->way ? f->way : out->way;
-    /* the first is enough if the second would cost too much */
+    /* the first companion is enough if the second would cost too much */
     out->known = (out->known && f->arrived) || (f->number > 0 && out->known && f->given_up);
     each = f->meter.work / (double)(f->tr->count > 1 ? f->tr->count - 1 : 1);
     out->work += f->spent + (f->way == QDOT_COMPANION_WAYS ? 0 : f->meter.work);
     out->of_point += each;
-    /* if only the first companion gives the error of the end, so it does for all values */
+    /* if only the first companion gives the error at the end, it alone gives the error of all values */
     out->kept[f->number] = f->tr->count > 1 && (f->number == 0 || f->arrived || !out->known);
     if (!f->arrived || !whole || !read_between(f))
         return f->number > 0 && f->given_up;
@@ -539,7 +540,7 @@ void
 qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                       double *difference, qdot_companion_estimate *out)
 {
-    /* the neighbouring double of t1 counts as t1 */
+    /* a time next to t1 counts as t1 */
     bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1), between = true;
 
     c->t_end = t_end;
@@ -550,7 +551,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
             pthread_join(c->at[k].thread, NULL);
     *out = (qdot_companion_estimate){.known = true};
     for (size_t k = 0; k < c->count; k++)
-        between = arrive(c->at + k, whole, out) && between;
+        between = finish_companion(c->at + k, whole, out) && between;
     for (size_t k = 0; k < c->count && out->known; k++)
         if (is_refuted(c->at + k)) {
             out->known = out->kept[0] = out->kept[1] = false;

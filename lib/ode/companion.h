@@ -114,7 +114,7 @@ double qdot_companion_bound(double apart, double own);
 /* With a single companion, `own` counts as this many times `apart`: the bound is 13/4 of that. */
 #define QDOT_COMPANION_ALONE 0.5
 
-/* The distance of a value x of the run from the middle of theirs [count] of the companions, 1 or 2. */
+/* The distance of a value x of the run from the mean of the values [count] of its companions, 1 or 2. */
 double qdot_companion_apart(double x, size_t count, const double *theirs);
 
 /* The error `own` from the values of two companions. */
@@ -189,7 +189,7 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
 #define QDOT_COMPANION_MOST 3.0
 #define QDOT_COMPANION_LEAST 1e6
 
-/* What is left of the work allowance QDOT_COMPANION_MOST, for a run of that work, after `spent`. */
+/* The remaining part of the work allowance QDOT_COMPANION_MOST, for a run of the given work, after `spent`. */
 double qdot_companion_left(double work, double spent);
 
 /* The meter of companion `number` by that way beside that of a run by `method`, after
@@ -235,7 +235,7 @@ double qdot_companion_term_tol(double tol, size_t number);
  * for scenes that would stop series and is accurate enough itself. */
 bool qdot_companion_is_by_series(const qdot_ode_method *method);
 
-/* The method of a companion, and its tolerance tol*. */
+/* Choose the method of a companion, and its tolerance *tol. */
 const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
                                              const qdot_ode_method *method);
 double qdot_companion_tolerance(const qdot_ode_system *system,

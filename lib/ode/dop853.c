@@ -1,4 +1,4 @@
-/* dop853.c -- the stages, the errors and the polynomial: sums of dop853.def. */
+/* dop853.c -- the method dop853: its stages, error estimate and interpolation, from sums of dop853.def. */
 #include "ode/dop853.h"
 
 #include <math.h>

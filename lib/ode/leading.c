@@ -38,7 +38,7 @@ orders_of_terms(const qdot_ode_leading_step *step, const double *power)
 
 /* Whether doubles were accurate enough at order k. */
 static bool
-agree(const qdot_ode_leading_step *step, int k, double power)
+doubles_suffice(const qdot_ode_leading_step *step, int k, double power)
 {
     const qdot_ode_series *series = step->system->series;
     const qdot_ode_leading *leading = step->system->leading;
@@ -53,7 +53,7 @@ agree(const qdot_ode_leading_step *step, int k, double power)
     return true;
 }
 
-/* The number of orders in two doubles; power: s^k. */
+/* Find how many orders need two doubles; power: the powers s^k of the step. */
 static qdot_status
 find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
 {
@@ -65,7 +65,7 @@ find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
     QDOT_TRY(leading->begin(&step->at, step->unit, leading->user));
     for (*m = 1; *m <= most; ++*m) {
         QDOT_TRY(leading->next(*m, leading->user));
-        if (*m >= least && agree(step, *m, fabs(power[*m])))
+        if (*m >= least && doubles_suffice(step, *m, fabs(power[*m])))
             return QDOT_OK;
     }
     *m = most;

@@ -1,4 +1,4 @@
-/* meter.c -- marks of work, and their comparison. */
+/* meter.c -- records the work of runs along time, and compares it. */
 #include "ode/meter.h"
 
 #include <float.h>
@@ -39,7 +39,7 @@ set_mark(qdot_ode_meter *m)
     atomic_store_explicit(&m->count, k + 1, memory_order_release);
 }
 
-/* Whether the run's work up to time t is known; *work. */
+/* Find the work that the run had done at time t; false if that is not known yet. */
 static bool
 work_at(const qdot_ode_meter *run, double t, double *work)
 {

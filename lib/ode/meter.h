@@ -61,7 +61,7 @@ void qdot_ode_meter_begin(qdot_ode_meter *m, double t0, double t1);
 /* The integration has reached t with `work` more. QDOT_ELIMIT: it costs too much. */
 QDOT_MUST_CHECK qdot_status qdot_ode_meter_add(qdot_ode_meter *m, double t, double work);
 
-/* The integration has ended: w(t) beyond its end is its total work. */
+/* The integration has ended: its total work counts for all times beyond its end. */
 void qdot_ode_meter_end(qdot_ode_meter *m);
 
 /* Whether it has cost too much beside the run, which has ended. *work: what it had cost when that
@@ -72,10 +72,10 @@ bool qdot_ode_meter_exceeds(const qdot_ode_meter *m, double *work);
  * of what the first half did. */
 bool qdot_ode_meter_is_stuck(const qdot_ode_meter *m);
 
-/* The work (ns) of what `stats` counts, for a method without series. */
+/* The work in ns for the operations counted in `stats`, by a method without series. */
 double qdot_ode_work(const qdot_ode_system *system, const qdot_ode_stats *stats);
 
-/* The work of an expansion to order p. */
+/* The work of one expansion to order p. */
 double qdot_ode_expansion_work(const qdot_ode_series *series, int p);
 
 #endif

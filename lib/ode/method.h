@@ -28,7 +28,7 @@ typedef struct qdot_ode_method {
     const void *stepper;    /* const gsl_odeiv2_step_type *const *; else NULL */
     bool series;            /* the system must have Taylor series */
     const struct qdot_ode_kernel *kernel; /* of our own Runge-Kutta methods (stepper.h) */
-    /* for methods with constant steps (geometric/geometric.h) */
+    /* the kernel, for methods with constant steps (geometric/geometric.h) */
     const struct qdot_geometric_kernel *geometric;
 } qdot_ode_method;
 

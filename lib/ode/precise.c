@@ -1,4 +1,4 @@
-/* precise.c -- steps by Taylor series in MPFR, and the storage of their points. */
+/* precise.c -- integrates by Taylor series in MPFR numbers, and stores the points of a run. */
 #include "ode/precise.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ qdot_precise_order_for(double log2_tol, const double cost[3])
     return best;
 }
 
-/* --- points -------------------------------------------------------------------------- */
+/* --- stored points of a run ---------------------------------------------------------- */
 
 void
 qdot_precise_run_clear(qdot_precise_run *run)
@@ -116,7 +116,7 @@ qdot_precise_cut(qdot_precise_run *run, mpfr_srcptr t, const mpfr_t *y)
 
 /* --- the length of a step ------------------------------------------------------------ */
 
-/* log2 max(1, |y|) */
+/* Find log2 max(1, |y|). */
 static double
 log2_size(mpfr_srcptr y)
 {
@@ -167,7 +167,7 @@ precise_extend_series(state *s)
     return QDOT_OK;
 }
 
-/* --- the state from the series ------------------------------------------------------- */
+/* --- evaluating the series ----------------------------------------------------------- */
 
 /* Evaluate y = sum_k x_k h^k, and its slope [n] unless NULL. */
 static void
@@ -276,7 +276,7 @@ confirms_inside(state *s, bool *good)
     return status;
 }
 
-/* --- the loop ------------------------------------------------------------------------ */
+/* --- the loop over steps ------------------------------------------------------------- */
 
 /* Try a step of s->h to s->end. On QDOT_OK and *good it has been accepted, and the series is
  * begun at its end. */
@@ -389,7 +389,7 @@ precise_advance(state *s)
     }
 }
 
-/* Stop hopelessly long runs, as in trajectory.c. */
+/* Stop a run that would need hopelessly many steps, as in trajectory.c. */
 static qdot_status
 precise_foresee(const state *s)
 {
@@ -503,7 +503,7 @@ qdot_precise_integrate(const qdot_precise_system *system,
     return status;
 }
 
-/* --- between points ------------------------------------------------------------------ */
+/* --- states between points ----------------------------------------------------------- */
 
 /* The index of the last point at or before t, in the direction of the run. */
 static size_t

@@ -30,7 +30,7 @@ typedef struct {
     int most;           /* the highest order possible */
     const mpfr_t *x;    /* x_ik = x[i stride + k], written by the callbacks */
     size_t stride;
-    /* orders 0 and 1 of the solution through y [n] at t, then 2 ... p */
+    /* begin: compute orders 0 and 1 of the solution through y [n] at t; extend: orders 2 ... p */
     qdot_status (*begin)(mpfr_srcptr t, const mpfr_t *y, void *user);
     qdot_status (*extend)(int p, void *user);
     /* As `near` of qdot_ode_series, for log2 of a step; NULL: any step */

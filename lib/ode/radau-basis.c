@@ -12,7 +12,7 @@ enum { MOST = QDOT_RADAU_MOST };
 
 static qdot_radau_basis bases[QDOT_RADAU_KINDS];
 
-/* The coefficients of the nodal polynomial N(x). */
+/* Find the coefficients of N(x), whose zeros are the nodes of the method. */
 static void
 find_nodal(const qdot_radau_basis *b, double *N)
 {
@@ -25,7 +25,7 @@ find_nodal(const qdot_radau_basis *b, double *N)
     }
 }
 
-/* N^(k)(x) */
+/* The k-th derivative of the polynomial N at x. */
 static double
 derivative(size_t degree, const double *N, size_t k, double x)
 {
@@ -41,7 +41,7 @@ derivative(size_t degree, const double *N, size_t k, double x)
     return sum;
 }
 
-/* Find all roots of sum_k N^(k)(0) lambda^(s-k) by Weierstrass' iteration. */
+/* Find all roots lambda of sum_k N^(k)(0) lambda^(s-k), by Weierstrass' iteration. */
 static void
 find_eigenvalues(size_t s, const double *N, double complex *lambda)
 {
@@ -85,7 +85,7 @@ basis_sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
     b->spaces = at;
 }
 
-/* Column k of the matrix of eigenvectors; for a conjugate pair also the next column. */
+/* Set column k of the matrix of eigenvectors; for a conjugate pair also the next column. */
 static void
 set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *im)
 {
@@ -108,7 +108,7 @@ set_vector(qdot_radau_basis *b, const double *N, size_t k, double *re, double *i
     }
 }
 
-/* The left eigenvectors w_k: rows of the inverse of that matrix. */
+/* Find the left eigenvectors w_k, the rows of the inverse of that matrix. */
 static void
 find_vectors(qdot_radau_basis *b, const double *N)
 {
@@ -147,7 +147,7 @@ find_inverse(qdot_radau_basis *b, const qdot_collocation *m)
         }
 }
 
-/* The weights 1/(c_j prod (c_j - c_k)). */
+/* Find the interpolation weights 1/(c_j prod (c_j - c_k)). */
 static void
 find_weights(qdot_radau_basis *b)
 {

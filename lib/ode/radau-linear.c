@@ -1,4 +1,4 @@
-/* radau-linear.c -- the matrices of a step, filled and factored. */
+/* radau-linear.c -- fills and factors the matrices of a Radau step, and solves with them. */
 #include "ode/radau-linear.h"
 
 #include <float.h>

@@ -52,14 +52,14 @@ QDOT_MUST_CHECK qdot_status qdot_radau_slopes(qdot_radau_linear *l, double t,
 /* Factor for a step h. False if a matrix is singular. */
 bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h);
 
-/* Solve with space k; im is not read for k = 0. */
+/* Solve with the matrix of eigenspace k; im is not read for k = 0. */
 void qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im);
 
-/* b [m]: an estimate of the rounding error of f - M a caused by y, a and z, with either sign. */
+/* Estimate the rounding error of f - M a caused by y, a and z: b [m], of either sign. */
 void qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a,
                       const double *z, double *b);
 
-/* b = M v + Dq q; q NULL: without the second term. */
+/* Multiply: b = M v + Dq q; q NULL: without the second term. */
 void qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q,
                       double *b);
 

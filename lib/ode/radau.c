@@ -1,4 +1,4 @@
-/* radau.c -- a step by Radau IIA: Newton's iteration, error, number of stages. */
+/* radau.c -- the method radau: Newton's iteration for Radau IIA, error estimate, number of stages. */
 #include "ode/radau.h"
 
 #include <float.h>
@@ -37,10 +37,10 @@ static const double agree = 0.1, harmless = 0.1, agree_roundings = 1000, fell_by
  * constraints, whatever these are. */
 static const double by_multipliers = 0.05;
 
-/* Factors for the steps that follow one whose iteration failed. */
+/* The factors by which steps are shortened after one whose iteration failed. */
 static const double shorter = 0.6, half = 0.5;
 
-/* A convergence rate that no longer improves; roundings of f in an estimate; an error at which a step grows. */
+/* The slowest convergence to go on with; a multiple of rounding errors of f; an error that lets steps grow. */
 static const double stagnates = 0.3, several = 6, grows = 0.03;
 
 typedef struct {
@@ -72,7 +72,7 @@ typedef struct {
     bool rejected;
 } radau;
 
-/* --- memory --------------------------------------------------------------------------- */
+/* --- allocating and choosing stages --------------------------------------------------- */
 
 static void
 radau_drop(qdot_ode_stepper *s)
@@ -138,16 +138,16 @@ qdot_radau_keep_stages(qdot_ode_stepper *s, size_t stages)
     r->kept = true;
 }
 
-/* The larger of two; b where a is a NaN. */
+/* The larger of a and b; b if a is a NaN. */
 static inline double
 larger(double a, double b)
 {
     return a > b ? a : b;
 }
 
-/* --- Newton's iteration ----------------------------------------------------------------- */
+/* --- Newton's iteration for the stages -------------------------------------------------- */
 
-/* sum_j w_j x_j over 3, 5 or 7 stages, whose values are `stride` apart */
+/* The sum over j of w_j x_j for 3, 5 or 7 stages, whose values are `stride` apart. */
 static inline double
 over_stages(size_t stages, const double *w, const double *x, size_t stride)
 {
@@ -160,7 +160,7 @@ over_stages(size_t stages, const double *w, const double *x, size_t stride)
     return sum;
 }
 
-/* Positions of the stages, less q, from velocities. */
+/* Compute positions of the stages, minus q, from their velocities. */
 static void
 stages_positions(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
@@ -175,7 +175,7 @@ stages_positions(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
         }
 }
 
-/* Whether the step is not much longer than the one before, if there is one. */
+/* Whether the step is not much longer than the previous one, if there is one. */
 static bool
 is_near(const radau *r)
 {
@@ -201,7 +201,7 @@ predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
     stages_positions(s, b, h);
 }
 
-/* a_i = 1/h sum_j (A^-1)_ij Z_j */
+/* Compute accelerations of the stages: a_i = 1/h sum_j (A^-1)_ij Z_j. */
 static void
 accelerate(radau *r, const qdot_radau_basis *b, double h)
 {
@@ -231,7 +231,7 @@ residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
     return QDOT_OK;
 }
 
-/* Solve for the change of the velocities, from the residuals; it replaces `a`. */
+/* Solve for the change of the velocities that the residuals require; it replaces `a`. */
 static void
 newton_solve(radau *r, const qdot_radau_basis *b)
 {
@@ -279,7 +279,7 @@ newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
     return size;
 }
 
-/* The change of a stage by rounding of f, in units of the tolerance. */
+/* The change of a stage caused by rounding of f, in units of the tolerance. */
 static double
 newton_noise(const qdot_ode_stepper *s, double h)
 {
@@ -297,7 +297,7 @@ newton_noise(const qdot_ode_stepper *s, double h)
     return several * noise;
 }
 
-/* Whether velocity j has no mass, so that it follows the others without memory. */
+/* Whether velocity j has no mass, so that the other velocities determine it without delay. */
 static bool
 is_algebraic(const qdot_radau_linear *l, size_t j)
 {
@@ -376,14 +376,14 @@ forces_agree(radau *r, const qdot_radau_basis *b)
     return true;
 }
 
-/* x^(3/4) */
+/* The power x^(3/4). */
 static inline double
-raise(double x)
+power_three_quarters(double x)
 {
     return sqrt(x * sqrt(x));
 }
 
-/* Iterate the stages and their `a`; *converged. */
+/* Iterate the stages and their accelerations `a`; *converged. */
 static qdot_status
 newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
                bool *converged)
@@ -399,8 +399,8 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
     *converged = false;
     weigh_algebraic(r, h);
     predict(s, b, h);
-    r->left = raise(fmax(r->left, DBL_EPSILON));
-    r->fall = is_near(r) ? raise(fmax(r->fall, DBL_EPSILON)) : 1;
+    r->left = power_three_quarters(fmax(r->left, DBL_EPSILON));
+    r->fall = is_near(r) ? power_three_quarters(fmax(r->fall, DBL_EPSILON)) : 1;
     for (r->iterations = 1; r->iterations <= most; r->iterations++) {
         double size, *R = r->R_before;
 
@@ -441,7 +441,7 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
     return QDOT_OK;
 }
 
-/* --- the error ------------------------------------------------------------------------- */
+/* --- error estimate of a step ---------------------------------------------------------- */
 
 /* The filtered defect at the beginning of the step, f there being `slope` [n] and the state
  * y + by, into s->error; returns its size in tolerances. */
@@ -513,7 +513,7 @@ radau_judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, 
     return QDOT_OK;
 }
 
-/* --- steps ----------------------------------------------------------------------------- */
+/* --- choosing steps and stages --------------------------------------------------------- */
 
 static qdot_status
 radau_prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool *regular)
@@ -542,7 +542,7 @@ radau_prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h
 /* By how much the error of steps of one length falls from step to step, as a transient dies out: of the
  * last two such factors the lesser one. 1: it does not, or is not known. */
 static double
-falls(radau *r, const qdot_radau_basis *b, double h, double ratio)
+error_decay(radau *r, const qdot_radau_basis *b, double h, double ratio)
 {
     const double grown = h / r->before_h, before = r->fell;
     double fell = r->ratio / ratio;
@@ -585,7 +585,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
     if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
     if (*ratio <= 1) {
-        const double fell = falls(r, b, h, *ratio);
+        const double fell = error_decay(r, b, h, *ratio);
 
         r->ratio = *ratio;
         *ratio /= r->rate < fast && *ratio < bounds ? fell : 1;
@@ -655,7 +655,7 @@ another(qdot_ode_stepper *s)
     return QDOT_RADAU_KINDS;
 }
 
-/* Write rows of F for dense output: the stages, then their number. */
+/* Write rows of F for interpolation: the stages, then their number. */
 static qdot_status
 dense(qdot_ode_stepper *s, double t, double h, double *F)
 {

@@ -1,4 +1,4 @@
-/* run.c -- common beginning and end of all integrations: checks, tolerance, result. */
+/* run.c -- checks options at the beginning of an integration, and sets its result at the end. */
 #include "ode/run.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #include "ode/method.h"
 #include "ode/system.h"
 
-/* Counts of an integration. */
+/* The numbers of steps and evaluations in an integration. */
 typedef struct {
     uint64_t steps;          /* accepted */
     uint64_t rejected;       /* tried and not accepted, for whatever reason */
@@ -23,7 +23,7 @@ typedef struct {
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
-/* Add the counts of a further part of a run. */
+/* Add the counts of another part of the run. */
 static inline void
 qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
 {
@@ -48,7 +48,7 @@ typedef struct {
 
 typedef struct qdot_ode_meter qdot_ode_meter;
 
-/* All fields may be 0 / NULL for their defaults. */
+/* The options of an integration; any field may be 0 or NULL for its default. */
 typedef struct {
     double tol;         /* 1e-16 .. 1; default 1e-12 */
     double h_fixed;     /* > 0: steps of (at most) this size, whatever their error */
@@ -125,7 +125,7 @@ qdot_ode_most_steps(const qdot_ode_options *options)
     return options->max_steps ? options->max_steps : 50000000;
 }
 
-/* Whether all x [n] are finite: then every 0 * x is 0, otherwise NaN. */
+/* Whether all x [n] are finite (0 * x is 0 for finite x, otherwise NaN). */
 static inline bool
 qdot_ode_all_finite(const double *x, size_t n)
 {

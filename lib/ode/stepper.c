@@ -258,7 +258,7 @@ stepper_error_ratio(const qdot_ode_stepper *s)
     return ratio;
 }
 
-/* A multistep method: z is the state itself. */
+/* Try a step of a multistep method, for which s->z is the new state itself. */
 static int
 apply_multistep(qdot_ode_stepper *s, double t, double h)
 {
@@ -345,7 +345,7 @@ qdot_ode_stepper_project(qdot_ode_stepper *s, double t, double *ratio)
     return QDOT_OK;
 }
 
-/* Compute the components that are not integrated, at the end of the step, in s->trial. */
+/* Compute those components that are functions of the others, at the end of the step, in s->trial. */
 static void
 take_followers(qdot_ode_stepper *s)
 {

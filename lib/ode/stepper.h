@@ -60,7 +60,8 @@ struct qdot_ode_kernel {
     void (*restart)(qdot_ode_stepper *s);
     void (*accepted)(qdot_ode_stepper *s);
     double (*power)(const qdot_ode_stepper *s); /* NULL: method->error_power */
-    /* Change to the next formula, after the last to the first; returns their number. NULL: only one. */
+    /* Change to the next interpolation formula, after the last to the first; returns their number.
+     * NULL: only one. */
     size_t (*another)(qdot_ode_stepper *s);
     bool keeps_step; /* a new size of step is dear */
     bool forward;    /* no step may be read backwards from its end */
@@ -98,7 +99,7 @@ struct qdot_ode_stepper {
     gsl_odeiv2_system inner;
 };
 
-/* Errors: QDOT_EINVAL (n = 0, a tolerance outside 1e-16 .. 1, no Jacobian); QDOT_ENOMEM. */
+/* Make a stepper. Errors: QDOT_EINVAL (n = 0, a tolerance outside 1e-16 .. 1, no Jacobian); QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ode_stepper_new(const qdot_ode_system *system,
                                                  const qdot_ode_method *method,
                                                  double tol, qdot_ode_stepper **out);

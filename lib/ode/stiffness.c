@@ -1,4 +1,4 @@
-/* stiffness.c -- whether hundreds of steps lie on a parabola. */
+/* stiffness.c -- detects stiffness: whether samples of hundreds of steps lie on a parabola. */
 #include "ode/stiffness.h"
 
 #include <math.h>
@@ -8,11 +8,11 @@
 #include "base/memory.h"
 #include "ode/scale.h"
 
-/* The steps between successive samples, 4000 in total; at first an eighth of these. */
+/* The numbers of steps between successive samples, 4000 in total; at first an eighth of these. */
 static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
 static const int eager = 8, windows_eager = 2;
 
-/* Steps before the first sample: shorter runs need none. */
+/* The number of steps before the first sample: shorter runs need none. */
 static const int first_wait = 100;
 
 /* The deviation from a parabola, relative to the range, up to which a component is smooth. */
@@ -20,7 +20,8 @@ static const double share = 1e-2;
 
 static const double work_default = 5e9;
 
-/* Explicit methods are stable for h by the fastest rate up to 2 or more; the step of differences, by the size. */
+/* With an explicit method, h times the fastest rate is at least this if stability limits h; the
+ * step of differences. */
 static const double least_bound = 0.1, difference = 1e-7;
 
 /* Only after this many steps may the run be judged by them alone; earlier they may be short by chance. */
@@ -67,7 +68,8 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
     return true;
 }
 
-/* |df/dy| by differences of size `by` to either side, in units of the components' sizes; room [3n]. */
+/* Estimate |df/dy| by differences of size `by` in both directions, in units of the components'
+ * sizes; room [3n]. */
 static qdot_status
 steepness(const qdot_ode_stiff_step *at, double by, double *room, double *slope)
 {
@@ -131,7 +133,7 @@ steps_between(const qdot_ode_stiffness *s)
     return sum;
 }
 
-/* Store a sample; *enough: there are enough of them to judge. */
+/* Store a sample; *enough: there are now enough of them for a judgement. */
 static qdot_status
 stiffness_keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
 {

@@ -11,7 +11,7 @@
 #include "base/status.h"
 #include "num/two.h"
 
-/* Where a solution is: t + t_low, y + carry [n] (carry NULL: 0). */
+/* The position of a solution: time t + t_low, state y + carry [n] (carry NULL: 0). */
 typedef struct {
     double t, t_low;
     const double *y, *carry;
@@ -79,7 +79,7 @@ typedef struct {
     /* Called before many expansions to order p. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
     qdot_ode_code code;
-    /* Orders 0 and 1 of the solution through y [n] at t. */
+    /* Compute orders 0 and 1 of the solution through y [n] at t. */
     qdot_status (*begin)(double t, const double *y, double unit, void *user);
     /* Continue the expansion with orders 2 ... p. */
     qdot_status (*extend)(int p, void *user);
@@ -124,7 +124,7 @@ typedef struct {
  * qdot_ode_system. */
 typedef struct {
     size_t m, k;
-    /* r [m + k] = (f + A^T z - M a, g - N a), for any a [m], z [k] */
+    /* Compute the residual r [m + k] = (f + A^T z - M a, g - N a), for any a [m], z [k]. */
     qdot_status (*residual)(double t, const double *y, const double *a, const double *z, double *r,
                             void *user);
     /* z [k] at the state; the slopes of r by q and (v, z) at a and z held, and (M, N); each
@@ -139,7 +139,7 @@ typedef struct {
 typedef struct {
     qdot_status (*momenta)(double t, const double *q, const double *v, double *p, void *user);
     qdot_status (*velocity)(double t, const double *q, const double *p, double *v, void *user);
-    /* p' */
+    /* Compute the force p'. */
     qdot_status (*force)(double t, const double *q, const double *v, double *F, void *user);
     void *user; /* borrowed */
 } qdot_ode_phase;
@@ -148,7 +148,7 @@ typedef struct {
  * them themselves; others take the accelerations under them from f. Failures as those of f. */
 typedef struct {
     size_t m;
-    /* g [m] at (t, q); dg/dt [m] at (t, q, v) */
+    /* positions: g [m] at (t, q); velocities: dg/dt [m] at (t, q, v) */
     qdot_status (*positions)(double t, const double *q, double *g, void *user);
     qdot_status (*velocities)(double t, const double *q, const double *v, double *w, void *user);
     /* Add the constraint forces: F [n] += A^T lambda. */
@@ -183,7 +183,7 @@ typedef struct {
  * once. */
 typedef struct qdot_ode_system {
     size_t n; /* components, at least 1 */
-    /* dydt [n] = f(t, y [n]) */
+    /* Compute dydt [n] = f(t, y [n]). */
     qdot_status (*rhs)(double t, const double *y, double *dydt, void *user);
     /* dfdy [n x n row-major] = df_i/dy_j, dfdt [n] = df/dt; NULL if not available */
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
@@ -217,7 +217,7 @@ typedef struct qdot_ode_system {
      * the whole (ode/apart.h). */
     const qdot_ode_part *parts;
     size_t n_parts;
-    /* The first orders of the series in two doubles; NULL if not available; borrowed */
+    /* The first orders of the series in two doubles each; NULL if not available; borrowed */
     const qdot_ode_leading *leading;
     /* [n] s_i, positive: errors of y_i are relative to max(s_i, |y_i|) (scale.h). NULL: all are 1;
      * borrowed */

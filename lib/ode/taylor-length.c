@@ -33,7 +33,7 @@ log_step(run *r)
     return qdot_smaller(l, reach.lower);
 }
 
-/* The step from all coefficients, not only the last ones: INFINITY if all are 0. */
+/* Find the step allowed by all coefficients, not only the last ones, as log2; INFINITY if all are 0. */
 static double
 log_step_of_all(run *r)
 {
@@ -146,7 +146,7 @@ length_of_step(run *r, double most, double *h)
             if (r->series->near)
                 *h = near_length(r, *h);
             keep_off(r, h, most);
-            /* coefficients underflow: use those that do not; a polynomial allows any step */
+            /* if coefficients underflow use the others; a polynomial allows any step */
             far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;

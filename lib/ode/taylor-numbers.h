@@ -54,7 +54,7 @@ qdot_step_is_too_short(double t, double h)
     return !(h > 16 * DBL_EPSILON * fabs(t) && h > 16 * DBL_MIN) && h < qdot_step_floor(t);
 }
 
-/* The power of two at or below |h|, with the sign of h. */
+/* The largest power of two that is not above |h|, with the sign of h. */
 static inline double
 qdot_step_unit(double h)
 {
@@ -89,7 +89,7 @@ qdot_smaller(double a, double b)
     return a < b ? a : b;
 }
 
-/* 2^x to 0.002, for the estimate of a step; exp2 takes as long as three orders of a series. */
+/* The power 2^x to 0.002, for the estimate of a step; exp2 takes as long as three orders of a series. */
 static inline double
 qdot_rough_exp2(double x)
 {

@@ -5,7 +5,7 @@
 #include "ode/companion.h"
 #include "ode/taylor-numbers.h"
 
-/* The lowest order; companions use orders above that of a run. */
+/* The lowest order; companions use orders that are higher than that of the run. */
 enum { least_order = 6, of_companions = QDOT_COMPANION_ORDERS + 1 };
 
 /* For orders from 6 on: 10 z, where z bounds the region with |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. */

@@ -1,4 +1,4 @@
-/* taylor.c -- steps by Taylor series: order, length, confirmation, compensated sums. */
+/* taylor.c -- integrates by Taylor series: order, length and confirmation of steps, compensated sums. */
 #include "ode/taylor.h"
 
 #include <float.h>
@@ -26,15 +26,15 @@ static const double rounding_of_projection = 1e-13;
  * this of the state over the step. */
 static const double falls = 0.125, most_noise = 1e-5;
 
-/* After this number of rejected steps the lowest orders are no longer computed in two doubles. */
+/* After this number of rejected steps, the lowest orders are no longer computed in two doubles. */
 enum { taken_back = 100 };
 
 /* Attempts at a point where f is undefined, each with a quarter of the step. */
 static const int max_undefined = 60;
 
-/* --- the state from the series ------------------------------------------------------ */
+/* --- the state at the end of a step ------------------------------------------------- */
 
-/* next = y + carry + sum_{k>=1} x_k s^k up to `order`, and the slope there. */
+/* Compute next = y + carry + sum_{k>=1} x_k s^k up to `order`, and its slope. */
 static void
 advance_state(run *r, int order, double s)
 {
@@ -46,7 +46,7 @@ advance_state(run *r, int order, double s)
     r->kernels->advance(&r->step);
 }
 
-/* Set the step's pointers to the present arrays. */
+/* Set the pointers of the step to the arrays that are in use now. */
 static void
 aim_step(run *r)
 {
@@ -65,7 +65,7 @@ aim_step(run *r)
 
 /* Accept the step just tried. */
 static void
-arrive(run *r)
+accept_taylor_step(run *r)
 {
     qdot_swap(&r->y, &r->next);
     qdot_swap(&r->carry, &r->next_carry);
@@ -85,7 +85,7 @@ take_size(run *r, size_t i)
     r->next_scale[i] = 1 / r->next_size[i];
 }
 
-/* --- confirmation ------------------------------------------------------------------- */
+/* --- confirmation of a step --------------------------------------------------------- */
 
 /* Whether the polynomials of components that are not integrated, at the end, in r->next, agree with
  * their derived values there. These may be sensitive to rounding of the others, so this only detects
@@ -183,7 +183,7 @@ taylor_project(run *r, double t_end, double *moved)
     return QDOT_OK;
 }
 
-/* Compute the components that are not integrated, at the end of the step. */
+/* Compute those components that are functions of the others, at the end of the step. */
 static void
 take_followers(run *r)
 {
@@ -198,7 +198,7 @@ take_followers(run *r)
     }
 }
 
-/* Generate machine code for the expansions if the steps so far show that many will follow. */
+/* Generate machine code for the expansions if the steps so far suggest that many will follow. */
 static qdot_status
 write_code(run *r, double t)
 {
@@ -207,7 +207,7 @@ write_code(run *r, double t)
     return qdot_ode_written_next(&r->written, steps, steps * (r->t1 - t) / (t - r->t0));
 }
 
-/* Decide about machine code by the length of the first step, before it is taken. */
+/* Decide whether to generate machine code from the length of the first step, before it is taken. */
 static qdot_status
 judge_first(run *r, double most, double *h)
 {
@@ -222,7 +222,7 @@ judge_first(run *r, double most, double *h)
     return qdot_ode_taylor_run_length(r, most, h);
 }
 
-/* Replace the end of the step by that with the first orders in two doubles. */
+/* Recompute the end of the step with the first orders in two doubles. */
 static qdot_status
 advance_in_two(run *r, double t_end)
 {
@@ -329,13 +329,13 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
         r->series->crossed(r->place, r->series->user);
     r->place = NAN;
     r->t = t_end;
-    arrive(r);
+    accept_taylor_step(r);
     r->result->stats.steps++;
     r->result->stats.projections += moved > 0;
     return QDOT_OK;
 }
 
-/* --- the loop ----------------------------------------------------------------------- */
+/* --- the loop over steps ------------------------------------------------------------ */
 
 static qdot_status
 taylor_too_small(const run *r)
@@ -378,7 +378,7 @@ taylor_advance(run *r)
         if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                              (unsigned long long)r->max_steps);
-        if (tries > 0) { /* the series is another one's by now */
+        if (tries > 0) { /* the series has meanwhile been expanded about another point */
             qdot_ode_taylor_run_set_unit(r, r->direction * qdot_step_unit(most));
             status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }
@@ -418,7 +418,7 @@ taylor_advance(run *r)
     }
 }
 
-/* Count the work since the last count. */
+/* Count the work done since the last count. */
 static qdot_status
 taylor_count_work(run *r)
 {
@@ -579,7 +579,7 @@ taylor_release(run *r)
     qdot_ode_stiffness_clear(&r->stiffness);
 }
 
-/* A run that has not begun. */
+/* The data of an integration before it has begun. */
 static run
 run_of(const qdot_ode_system *system, const qdot_ode_options *options, double t0, double t1,
        qdot_ode_result *result)

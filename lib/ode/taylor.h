@@ -99,7 +99,7 @@ int qdot_ode_taylor_last_order(const qdot_ode_system *system, int p);
  * the first orders in two doubles. Not for systems with `following`. */
 void qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
                                   double t_low, qdot_two *y);
-/* The rounding error of that value from terms that are not in two doubles, into rounding [n]. */
+/* Find the rounding error of that value caused by terms that are not in two doubles: rounding [n]. */
 void qdot_ode_taylor_rounding_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
                                   double *rounding);
 void qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,

@@ -1,4 +1,4 @@
-/* trajectory-points.c -- the stored points of a run: shortened, numbered, timed by a component. */
+/* trajectory-points.c -- changes stored points of a run: shortens, subdivides, uses a component as time. */
 #include <math.h>
 #include <string.h>
 

@@ -31,7 +31,7 @@ struct qdot_trajectory_cursor {
     double *own;                     /* [n] a state of one */
 };
 
-/* Is a at or before b, in the direction of the run? */
+/* Whether a is at or before b in the direction of the run. */
 static bool
 not_beyond(const qdot_trajectory *tr, double a, double b)
 {
@@ -64,7 +64,7 @@ qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
     return low;
 }
 
-/* The variable of integration at the points. */
+/* The values of the integration variable at the stored points. */
 static const double *
 steps_of(const qdot_trajectory *tr)
 {
@@ -83,7 +83,7 @@ open_stepper(qdot_trajectory_cursor *c)
     return qdot_ode_stepper_new(c->system, method, c->tr->tol, &c->s);
 }
 
-/* Use the system of that piece from now on. */
+/* Use the equations of this piece of the run from now on. */
 static qdot_status
 cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
 {
@@ -247,7 +247,7 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
     double ratio;
     qdot_status status;
 
-    /* if the error of this formula is too large, the step was made with another one */
+    /* if this formula has too large an error, the step was made with another formula */
     for (size_t k = 0; k < formulas; k++) {
         qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
         status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
@@ -282,7 +282,7 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* Compute the components that are not integrated, at the state read. */
+/* Compute those components that are functions of the others, at the state read. */
 static qdot_status
 cursor_derive(const qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -304,7 +304,7 @@ qdot_trajectory_read_tracks(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* The state within the step from point c->at on. */
+/* Compute the state within the step that begins at point c->at. */
 static qdot_status
 cursor_read_step(qdot_trajectory_cursor *c, double t, double *y)
 {
@@ -366,7 +366,7 @@ read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* The state at t, in the step from point k on or at that point. */
+/* Compute the state at t, which lies in the step from point k on, or at that point. */
 static qdot_status
 read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
 {

@@ -91,7 +91,7 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
     const size_t n = tr->n;
     double *to;
 
-    /* a power of two at a time: the limit is looked at with each */
+    /* capacity is a power of two: test the limit of points whenever it grows */
     if (tr->count == tr->t_capacity || (tr->count + 1) * n > tr->y_capacity)
         QDOT_TRY(trajectory_make_room(tr, t));
     to = tr->y + tr->count * n;
@@ -206,7 +206,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
                        bool jumped, const qdot_ode_options *options, double t1,
                        const double *y0)
 {
-    /* from here on `accepted` is ours: whether parts are integrated separately was decided by the caller's */
+    /* replace the callback `accepted`: whether parts are integrated separately depended on the caller's */
     qdot_ode_options own = *options;
     qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
     recorder r = {.tr = tr,

@@ -112,11 +112,11 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_open(const qdot_trajectory *tr,
                                                  qdot_trajectory_cursor **out);
 void qdot_trajectory_close(qdot_trajectory_cursor *c);
 
-/* As qdot_trajectory_at. */
+/* Read the state at t with a cursor; result and errors as those of qdot_trajectory_at. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read(qdot_trajectory_cursor *c, double t,
                                                  double *y);
 
-/* Evaluations of f by reading so far; 0 with series. */
+/* The number of evaluations of f by reading so far; 0 with series. */
 uint64_t qdot_trajectory_evaluations(const qdot_trajectory_cursor *c);
 
 /* The mode of the piece to which the state just read belongs. */
@@ -127,18 +127,18 @@ size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 bool qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system **of,
                               qdot_ode_expanded *step);
 
-/* The state of that piece at t, or at its end nearest to t. */
+/* Read the state of the given piece of the run at t, or at the end of the piece that is nearer to t. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);
 
-/* --- inside: a run in parts (trajectory-apart.c) ---- */
+/* --- for files of trajectories: runs in decoupled parts (trajectory-apart.c) --- */
 /* Continue a trajectory of one point from y0 [n] to t1 with a track for each part; the points of
  * the whole become those of the part with the most steps. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_record_apart(qdot_trajectory *tr,
                                                          const qdot_ode_system *system,
                                                          const qdot_ode_options *options,
                                                          double t1, const double *y0);
-/* Append a point; read the state from the tracks only. */
+/* Append a point; _read_tracks: read the state from the tracks only. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,

@@ -20,7 +20,7 @@
  * an order of 8 the whole run costs a quarter more and errs eight times less. */
 static const double aim = 0.1;
 
-/* A step grows by so much or not at all where another size is dear. */
+/* Where a new step size is costly, the step grows by at least this factor or not at all. */
 static const double worthwhile = 1.2;
 
 /* The most that a step changes by, and that of a method that damps what is stiff: behind what dies out
@@ -62,7 +62,7 @@ typedef struct {
 static const double crawl = 0x1p-8, shrunk = 0x1p-4;
 enum { most_crawled = 4, seldom = 32 };
 
-/* The distance from |t| to the next double. */
+/* The distance from |t| to the next larger double. */
 static double
 spacing(double t)
 {
@@ -76,7 +76,7 @@ floor_of_step(const run *r)
     return fmax(16 * spacing(r->t), 16 * DBL_MIN);
 }
 
-/* max_i |x_i| / (tol max(s_i, |y_i|)) */
+/* The norm max_i |x_i| / (tol max(s_i, |y_i|)). */
 static double
 norm(const run *r, const double *x, const double *y)
 {
@@ -109,7 +109,7 @@ first_step(run *r, double distance)
         s->trial[i] = s->y[i] + r->direction * h0 * s->dydt[i];
     if (qdot_ode_stepper_rhs(s, r->t + r->direction * h0, s->trial, s->trial_dydt) !=
         QDOT_OK) {
-        /* f is undefined beyond t: begin with h0, the steps will show how far it goes */
+        /* f is undefined beyond t: begin with h0, as the steps will show how far f is defined */
         return QDOT_OK;
     }
     for (size_t i = 0; i < n; i++)
@@ -129,7 +129,7 @@ first_step(run *r, double distance)
 
 /* The time left to t1 + t1_low, computed exactly near the end. */
 static double
-remaining(const run *r)
+remaining_time(const run *r)
 {
     return r->direction * ((r->t1 - r->t) - r->t_carry + r->options->t1_low);
 }
@@ -152,7 +152,7 @@ to_a_double(const run *r, double h)
 static double
 whole_choose_step(const run *r, bool *last)
 {
-    double rest = remaining(r);
+    double rest = remaining_time(r);
 
     *last = r->h >= rest * (1 - 1e-12) || (rest < 2 * floor_of_step(r) && !(r->options->h_fixed > 0));
     if (*last)
@@ -226,7 +226,7 @@ whole_too_small(run *r)
 /* Called after a rejected step, and now and then. The place ahead is where the margin,
  * extrapolated linearly, would be 0. */
 static bool
-crawls(run *r)
+crawls_to_singularity(run *r)
 {
     const qdot_ode_system *system = r->s->system;
     double now, ahead;
@@ -245,7 +245,7 @@ crawls(run *r)
     return r->crawled >= most_crawled;
 }
 
-/* The error of the step is small enough: accept it, unless the caller objects. */
+/* Accept a step whose error is small enough, unless the caller objects. */
 static qdot_status
 whole_accept(run *r, double h, double ratio, bool last, bool *stop)
 {
@@ -277,7 +277,7 @@ whole_accept(run *r, double h, double ratio, bool last, bool *stop)
     return QDOT_OK;
 }
 
-/* Whether the step skips no force that acts for a shorter time; otherwise it is shortened. */
+/* Find whether the step passes over no force that acts for a shorter time; if it does, shorten it. */
 static qdot_status
 whole_look(run *r, double h, double end, bool *clear)
 {
@@ -335,17 +335,17 @@ whole_advance(run *r, bool *stop)
         if (!clear)
             return QDOT_OK;
         QDOT_TRY(whole_accept(r, h, ratio, last, stop));
-        return r->result->stats.steps % seldom == 0 && crawls(r) ? whole_too_small(r) : QDOT_OK;
+        return r->result->stats.steps % seldom == 0 && crawls_to_singularity(r) ? whole_too_small(r) : QDOT_OK;
     }
     r->result->stats.rejected++;
     r->just_rejected = true;
     control(r, h, ratio, false);
     if (r->options->h_fixed > 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: the step overflows", r->t);
-    return r->h < floor_of_step(r) || crawls(r) ? whole_too_small(r) : QDOT_OK;
+    return r->h < floor_of_step(r) || crawls_to_singularity(r) ? whole_too_small(r) : QDOT_OK;
 }
 
-/* Count the work since the last count. */
+/* Count the work done since the last count. */
 static qdot_status
 whole_count_work(run *r)
 {

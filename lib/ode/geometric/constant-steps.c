@@ -15,7 +15,7 @@
 
 enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16, most_undefined = 60 };
 
-/* The trial aims at this part of the tolerance; the step is its shortest one times `safe`. */
+/* The trial aims at this fraction of the tolerance; the step is its shortest one times `safe`. */
 static const double aim = 0.5, safe = 0.9, most_growth = 5;
 
 /* At a singular place the steps of the trial are so much shorter than others: this part of the longest
@@ -52,7 +52,7 @@ qdot_geometric_velocity(qdot_geometric *g, double t, const double *q, const doub
     return QDOT_OK;
 }
 
-/* Evaluate the forces themselves, without checks. */
+/* Evaluate the forces without checking that they are finite. */
 static qdot_status
 forces_evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *F)
 {
@@ -165,7 +165,8 @@ factor_of(const run *r, double ratio)
     return fmin(most_growth, fmax(0.1, f));
 }
 
-/* A step length to try first: one that changes the state by a hundredth, or the whole distance if shorter. */
+/* Choose a step length to try first: one that changes the state by a hundredth, or the whole
+ * distance if shorter. */
 static qdot_status
 first_length(run *r, double distance)
 {
@@ -198,7 +199,7 @@ least_length(const run *r)
 
 /* End the run at r->t, with the last error as reason. */
 static qdot_status
-stopped(const run *r)
+stop_with_failure(const run *r)
 {
     const qdot_error why = *qdot_last_error();
 
@@ -223,7 +224,7 @@ lengths_note(lengths *l, double h)
     l->now = fmin(l->now, h);
 }
 
-/* Whether step k of the trial is made. */
+/* Whether step k of the trial is still to be made. */
 static bool
 goes_on(lengths *l, int k)
 {
@@ -295,9 +296,9 @@ find_step_length(run *r)
         memcpy(start, r->g.y, 4 * r->g.n * sizeof *start);
         status = try_lengths(r, &l);
     }
-    /* if the trial stops at an error so does the run, at the same time */
+    /* if the trial stops at an error, so does the run, at the same time */
     if (qdot_ode_may_be_undefined(status))
-        status = r->h > 0 ? QDOT_OK : stopped(r);
+        status = r->h > 0 ? QDOT_OK : stop_with_failure(r);
     if (start && status == QDOT_OK) {
         memcpy(r->g.y, start, 4 * r->g.n * sizeof *start);
         r->g.known = false;
@@ -308,7 +309,7 @@ find_step_length(run *r)
     return status;
 }
 
-/* f is undefined somewhere in the step. */
+/* Handle a step in which f is undefined somewhere. */
 static qdot_status
 step_undefined(run *r, double h, qdot_status status)
 {
@@ -318,10 +319,10 @@ step_undefined(run *r, double h, qdot_status status)
     r->h = 0.25 * h;
     if (++r->undefined <= most_undefined && r->h > least_length(r) && !(r->options->h_fixed > 0))
         return QDOT_OK;
-    return stopped(r);
+    return stop_with_failure(r);
 }
 
-/* The step just made is accepted, unless the caller objects. */
+/* Accept the step just made, unless the caller's callback rejects it. */
 static qdot_status
 step_accept(run *r, double h, bool last, bool *stop)
 {
@@ -349,7 +350,7 @@ step_accept(run *r, double h, bool last, bool *stop)
     return QDOT_OK;
 }
 
-/* Make a step of signed length h without estimating its error. */
+/* Make a step of signed length h without an error estimate. */
 static qdot_status
 step_plainly(run *r, double h)
 {
@@ -452,7 +453,7 @@ constant_steps_loop(run *r)
     return QDOT_OK;
 }
 
-/* --- the whole ---------------------------------------------------------------------- */
+/* --- the whole integration ---------------------------------------------------------- */
 
 static qdot_status
 constant_steps_check(const run *r, double t0, const double *y)

@@ -17,7 +17,7 @@ gauss_begin(qdot_geometric *g)
     qdot_stages_begin(&w, &m);
 }
 
-/* Once round: P, W, X, F. */
+/* Iterate once: update P, W, X, F. */
 static qdot_status
 gauss_iterate(qdot_geometric *g, const qdot_stages *w, double t, double h, double *change)
 {

@@ -44,7 +44,7 @@ struct qdot_geometric_kernel {
     int stages;        /* of a method of collocation; else 0 */
     size_t rows, more; /* work space: rows of n doubles, and doubles */
     size_t of_bonds;   /* and doubles for each constraint; 0: it knows none */
-    /* Fill the constant part of g->work; NULL: there is none. */
+    /* Fill the constant part of the work space g->work; NULL: there is no such part. */
     void (*begin)(qdot_geometric *g);
     /* Advance g->y + g->low from t by h; on a failure they are undefined. QDOT_EDOMAIN where an
      * iteration does not converge. */
@@ -63,10 +63,10 @@ struct qdot_geometric {
     uint64_t evaluations;
 };
 
-/* The velocity v [n] at (t, q, p). Fails like the functions of qdot_ode_system. */
+/* Evaluate the velocity v [n] at (t, q, p). Fails like the functions of qdot_ode_system. */
 QDOT_MUST_CHECK qdot_status qdot_geometric_velocity(qdot_geometric *g, double t, const double *q,
                                                     const double *p, double *v);
-/* The force F [n] at (t, q, v). QDOT_EDOMAIN if it is not finite. */
+/* Evaluate the force F [n] at (t, q, v). QDOT_EDOMAIN if it is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_geometric_force(qdot_geometric *g, double t, const double *q,
                                                  const double *v, double *F);
 

@@ -31,7 +31,7 @@ qdot_composition_lengths(double h, double *length, double *rest)
     *rest = -qdot_sum_value(&sum);
 }
 
-/* x += a d + b d */
+/* Add the terms a d and b d to the sum x + low. */
 static void
 advance_by_forces(size_t n, double *x, double *low, double a, double b, const double *d)
 {
@@ -39,7 +39,7 @@ advance_by_forces(size_t n, double *x, double *low, double a, double b, const do
         qdot_sum_advance_by(&x[i], &low[i], a * d[i], b * d[i]);
 }
 
-/* Stages with these lengths, the middle one longer by `rest`; work: F at the state. */
+/* Make all stages with their lengths, the middle one longer by `rest`; work: the force F at the state. */
 static qdot_status
 splitting_stages(qdot_geometric *g, double t, int stages, const double *length, double rest)
 {

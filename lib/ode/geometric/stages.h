@@ -16,7 +16,7 @@
 #include "num/sum.h"
 #include "ode/geometric/geometric.h"
 
-/* Work space of the stages, the first part of a kernel's. */
+/* Work space of the stages; the work space of a method begins with it. */
 typedef struct {
     size_t s, n;
     double *a, *b, *c, *ahead; /* [2 x s x s], [2 x s], [s], [s x s] L_j(1 + c_i) */
@@ -52,7 +52,7 @@ QDOT_MUST_CHECK qdot_status qdot_stages_iterate(qdot_geometric *g, const qdot_st
                                                 double t, double h, int patience,
                                                 qdot_stages_once *once);
 
-/* X from W; the largest change of a position, relative. */
+/* Compute the positions X from W; returns the largest relative change of a position. */
 double qdot_stages_move(const qdot_geometric *g, const qdot_stages *w, double h);
 
 /* sum_j a_j x_jk over the rows of x [s x n]; *rest the same of the low parts, which may not be added to
@@ -85,7 +85,7 @@ qdot_stages_at(const qdot_stages *w, const double *a, size_t i, double y, double
     return at + (e + (low + h * rest));
 }
 
-/* y + low += h sum_j b_j x_jk */
+/* Advance the sum y + low by h sum_j b_j x_jk. */
 static inline void
 qdot_stages_advance(const qdot_stages *w, double *y, double *low, double h,
                     const double *x, size_t k)

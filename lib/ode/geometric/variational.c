@@ -35,7 +35,7 @@
  * correct each other. */
 enum { stages = 6, patience = 2 };
 
-/* Work space after that of stages.h; m constraints. */
+/* Work space of the method, after that of stages.h; m is the number of constraints. */
 typedef struct {
     qdot_stages at;
     size_t m;
@@ -65,7 +65,7 @@ state_of(const qdot_geometric *g)
     return w;
 }
 
-/* The inverse of C, column by column. */
+/* Find the inverse of the matrix C of weights, column by column. */
 static void
 invert_weights(const step_state *w)
 {
@@ -118,7 +118,7 @@ variational_begin(qdot_geometric *g)
     invert_weights(&w);
 }
 
-/* F += A^T lambda at stage i */
+/* Add the reactions A^T lambda to the forces F at stage i. */
 static qdot_status
 stage_add_reactions(const qdot_geometric *g, const step_state *w, double t, size_t i,
                     const double *lambda, double *F)
@@ -165,7 +165,7 @@ add_pulls(const qdot_geometric *g, const step_state *w, double t, double h)
     return QDOT_OK;
 }
 
-/* Once round: P, W, X, lambda, F, G. */
+/* Iterate once: update P, W, X, lambda, F, G. */
 static qdot_status
 variational_iterate(qdot_geometric *g, const qdot_stages *at, double t, double h, double *change)
 {
@@ -209,7 +209,7 @@ tie_velocities(qdot_geometric *g, const step_state *w, double t)
     return QDOT_OK;
 }
 
-/* F, W, X, lambda, G to begin with. */
+/* Set the first values of F, W, X, lambda, G. */
 static qdot_status
 variational_guess(qdot_geometric *g, const step_state *w, double t, double h)
 {
