@@ -1,4 +1,4 @@
-/* items.c -- keeps account of which items of some work are left. */
+/* items.c -- records which items of some work are done, given away or left. */
 #include "parallel/items.h"
 
 enum { ANSWERED = 1, KILLED = 2 };

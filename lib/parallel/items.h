@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 
-/* The items first ... first + count - 1. */
+/* Consecutive items: first ... first + count - 1. */
 typedef struct {
     size_t first, count;
 } qdot_items_chunk;

@@ -30,7 +30,7 @@ typedef struct {
     uint64_t number;
 } answer;
 
-/* --- rank 0 ------------------------------------------------------------------------------ */
+/* --- rank 0: work for the other ranks ---------------------------------------------------- */
 
 qdot_status
 qdot_mates_new(qdot_crew *c)
@@ -50,9 +50,9 @@ qdot_mates_free(qdot_crew *c)
     qdot_text_clear(&c->out);
 }
 
-/* Give a rank up to two chunks, so that it need not wait for the second. */
+/* Give a rank up to two chunks, so that it need not wait between them. */
 static void
-give(qdot_crew *c, size_t rank)
+give_chunks(qdot_crew *c, size_t rank)
 {
     qdot_mate *m = &c->mates[rank];
     const double seconds = fmax(chunk_seconds, seconds_a_rank * (double)c->ready);
@@ -94,9 +94,9 @@ mate_hear(qdot_crew *c, const qdot_rank_message *m)
     return QDOT_OK;
 }
 
-/* Hand out again what lost ranks have not answered. A rank that is heard again is no longer lost. */
+/* Hand out again the items that lost ranks have not answered. A rank that answers again is no longer lost. */
 static qdot_status
-miss(qdot_crew *c)
+hand_out_lost(qdot_crew *c)
 {
     const double now = qdot_wall_now();
 
@@ -121,18 +121,18 @@ qdot_mates_serve(qdot_crew *c)
         return QDOT_OK;
     while (status == QDOT_OK && qdot_ranks_next(&m)) {
         status = mate_hear(c, &m);
-        give(c, m.from);
+        give_chunks(c, m.from);
     }
     qdot_text_clear(&m.bytes);
     QDOT_TRY(status);
-    QDOT_TRY(miss(c));
+    QDOT_TRY(hand_out_lost(c));
     for (size_t i = 1; i < qdot_ranks_count() && c->items.again.n > 0; i++)
         if (c->mates[i].hand.n == 0 && !c->mates[i].lost)
-            give(c, i);
+            give_chunks(c, i);
     return QDOT_OK;
 }
 
-/* --- other ranks ------------------------------------------------------------------------- */
+/* --- other ranks: work for rank 0 -------------------------------------------------------- */
 
 void
 qdot_mates_report(const qdot_crew *c)

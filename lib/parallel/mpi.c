@@ -29,7 +29,7 @@ static struct {
     MPI_Errhandler errors_return;
 } mpi;
 
-/* A message that is being sent to one or more ranks. */
+/* A message that is still being sent to one or more ranks. */
 typedef struct {
     size_t references;
     char at[];
@@ -42,7 +42,7 @@ typedef struct {
 
 static qdot_vec(sending) sendings;
 
-/* --- the library ------------------------------------------------------------------------ */
+/* --- loading the MPI library ------------------------------------------------------------ */
 
 static void *
 mpi_find_function(void *handle, const char *name, bool *all)
@@ -106,7 +106,7 @@ qdot_mpi_abort(int status)
     _Exit(status);
 }
 
-/* --- all together ------------------------------------------------------------------------ */
+/* --- operations of all ranks together ---------------------------------------------------- */
 
 void
 qdot_mpi_least(int *x)
@@ -123,7 +123,7 @@ qdot_mpi_gather(const void *bytes, size_t n, void *all)
     mpi.Allgather(bytes, (int)n, mpi.byte, all, (int)n, mpi.byte, mpi.world);
 }
 
-/* --- messages --------------------------------------------------------------------------- */
+/* --- sending and receiving messages ----------------------------------------------------- */
 
 static void
 parcel_release(parcel *p)

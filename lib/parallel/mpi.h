@@ -23,7 +23,7 @@ void qdot_mpi_gather(const void *bytes, size_t n, void *all);
 void qdot_mpi_send(size_t first, size_t end, int what, const void *bytes, size_t n);
 /* How many messages are still being sent. */
 size_t qdot_mpi_sending(void);
-/* Whether a message has arrived, its sender and its kind. */
+/* Whether a message has arrived; its sender and its kind. */
 bool qdot_mpi_look(size_t *from, int *what);
 /* Receive the message that qdot_mpi_look found, into `bytes`, which is emptied first. */
 void qdot_mpi_take(size_t from, int what, qdot_text *bytes);

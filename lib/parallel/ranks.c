@@ -37,7 +37,7 @@ static struct {
     int sentinel;    /* a pipe to it; -1: none */
 } ranks = {.sentinel = -1};
 
-/* How a rank ends: together with the others, or alone. */
+/* How a rank ends: together with the other ranks, or alone. */
 enum { GO_TOGETHER, GO_ALONE };
 
 static void
@@ -48,7 +48,7 @@ rest(void)
     nanosleep(&moment, NULL);
 }
 
-/* --- who they are ------------------------------------------------------------------------ */
+/* --- identity and start of the ranks ----------------------------------------------------- */
 
 static uint64_t
 hash(uint64_t from, const void *bytes, size_t n)
@@ -188,7 +188,7 @@ qdot_ranks_begin(size_t *kind)
     return QDOT_OK; /* not reached */
 }
 
-/* --- messages --------------------------------------------------------------------------- */
+/* --- messages between ranks ------------------------------------------------------------- */
 
 void
 qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n)
@@ -286,7 +286,7 @@ qdot_ranks_is_lost(size_t rank)
     return is_dead(rank) || qdot_wall_now() - ranks.heard[rank] > patience;
 }
 
-/* --- what rank 0 shares ------------------------------------------------------------------ */
+/* --- data that rank 0 shares ------------------------------------------------------------- */
 
 /* The header of a text sent in pieces. */
 typedef struct {
@@ -391,7 +391,7 @@ qdot_ranks_read(qdot_text *text, FILE *from, const char *path, size_t most)
     return qdot_ranks_share(status, text);
 }
 
-/* --- the end ----------------------------------------------------------------------------- */
+/* --- ending all ranks -------------------------------------------------------------------- */
 
 /* Wait for the goodbyes of ranks that may still come. Returns the number missed; *asleep: one may be alive. */
 static size_t

@@ -45,7 +45,7 @@ void qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n
 /* The next message that has come, if there is one; m->bytes is emptied or filled. Not rank 0: ends
  * this process if rank 0 has said so. */
 bool qdot_ranks_next(qdot_rank_message *m);
-/* Whether the next message is what rank 0 shares with all. */
+/* Whether the next message is one that rank 0 shares with all ranks. */
 bool qdot_ranks_has_shared(void);
 /* A rank that has work says so again and again: it sends a sign of life if it has sent nothing for a
  * second. */

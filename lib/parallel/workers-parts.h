@@ -16,7 +16,7 @@ typedef struct {
 
 #define QDOT_NO_ANSWER UINT64_MAX
 
-/* Who is given chunks, and answers in their order or not. */
+/* A process or rank to which chunks are given. */
 typedef struct {
     size_t n;
     qdot_items_chunk has[2]; /* chunks [n] that it works at */
@@ -39,7 +39,7 @@ typedef struct qdot_crew {
     qdot_text out;    /* other ranks: answers for rank 0 */
 } qdot_crew;
 
-/* A chunk for a worker that takes about `seconds`; count 0 if there is none. */
+/* A chunk that will take the worker about `seconds`; count 0 if none is left. */
 qdot_items_chunk qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most);
 /* Read bytes from a worker: complete answers go to `done`, or on to rank 0. */
 QDOT_MUST_CHECK qdot_status qdot_hand_take(qdot_crew *c, qdot_hand *h, const char *bytes,
@@ -54,7 +54,7 @@ QDOT_MUST_CHECK qdot_status qdot_crew_answer(qdot_crew *c, size_t k, const char 
 QDOT_MUST_CHECK qdot_status qdot_mates_new(qdot_crew *c);
 void qdot_mates_free(qdot_crew *c);
 QDOT_MUST_CHECK qdot_status qdot_mates_serve(qdot_crew *c);
-/* (mates.c) On other ranks: take chunks from rank 0; *over: rank 0 wants no more. */
+/* (mates.c) On other ranks: take chunks from rank 0; *over: rank 0 has no more. */
 void qdot_mates_report(const qdot_crew *c);
 QDOT_MUST_CHECK qdot_status qdot_mates_take(qdot_crew *c, bool *over);
 /* Send the answers collected so far, if there are enough or `all`. */

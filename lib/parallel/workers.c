@@ -50,7 +50,7 @@ qdot_workers_processors(void)
     return n > 0 ? (size_t)n : 1;
 }
 
-/* --- a worker ------------------------------------------------------------------------- */
+/* --- a worker process ----------------------------------------------------------------- */
 
 static bool
 write_all(int to, const void *bytes, size_t n)
@@ -263,12 +263,12 @@ qdot_hand_drop(qdot_crew *c, qdot_hand *h)
     return QDOT_OK;
 }
 
-/* --- here ----------------------------------------------------------------------------- */
+/* --- the process that hands out the work ---------------------------------------------- */
 
 /* Give a chunk to an idle worker, if any is left. A worker that has died is noticed when its answer is read; one to
  * which the chunk cannot be written is killed, because its answer would be waited for without end. */
 static void
-feed(qdot_crew *c, worker *w)
+feed_worker(qdot_crew *c, worker *w)
 {
     request r;
 
@@ -330,7 +330,7 @@ workers_carry_out(qdot_crew *c, struct pollfd *polled)
 
     while (!over && (c->items.left > 0 || qdot_rank() > 0)) {
         for (size_t i = 0; i < c->job->workers; i++) {
-            feed(c, &c->workers[i]);
+            feed_worker(c, &c->workers[i]);
             polled[i] = (struct pollfd){.fd = c->workers[i].answer, .events = POLLIN};
         }
         QDOT_TRY(qdot_interrupt_check());

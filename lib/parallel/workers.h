@@ -23,7 +23,7 @@ typedef struct qdot_workers_job {
     double seconds;    /* that an item takes, about, to begin with; 0: unknown */
     void *user;
     size_t least;      /* items that are handed out together, where there are so many; 0: 1 */
-    /* In a worker: the items first ... first + count - 1 are next; NULL: nobody wants to know. */
+    /* In a worker: the items first ... first + count - 1 come next; NULL: this is not needed. */
     void (*begin)(size_t first, size_t count, void *user);
     /* in a worker: compute item k and append its answer */
     void (*work)(size_t k, qdot_text *answer, void *user);
