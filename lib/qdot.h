@@ -38,7 +38,7 @@
 extern "C" {
 #endif
 
-/* --- results -------------------------------------------------------------------------- */
+/* --- results of calls ----------------------------------------------------------------- */
 
 typedef enum {
     QDOT_RESULT_OK = 0,
@@ -70,11 +70,11 @@ void qdot_string_free(char *text);
  * none, the next one returns so. May be called from a signal handler. */
 void qdot_interrupt_set(void);
 
-/* --- systems -------------------------------------------------------------------------- */
+/* --- creating and asking systems ------------------------------------------------------ */
 
 typedef struct qdot_system qdot_system;
 
-/* How formulas are written. MathML: what stands inside <math>. */
+/* The notations of formulas. MathML: the contents of the element <math>. */
 typedef enum {
     QDOT_NOTATION_PLAIN = 0, /* the language itself: 1/2*m*r'^2 */
     QDOT_NOTATION_UNICODE = 1,
@@ -89,10 +89,11 @@ typedef enum {
     QDOT_TRUTH_UNDECIDED = 2
 } qdot_truth;
 
-/* *system becomes an empty system, the caller's. Errors: NO_MEMORY, INVALID; *system is then NULL. */
+/* Make *system an empty system, owned by the caller. Errors: NO_MEMORY, INVALID; *system is then NULL. */
 qdot_result qdot_system_new(qdot_system **system);
 
-/* Free it; NULL is allowed. Its motions stay usable: what they need of it goes with the last of them. */
+/* Free the system; NULL is allowed. Its motions stay usable: what they need of it is freed with the
+ * last of them. */
 void qdot_system_free(qdot_system *system);
 
 /* What went wrong in the last call on the system or one of its motions; "" if it succeeded. The first
@@ -129,7 +130,7 @@ qdot_result qdot_system_decide(qdot_system *system, const char *claim, qdot_trut
 qdot_result qdot_system_number(qdot_system *system, const char *expression, double *value,
                                double *error);
 
-/* --- motions -------------------------------------------------------------------------- */
+/* --- making and reading motions ------------------------------------------------------- */
 
 typedef struct qdot_motion qdot_motion;
 
@@ -139,10 +140,10 @@ typedef struct qdot_motion qdot_motion;
  * any other error: NULL. */
 qdot_result qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion);
 
-/* Free it; NULL is allowed. */
+/* Free the motion; NULL is allowed. */
 void qdot_motion_free(qdot_motion *motion);
 
-/* The system that it is a motion of, for qdot_system_error(); borrowed. */
+/* The system to which the motion belongs, for qdot_system_error(); borrowed. */
 const qdot_system *qdot_motion_system(const qdot_motion *motion);
 
 typedef struct {
@@ -160,7 +161,7 @@ typedef struct {
     const char *doubt;       /* why the error is unknown; NULL: it is known, or no reason is */
 } qdot_motion_summary;
 
-/* *summary is filled. size: sizeof *summary, so that a later version may have more members. */
+/* Fill *summary. size: sizeof *summary, so that a later version may have more members. */
 qdot_result qdot_motion_summarize(const qdot_motion *motion, qdot_motion_summary *summary, size_t size);
 
 /* The number n of coordinates; the name of the i-th, i < n, borrowed from the motion, else NULL.
