@@ -30,11 +30,11 @@ struct qdot_lanes_code {
     double *allocated, *work;
 };
 
-/* --- loops -------------------------------------------------------------------------- */
+/* --- loops over orders -------------------------------------------------------------- */
 
-/* Set the addresses to those of order k, or of one loop step further. */
+/* Set the addresses to those of order k, or to those of the next pass of the loop. */
 static void
-aim(qdot_lanes_writer *w, bool further, int k)
+set_addresses(qdot_lanes_writer *w, bool further, int k)
 {
     const struct {
         qdot_asm_base now, from;
@@ -63,7 +63,7 @@ aim(qdot_lanes_writer *w, bool further, int k)
                               sums[i].terms[(k - 1) / sums[i].orders]);
 }
 
-/* Write an order of a block from `first` on, or the same order that many blocks earlier. */
+/* Write one order of a block, from `first` on, or the same order of a block so many blocks earlier. */
 static void
 write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_order *write,
           void *user)
@@ -76,7 +76,7 @@ write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_ord
     write(w, k, user);
 }
 
-/* The order from which no term of a block is a product of two of its own coefficients. */
+/* The order from which on no term of a block is a product of two coefficients of that block. */
 static int
 least_of_loop(const qdot_lanes_writer *w, int late)
 {
@@ -101,7 +101,7 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
         return;
     qdot_writer_leave(w, w->registers);
     if (!w->counting) {
-        aim(w, false, first);
+        set_addresses(w, false, first);
         start = qdot_asm_repeat(&w->m, blocks);
     }
     w->any = QDOT_WRITER_ANY + first % w->block;
@@ -109,12 +109,12 @@ qdot_lanes_orders(qdot_lanes_writer *w, int from, int late, int loop, int to,
         write_one(w, w->any + i, from, w->any, write, user);
     qdot_writer_leave(w, w->registers);
     if (!w->counting) {
-        aim(w, true, w->block);
+        set_addresses(w, true, w->block);
         qdot_asm_again(&w->m, start);
     }
 }
 
-/* --- all of it ---------------------------------------------------------------------- */
+/* --- writing all code --------------------------------------------------------------- */
 
 static void
 find_rows(qdot_lanes_writer *w)
@@ -140,7 +140,7 @@ find_rows(qdot_lanes_writer *w)
     }
 }
 
-/* Write all code. In the second pass rows have their slots; sums come first. */
+/* Write all code. In the second pass the places of rows are known; sums come first. */
 static void
 write_all(qdot_lanes_writer *w, bool counting, qdot_lanes_write *write, void *user,
           size_t *entry)

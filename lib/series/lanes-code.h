@@ -35,7 +35,7 @@ typedef struct qdot_lanes_writer qdot_lanes_writer;
 /* A row of the program by its number, or one of the caller's numbers. */
 typedef uint32_t qdot_lanes_row;
 
-/* A coefficient. */
+/* The coefficient of one order of a row. */
 typedef struct {
     qdot_lanes_row row;
     int order;
@@ -70,12 +70,12 @@ bool qdot_lanes_may_be_code(void);
 void qdot_lanes_code_free(qdot_lanes_code *code);
 void qdot_lanes_code_run(const qdot_lanes_code *code);
 
-/* Bytes. */
+/* The size of the code in bytes. */
 size_t qdot_lanes_code_size(const qdot_lanes_code *code);
 /* The address of a number, filled by the caller before a run: [a group]. */
 double *qdot_lanes_code_number(const qdot_lanes_code *code, size_t i);
 
-/* --- writing ------------------------------------------------------------------------ */
+/* --- writing code ------------------------------------------------------------------- */
 
 qdot_lanes_at qdot_lanes_number(const qdot_lanes_writer *w, size_t i);
 /* Declare that all orders of a row of the program are read after the run. */
@@ -97,7 +97,7 @@ void qdot_lanes_steps(qdot_lanes_writer *w, int k);
 /* Stage k of a motion: every step at order k + its lead, newest coefficients of the unknowns being
  * 0; of what holds them rows of the equations alone are there then. */
 void qdot_lanes_steps_without(qdot_lanes_writer *w, const qdot_motion *motion, int k);
-/* Complete order k when the unknowns are known: whatever later orders read. */
+/* Complete order k after the unknowns are known: the rows that later orders read. */
 void qdot_lanes_steps_with(qdot_lanes_writer *w);
 /* The caller's first numbers are what steps multiply by for the rate of a row, or (`twice`) the rate
  * of a rate, at an order that is so much above the stage's: (k + 1)/unit, (k + 1)(k + 2)/unit^2,
@@ -114,12 +114,12 @@ qdot_lanes_sum qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs,
 qdot_lanes_sum qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a);
 /* Begin a sum as `a`, reusing its register if nothing else reads it (_unread). */
 qdot_lanes_sum qdot_lanes_continue_last(qdot_lanes_writer *w, qdot_lanes_at a);
-/* sum +- a; sum +- a b; a = sum, which frees the register */
+/* Add or subtract: sum +- a; _add_product: sum +- a b; _store: a = sum, which frees the register. */
 void qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                     qdot_lanes_at a);
 void qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
                             qdot_lanes_at a, qdot_lanes_at b);
-/* sum = a - sum; sum times a; -sum */
+/* Subtract from a: a - sum; _scale: multiply by a; _negate: change the sign. */
 void qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a);
 void qdot_lanes_negate(qdot_lanes_writer *w, qdot_lanes_sum *sum);

@@ -2,9 +2,9 @@
  * rate, a product that another one is added to. */
 #include "series/lanes-writer.h"
 
-/* The step that computes a row; NULL for an input or constant. */
+/* The step that computes a row; NULL for an input or a constant. */
 static const qdot_program_step *
-maker(const qdot_lanes_writer *w, qdot_program_row row)
+step_that_makes(const qdot_lanes_writer *w, qdot_program_row row)
 {
     const size_t i = w->rows[row].step;
 
@@ -14,7 +14,7 @@ maker(const qdot_lanes_writer *w, qdot_program_row row)
 static bool
 is_folded(const qdot_lanes_writer *w, qdot_program_row row)
 {
-    return maker(w, row) && w->steps[w->rows[row].step].folded;
+    return step_that_makes(w, row) && w->steps[w->rows[row].step].folded;
 }
 
 qdot_writer_addend
@@ -23,7 +23,7 @@ qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_row row)
     qdot_writer_addend t = {.row = row};
 
     while (is_folded(w, t.row)) {
-        const qdot_program_step *s = maker(w, t.row);
+        const qdot_program_step *s = step_that_makes(w, t.row);
 
         t.minus ^= s->op == QDOT_T_NEG;
         t.rates += s->op == QDOT_T_RATE;
@@ -41,7 +41,7 @@ lanes_step_is_product(int op)
 const qdot_program_step *
 qdot_writer_within(const qdot_lanes_writer *w, const qdot_program_step *product)
 {
-    const qdot_program_step *z = product->op == QDOT_T_MADD ? maker(w, product->z) : NULL;
+    const qdot_program_step *z = product->op == QDOT_T_MADD ? step_that_makes(w, product->z) : NULL;
 
     return z && lanes_step_is_product(z->op) && is_folded(w, product->z) ? z : NULL;
 }
@@ -110,7 +110,7 @@ fold_sign_or_rate(qdot_lanes_writer *w, size_t i)
 static void
 fold_product(qdot_lanes_writer *w, size_t i)
 {
-    const qdot_program_step *s = w->t->steps.at + i, *z = maker(w, s->z);
+    const qdot_program_step *s = w->t->steps.at + i, *z = step_that_makes(w, s->z);
     int inner;
 
     w->steps[i].pairs = 1;
@@ -124,7 +124,7 @@ fold_product(qdot_lanes_writer *w, size_t i)
     w->steps[i].pairs += inner;
 }
 
-/* Mark the rows from which equations are made, and the steps that make none of them. */
+/* Mark the rows from which equations are made, and the steps that contribute to no equation. */
 static void
 find_wanted(qdot_lanes_writer *w)
 {

@@ -24,7 +24,7 @@ struct qdot_lanes_motion {
     int to, factored;
 };
 
-/* --- numbers by order ------------------------------------------------------------------ */
+/* --- factors that depend on the order -------------------------------------------------- */
 
 /* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
  * which a division is exact but for the last bit (series/program.h). */
@@ -70,7 +70,7 @@ rate_of_rate(int k)
     return (double)(k + 1) * (k + 2);
 }
 
-/* to = number * f(k) */
+/* Write the code for: to = number * f(k). */
 static void
 write_factor(qdot_lanes_writer *w, size_t number, qdot_lanes_by_order *f, int k,
              qdot_lanes_at to)
@@ -82,7 +82,7 @@ write_factor(qdot_lanes_writer *w, size_t number, qdot_lanes_by_order *f, int k,
     qdot_lanes_store(w, sum, to);
 }
 
-/* --- a stage --------------------------------------------------------------------------- */
+/* --- writing one stage ----------------------------------------------------------------- */
 
 static void
 write_rates(qdot_lanes_writer *w, int k)
@@ -227,7 +227,7 @@ write_stages(qdot_lanes_writer *w, void *user)
     qdot_lanes_orders(w, 1 + lead, lead, loop + lead, c->to + lead, write_stage, user);
 }
 
-/* --- building -------------------------------------------------------------------------- */
+/* --- building and running the code ----------------------------------------------------- */
 
 static qdot_status
 lanes_motion_make(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_motion **code)

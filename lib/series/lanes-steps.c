@@ -1,4 +1,5 @@
-/* lanes-steps.c -- writes one order of a recurrence as machine code, in two parts. */
+/* lanes-steps.c -- writes one order of a recurrence as machine code, without and then with the
+ * newest coefficients. */
 #include "series/lanes-writer.h"
 #include "series/recurrence-operations.h"
 
@@ -67,7 +68,7 @@ step_add_row(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row ro
     step_add_term(s, sum, minus, qdot_writer_expand(s->w, row));
 }
 
-/* to = x'/unit */
+/* Write code for the rate of a position: to = x'/unit. */
 static void
 step_write_rate(const step *s)
 {
@@ -79,7 +80,7 @@ step_write_rate(const step *s)
     store(s, sum, s->s->to);
 }
 
-/* sum + +-x_0 y_k */
+/* Complete a sum by +-x_0 y_k, the product with the newest coefficient. */
 static void
 with_newest(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row x,
             qdot_program_row y)
@@ -87,7 +88,7 @@ with_newest(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row x,
     qdot_lanes_add_product(s->w, sum, minus, row_at(x, 0), row_at(y, s->k));
 }
 
-/* --- what needs no coefficient k ---------------------------------------------------- */
+/* --- what needs no coefficient of order k ------------------------------------------- */
 
 static qdot_program_row
 step_row_of(const step *s, unsigned name)
@@ -95,9 +96,9 @@ step_row_of(const step *s, unsigned name)
     return qdot_program_step_row(s->s, name);
 }
 
-/* Sum the lower orders: sums[0] goes into U1 or a row, sums[1] into U2. */
+/* Sum the products of lower orders: sums[0] goes into U1 or a row, sums[1] into U2. */
 static void
-before(const step *s, qdot_lanes_sum *sums)
+sum_lower_orders(const step *s, qdot_lanes_sum *sums)
 {
     const qdot_recurrence_operation *o = qdot_recurrence_operations(s->s->op);
     qdot_lanes_pair pairs[QDOT_WRITER_RESTS][QDOT_WRITER_PAIRS];
@@ -125,9 +126,9 @@ before(const step *s, qdot_lanes_sum *sums)
             sums[i] = qdot_lanes_dots(s->w, n[i], pairs[i], s->k);
 }
 
-/* --- with coefficient k of the operands --------------------------------------------- */
+/* --- what needs coefficient k of the operands --------------------------------------- */
 
-/* Whether the step is only needed while unknowns are still unknown. */
+/* Whether the step must only be computed while unknowns are still unknown. */
 static bool
 is_passing(const qdot_lanes_writer *w, const qdot_program_step *s)
 {
@@ -165,7 +166,7 @@ products(const step *s, qdot_lanes_sum sum)
     store(s, sum, s->s->to);
 }
 
-/* U1, U2 or the value of a row: +- a sum. */
+/* The number U1, U2 or the value of a row: +- a sum. */
 typedef struct {
     qdot_lanes_sum sum;
     bool minus;
@@ -173,7 +174,7 @@ typedef struct {
 
 static const number nothing = {.sum = QDOT_LANES_NOTHING};
 
-/* v +- coefficient k of a row, or +- U1 or U2, which is then used up. */
+/* Add or subtract coefficient k of a row, or U1 or U2, which is then used up, to the number v. */
 static void
 step_add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 {
@@ -211,7 +212,7 @@ is_folded(const step *s, unsigned name)
     return qdot_writer_expand(s->w, step_row_of(s, name)).row != step_row_of(s, name);
 }
 
-/* The sum q of an operation, moved out of u; `nothing` if y is not computed and so q is left out. */
+/* Take the sum q of an operation out of u; if y is not computed, q is left out and z is taken. */
 static number
 take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
@@ -222,7 +223,7 @@ take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
     return step_number_of(s, o->q, u);
 }
 
-/* p (1 + b_0) */
+/* Multiply the number p by 1 + b_0. */
 static void
 times_more(const step *s, number *p, qdot_lanes_at b)
 {
@@ -233,7 +234,7 @@ times_more(const step *s, number *p, qdot_lanes_at b)
     qdot_writer_join(s->w, QDOT_ASM_MUL, &p->sum, more);
 }
 
-/* q +- p b_0 */
+/* The number q +- p b_0. */
 static number
 with_product(const step *s, const qdot_recurrence_operation *o, number *u)
 {
@@ -332,7 +333,7 @@ after(const step *s, const qdot_lanes_sum *sums)
     }
 }
 
-/* --- all of them -------------------------------------------------------------------- */
+/* --- all steps of an order ---------------------------------------------------------- */
 
 void
 qdot_lanes_steps(qdot_lanes_writer *w, int k)
@@ -342,12 +343,12 @@ qdot_lanes_steps(qdot_lanes_writer *w, int k)
         const step s = {w, w->t->steps.at + i, i, k};
         qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
-        before(&s, sums);
+        sum_lower_orders(&s, sums);
         after(&s, sums);
     }
 }
 
-/* --- of a motion, twice --------------------------------------------------------------- */
+/* --- steps of a motion, computed again once unknowns are known ------------------------ */
 
 /* Whether a sine or hyperbolic sine lacks only the newest coefficient of its argument. */
 static bool
@@ -357,7 +358,7 @@ lacks_argument(const step *s)
            s->s->newest & QDOT_X_NEWEST && s->w->rows[s->s->x].absent;
 }
 
-/* to_k = k x_k */
+/* Write order k of the product j x_j: to_k = k x_k. */
 static void
 step_multiply_by_order(const step *s, qdot_program_row x, qdot_program_row to)
 {
@@ -400,7 +401,7 @@ write_without(const step *s)
     qdot_writer_step *info = s->w->steps + s->i;
     qdot_lanes_sum sums[QDOT_WRITER_RESTS];
 
-    before(s, sums);
+    sum_lower_orders(s, sums);
     info->lacks = lacks_argument(s);
     for (int r = 0; r < QDOT_WRITER_RESTS && s->s->kept; r++)
         qdot_writer_keep(s->w, s->i, r, sums[r], !info->lacks);
@@ -449,7 +450,7 @@ qdot_lanes_steps_with(qdot_lanes_writer *w)
             continue;
         }
         if (w->steps[i].idle)
-            before(&s, sums);
+            sum_lower_orders(&s, sums);
         for (int r = 0; r < QDOT_WRITER_RESTS && !w->steps[i].idle; r++)
             sums[r] = qdot_writer_kept(w, i, r);
         after(&s, sums);

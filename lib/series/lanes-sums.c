@@ -85,7 +85,7 @@ enter_in_loop(qdot_lanes_writer *w, qdot_asm_base at, const size_t *terms, int l
     qdot_asm_enter_at(&w->m, less > 0 ? QDOT_ASM_TERMS_LEFT : at);
 }
 
-/* Terms n, n - 1, ..., 1 of a block from order K on are added; z of two products only. */
+/* Call the code that adds terms n, n - 1, ..., 1 of a block from order K on; z for two products only. */
 static void
 call_terms(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
            const qdot_lanes_row *z, int n, int K)

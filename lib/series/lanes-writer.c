@@ -3,7 +3,7 @@
 
 #include "series/lanes-writer.h"
 
-/* --- places ------------------------------------------------------------------------- */
+/* --- places of coefficients --------------------------------------------------------- */
 
 static bool
 is_row(const qdot_lanes_writer *w, qdot_lanes_row row)
@@ -45,7 +45,7 @@ groups_from(const qdot_lanes_writer *w, qdot_asm_base base, size_t groups)
     return qdot_asm_at(base, (int32_t)groups * w->bytes);
 }
 
-/* `groups` of the program's coefficients, at an order. */
+/* The groups of all coefficients of the program, `groups` in number, at an order. */
 static qdot_operand
 of_order(const qdot_lanes_writer *w, size_t groups, int order)
 {
@@ -133,7 +133,7 @@ qdot_lanes_scalar_of(qdot_lanes_writer *w, qdot_lanes_by_order *f, int k)
     return (qdot_lanes_at){QDOT_WRITER_TABLES + (qdot_lanes_row)i, k};
 }
 
-/* --- registers ---------------------------------------------------------------------- */
+/* --- allocation of registers -------------------------------------------------------- */
 
 void
 qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int first,
@@ -188,7 +188,8 @@ register_fresh(qdot_lanes_writer *w, int lowest)
     return reg;
 }
 
-/* Only the first order of a block calls sequences of terms, so others may use all registers. */
+/* The first register that an order may use: only the first order of a block calls code that uses
+ * earlier ones. */
 static int
 first_taken(const qdot_lanes_writer *w)
 {
@@ -252,7 +253,7 @@ qdot_writer_clear(qdot_lanes_writer *w, int reg)
         qdot_asm_clear(&w->m, reg);
 }
 
-/* --- sums --------------------------------------------------------------------------- */
+/* --- sums in registers -------------------------------------------------------------- */
 
 qdot_lanes_sum
 qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)

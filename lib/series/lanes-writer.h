@@ -58,7 +58,7 @@ typedef struct {
     bool rests[QDOT_WRITER_RESTS]; /* there is one at the order at hand */
 } qdot_writer_step;
 
-/* +- a row, its derivative, or its second derivative. */
+/* A row, its derivative or its second derivative, with a sign. */
 typedef struct {
     bool minus;
     int rates;
@@ -108,7 +108,7 @@ void qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, in
 qdot_operand qdot_writer_place(qdot_lanes_writer *w, qdot_lanes_at a);
 /* Reserve a free register; its contents are undefined. */
 int qdot_writer_take(qdot_lanes_writer *w);
-/* Store register contents that belong to results and that later orders read. */
+/* Store the registers with results that later orders read. */
 void qdot_writer_settle(qdot_lanes_writer *w);
 /* Forget the contents of registers below `end`, after storing what memory does not have. */
 void qdot_writer_leave(qdot_lanes_writer *w, int end);
@@ -128,7 +128,7 @@ qdot_writer_addend qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_r
 const qdot_program_step *qdot_writer_within(const qdot_lanes_writer *w,
                                             const qdot_program_step *product);
 
-/* Begin order k. */
+/* Begin to write order k. */
 static inline void
 qdot_writer_begin(qdot_lanes_writer *w, int k)
 {
@@ -150,7 +150,7 @@ void qdot_writer_pair(qdot_lanes_writer *w, qdot_lanes_row x, qdot_lanes_row y,
                       qdot_lanes_row z, int k, qdot_lanes_sum *sums);
 qdot_lanes_sum qdot_writer_square(qdot_lanes_writer *w, qdot_lanes_row x, int k);
 
-/* sum = sum op other; the register of `other` is freed. */
+/* Replace `sum` by `sum op other`; the register of `other` is freed. */
 void qdot_writer_join(qdot_lanes_writer *w, qdot_asm_operation op, qdot_lanes_sum *sum,
                       qdot_lanes_sum other);
 

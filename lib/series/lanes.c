@@ -1,4 +1,4 @@
-/* lanes.c -- a series program with groups for numbers. */
+/* lanes.c -- a series program for several solutions at once, a lane of a vector for each. */
 #include "series/lanes.h"
 
 #include <limits.h>
@@ -119,7 +119,7 @@ lanes_allocate(qdot_lanes *t, int most)
     const qdot_program *p = t->program;
     const size_t line = 64;
 
-    /* one more for notes (correct); an odd stride, so that rows are spread over all sets of the cache */
+    /* one more order for recorded changes (correct); an odd stride spreads rows over all sets of the cache */
     t->stride = ((size_t)most + 2) | 1;
     t->memory = qdot_calloc((p->rows.n * t->stride + p->length) * QDOT_LANES +
                                 line / sizeof(double),
@@ -322,7 +322,7 @@ qdot_lanes_correct(qdot_lanes *t, int k, size_t n, const double *newest)
     t->kind->correct(t->steps + t->program->still, k, t->stride - 1);
 }
 
-/* --- unknowns ----------------------------------------------------------------------- */
+/* --- unknowns: accelerations and multipliers ---------------------------------------- */
 
 void
 qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
@@ -332,7 +332,7 @@ qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
         t->per_unit[l] = 1 / unit[l];
 }
 
-/* Store order k of an unknown, and the coefficients of its integrals that follow from it. */
+/* Store order k of an unknown, and the resulting coefficients of its integrals. */
 static void
 lanes_put_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
 {

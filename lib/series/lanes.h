@@ -13,7 +13,7 @@
 #include "num/batch.h"
 #include "series/motion.h"
 
-/* out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
+/* Evaluate out [m groups] = outputs at in [n groups]; work [qdot_tape_work groups]. */
 void qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work);
 /* As qdot_lanes_eval, with sines and cosines computed as in series. */
 void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work);
@@ -33,7 +33,7 @@ size_t qdot_lanes_stride(const qdot_lanes *lanes);
 const double *qdot_lanes_output(const qdot_lanes *lanes, size_t i);
 bool qdot_lanes_is_constant(const qdot_lanes *lanes, size_t i);
 
-/* As qdot_taylor_draw; t is a group. */
+/* As qdot_taylor_draw; t is a group, with one time for each lane. */
 void qdot_lanes_draw(qdot_lanes *lanes, const double *t);
 
 /* As qdot_taylor_order, qdot_taylor_change; newest [n groups]. */
@@ -51,7 +51,7 @@ typedef struct {
 qdot_lanes_rows qdot_lanes_get_rows(qdot_lanes *lanes);
 const qdot_program *qdot_lanes_program(const qdot_lanes *lanes);
 
-/* --- motions ------------------------------------------------------------------------- */
+/* --- motions with unknown accelerations ---------------------------------------------- */
 
 /* Of a motion, borrowed, for stages below `most`; `shaken`: with the other neighbours of its constants
  * (tape/shake.h). The unit of time is set before the first stage. Errors: QDOT_EINVAL (most),

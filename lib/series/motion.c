@@ -1,9 +1,10 @@
-/* motion.c -- by how many orders each row of a motion leads, and which rows contain unknown coefficients. */
+/* motion.c -- finds by how many orders each row of a motion leads, and which rows contain unknown
+ * coefficients. */
 #include "series/motion.h"
 
 #include <string.h>
 
-/* The most rows that a step reads, and that it writes. */
+/* The largest numbers of rows that a step reads and writes. */
 enum { READS = 3, WRITES = 4 };
 
 static void
@@ -30,7 +31,7 @@ step_reads_ahead(const qdot_program_step *s)
     return s->op == QDOT_T_RATE;
 }
 
-/* Each step leads by the most that any of its rows is asked for, and asks the same of its operands. */
+/* Find the lead of each step: the largest that is asked of its rows; it asks the same of its operands. */
 static void
 find_leads(qdot_program *p)
 {

@@ -77,7 +77,7 @@ QDOT_MUST_CHECK qdot_status qdot_motion_solve(qdot_motion *motion, qdot_motion_u
                                               qdot_program_row equation);
 QDOT_MUST_CHECK qdot_status qdot_motion_end_block(qdot_motion *motion);
 
-/* An unknown that is solved for; `right` of its equation (QDOT_NO_ROW: not made here); its residual E. */
+/* An unknown that is solved for: the right side of its equation (QDOT_NO_ROW: not in rows); its residual E. */
 typedef struct {
     qdot_program_row u, right, E;
 } qdot_motion_line;

@@ -14,7 +14,7 @@ qdot_near_limit(int p, double u0, double digits)
     return fmax(0.5 * (p + 1), fabs(u0) - digits - QDOT_NEAR_BEYOND);
 }
 
-/* sum_{k>=1} |x_k| s^k, in two partial sums that the processor computes in parallel. */
+/* The sum of |x_k| s^k over k >= 1, in two partial sums that the processor computes in parallel. */
 double
 qdot_near_sum(int p, const double *x, double s)
 {
@@ -80,7 +80,7 @@ qdot_near_argument(int p, const double *u, double times, double s)
     return exp2(qdot_near_log2(p, sizes, limit, log2(s)));
 }
 
-/* --- what is divided by ---------------------------------------------------------------- */
+/* --- divisors that may vanish ---------------------------------------------------------- */
 
 /* A zero of b lies at half of a step at least whose sum is below `well_before`, if it is double; it
  * is looked for in quarters. */
@@ -97,7 +97,7 @@ polynomial_value(int p, const double *b, double s)
     return sum;
 }
 
-/* The first quarter of the step after which b is much smaller than b_0; 0: none. */
+/* The first quarter of the step after which b is much smaller than b_0; 0 if there is none. */
 static int
 falls_in(int p, const double *b, double s)
 {

@@ -25,13 +25,13 @@
 
 #include <stdbool.h>
 
-/* E beyond the digits of the numbers. */
+/* The threshold E above, without the digits of the numbers themselves: 20 more, in powers of e. */
 #define QDOT_NEAR_BEYOND 20.0
 
-/* sum_{k>=1} |x_k| s^k over x [p + 1] */
+/* The sum of |x_k| s^k over k >= 1, from x [p + 1]. */
 double qdot_near_sum(int p, const double *x, double s);
 
-/* The bound above, u_0 being the argument of an exponential. */
+/* The bound on u described above, where u_0 is the argument of an exponential. */
 double qdot_near_limit(int p, double u0, double digits);
 
 /* log2 of the longest step, at most log2_h (INFINITY: any), whose sum over the sizes, log2 |u_k|

@@ -1,4 +1,4 @@
-/* precise.c -- a series program in MPFR. */
+/* precise.c -- evaluates a series program in MPFR numbers. */
 #include "series/precise.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ precise_place(const qdot_precise *p, qdot_program_row row)
 
 /* --- sums of products --------------------------------------------------------------- */
 
-/* sum = sum_{j=from..k-below} a_j b_{k-j} */
+/* Set sum to the convolution of a_j b_{k-j} over j = from..k-below. */
 static void
 convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k, int from,
          int below)
@@ -50,7 +50,7 @@ convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k,
         mpfr_set_zero(sum, 1);
 }
 
-/* sum = sum_{j=from..k-from} a_j a_{k-j}; w[2] is used */
+/* Set sum to the convolution of a_j a_{k-j} over j = from..k-from; w[2] is used. */
 static void
 convolve_square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
 {
@@ -66,9 +66,9 @@ convolve_square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
     }
 }
 
-/* --- order 0 ------------------------------------------------------------------------- */
+/* --- evaluation of order 0 ----------------------------------------------------------- */
 
-/* d = a - b floor(a/b) */
+/* Set d = a - b floor(a/b). */
 static void
 mpfr_modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
 {
@@ -78,7 +78,7 @@ mpfr_modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
     mpfr_sub(d, a, w, RN);
 }
 
-/* d = tanh(a), slope = 1 - tanh(a)^2. */
+/* Set d = tanh(a) and slope = 1 - tanh(a)^2. */
 static void
 hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
 {
@@ -87,7 +87,7 @@ hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
     mpfr_ui_sub(slope, 1, slope, RN);
 }
 
-/* d = log(1 + e^a) */
+/* Set d = log(1 + e^a). */
 static void
 mpfr_softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
 {
@@ -126,7 +126,7 @@ precise_value(qdot_precise *p, const qdot_program_step *i)
     }
 }
 
-/* --- order k ------------------------------------------------------------------------- */
+/* --- evaluation of order k ----------------------------------------------------------- */
 
 #define ROW(row) precise_place(precise, i->row)
 #define U1 precise->w[0]
@@ -158,9 +158,9 @@ qdot_precise_order(qdot_precise *p, int k)
             precise_value(p, i);
 }
 
-/* --- unknowns ------------------------------------------------------------------------ */
+/* --- unknowns: accelerations and multipliers ----------------------------------------- */
 
-/* Coefficient k of a row if it exists, else NULL. */
+/* Coefficient k of a row if it exists; otherwise NULL. */
 static mpfr_ptr
 precise_at(const qdot_precise *p, qdot_program_row row, int k)
 {
@@ -331,7 +331,7 @@ near_argument(const mpfr_t *u, int k, double times, double digits, double log2_h
     return qdot_near_log2(k, sizes, limit, log2_h);
 }
 
-/* The terms of a series at 2^log2_h, relative to the first. */
+/* Find the terms of a series for the step 2^log2_h, relative to its first term. */
 static void
 in_parts(const mpfr_t *x, int k, double log2_h, double *out)
 {
@@ -392,7 +392,7 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
     return log2_h;
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making a program in MPFR -------------------------------------------------------- */
 
 static qdot_status
 precise_set_constants(qdot_precise *p, qdot_pool *pool)

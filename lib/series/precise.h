@@ -41,7 +41,7 @@ double qdot_precise_near(const qdot_precise *p, int k, double log2_h);
  * and inf as MPFR has them. Nothing is allocated but by functions of MPFR at order 0. */
 void qdot_precise_order(qdot_precise *p, int k);
 
-/* --- motions ------------------------------------------------------------------------- */
+/* --- motions with unknown accelerations ---------------------------------------------- */
 
 /* Of a motion, borrowed: rows to order `most` and ahead of it as far as they lead; the unit of time
  * is 1. Errors: those of a constant, QDOT_ENOMEM. */

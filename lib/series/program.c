@@ -1,4 +1,4 @@
-/* program.c -- from a tape to the steps of a series program. */
+/* program.c -- translates a tape to the steps of a series program. */
 #include "series/program.h"
 
 #include <stdatomic.h>
@@ -44,9 +44,9 @@ program_add_step(builder *b, qdot_program_step step)
         b->status = qdot_vec_push(&b->program->steps, step);
 }
 
-/* The step that was added last. */
+/* The step that was added to the program last. */
 static qdot_program_step *
-last(builder *b)
+last_step(builder *b)
 {
     return b->status == QDOT_OK ? b->program->steps.at + b->program->steps.n - 1 : &b->nothing;
 }
@@ -83,29 +83,29 @@ program_emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
     return to;
 }
 
-/* Give the last step a further row d. */
+/* Give the last step of the program the additional row that its recurrence needs. */
 static void
 with_d(builder *b)
 {
-    const row d = new_row(b, QDOT_ROW_COMPUTED, 0, last(b)->still);
+    const row d = new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
 
-    last(b)->d = d;
+    last_step(b)->d = d;
 }
 
 static void
 with_second(builder *b)
 {
-    const row second = new_row(b, QDOT_ROW_COMPUTED, 0, last(b)->still);
+    const row second = new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
 
-    last(b)->second = second;
+    last_step(b)->second = second;
 }
 
 static void
 with_third(builder *b)
 {
-    const row third = new_row(b, QDOT_ROW_COMPUTED, 0, last(b)->still);
+    const row third = new_row(b, QDOT_ROW_COMPUTED, 0, last_step(b)->still);
 
-    last(b)->third = third;
+    last_step(b)->third = third;
 }
 
 /* Add the step constant * x, or constant * x plus or minus z. */
@@ -146,7 +146,7 @@ emit_product(builder *b, qdot_op op, row x, row y, row z)
     return square;
 }
 
-/* The row of the sine in a pair for x; *cosine: that of the cosine. */
+/* Find the row of the sine in a pair for x; *cosine: the row of the cosine. */
 static row
 pair(builder *b, qdot_recurrence op, row x, row *cosine)
 {
@@ -181,7 +181,7 @@ emit_sum(builder *b, qdot_op op, row x, row y)
     return program_emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
 }
 
-/* The row u in f(x)' = x'/u, for an inverse function or logarithm f. */
+/* Find the row u of f(x)' = x'/u, for an inverse function or a logarithm f. */
 static row
 denominator(builder *b, qdot_op f, row x)
 {
@@ -206,7 +206,7 @@ ratio(builder *b, qdot_op f, row x)
 {
     row u = denominator(b, f, x), to = program_emit(b, QDOT_T_RATIO, f, x, u, u);
 
-    last(b)->sign = f == QDOT_OP_ACOS ? -1 : 1;
+    last_step(b)->sign = f == QDOT_OP_ACOS ? -1 : 1;
     with_d(b);
     return to;
 }

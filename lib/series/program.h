@@ -21,7 +21,7 @@
  * orders err by more than that. */
 enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
 
-/* Recurrences, by their names in recurrence.def. */
+/* The recurrences, by their names in recurrence.def. */
 typedef enum {
     QDOT_T_END,
     QDOT_T_VALUE, /* order 0 alone: an operation that switches */
@@ -44,7 +44,7 @@ typedef uint32_t qdot_program_row; /* a row by its number */
 
 #define QDOT_NO_ROW UINT32_MAX
 
-/* Where the coefficient of order 0 of a row comes from. */
+/* The origin of the coefficient of order 0 of a row. */
 typedef enum {
     QDOT_ROW_INPUT,    /* the caller; number `at` of the inputs */
     QDOT_ROW_CONSTANT, /* constant `at` of the program */
@@ -75,7 +75,7 @@ typedef struct {
     uint16_t op, zero; /* recurrence; how order 0 is computed: an operation of a tape, or above */
     int sign;          /* of RATIO */
     bool still;        /* it has order 0 only */
-    /* bits of those of x, y, z whose present coefficient depends on unknowns (motion.h); */
+    /* bits for those operands x, y, z whose newest coefficient depends on unknowns (motion.h); */
     unsigned char newest;
     bool kept;            /* later orders read the result of the step */
     signed char lead;  /* the lead of the rows that it writes */
@@ -132,14 +132,14 @@ size_t qdot_program_made(void);
 /* Whether a tape has a series: NULL, or the name of an operation that has none. */
 const char *qdot_program_hindrance(const qdot_tape *tape);
 
-/* Whether a recurrence sums products of lower orders. */
+/* Whether the recurrence sums products of lower orders. */
 static inline bool
 qdot_recurrence_looks_back(int op)
 {
     return op >= QDOT_T_MUL && op < QDOT_T_LINK;
 }
 
-/* Convolutions an order; a square counts half. */
+/* The number of convolutions that one order costs; a square counts half. */
 double qdot_recurrence_cost(int op);
 
 /* The result of the recurrence is the exponential of this many times its argument; 0: it is no exponential. */

@@ -49,13 +49,13 @@ typedef struct {
     bool paired;
 } qdot_recurrence_operation;
 
-/* The operations of a recurrence, up to QDOT_DO_END; LINK, RATE and recurrences of order 0 only have none. */
+/* The operations of a recurrence, up to QDOT_DO_END; empty for LINK, RATE and recurrences of order 0 only. */
 const qdot_recurrence_operation *qdot_recurrence_operations(int op);
 
 /* The first operation with that verb; NULL if none. */
 const qdot_recurrence_operation *qdot_recurrence_find(int op, qdot_recurrence_verb verb);
 
-/* The row of a step with that name. */
+/* The row of a step that has this name in recurrence.def. */
 static inline qdot_program_row
 qdot_program_step_row(const qdot_program_step *s, unsigned name)
 {

@@ -1,4 +1,4 @@
-/* taylor-code-order.c -- the recurrences as code: an order of a step. */
+/* taylor-code-order.c -- writes machine code for the recurrences: one order of a step. */
 #include "series/recurrence-operations.h"
 #include "series/taylor-code-sum.h"
 
@@ -22,7 +22,7 @@ code_twice(qdot_generator *g, qdot_operand a)
     return qdot_code_composed(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2));
 }
 
-/* d_1/k, for a product with d over k; k > 1. */
+/* Write d_1/k, a factor of products that are divided by k > 1. */
 static qdot_operand
 first_over_order(qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -33,9 +33,9 @@ first_over_order(qdot_generator *g, const qdot_taylor_step *s)
     return qdot_asm_in(reg);
 }
 
-/* --- by the table ------------------------------------------------------------------- */
+/* --- recurrences from the table ----------------------------------------------------- */
 
-/* v + the sum of products number i of a step. */
+/* Add to v the sum of products number i of a step. */
 static void
 add_products(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
              int i, sum *v)
@@ -77,7 +77,7 @@ sum_append(qdot_generator *g, sum *v, const sum *other)
         v->terms[v->n++] = other->terms[i];
 }
 
-/* The factor of a term times c. If the term is a row at order k, its factor differs between orders. */
+/* The factor of a term, multiplied by c. If the term is a row at order k, its factor depends on the order. */
 static qdot_operand
 factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
 {
@@ -95,7 +95,7 @@ factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
     return qdot_code_work(QDOT_CODE_MOMENT);
 }
 
-/* Multiply the sum v, which consists of terms only, by c. */
+/* Multiply the sum v, which consists only of terms, by c. */
 static void
 times_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
 {
@@ -105,7 +105,7 @@ times_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
     }
 }
 
-/* The row x if d is j x_j; else NULL. */
+/* If d is the row of j x_j for a row x (j the order), the row x; otherwise NULL. */
 static const double *
 argument_of_slope(const qdot_taylor_step *s)
 {
@@ -156,7 +156,8 @@ step_divides(const qdot_taylor_step *s)
            qdot_recurrence_find(s->op, QDOT_DO_OVER_TWICE);
 }
 
-/* v +- coefficient k of a row, times a factor (NULL: none), or +- U1 or U2, which is then used up. */
+/* Add to v coefficient k of a row, times a factor (NULL: none), or U1 or U2, which is then used up,
+ * with a sign. */
 static void
 sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
                     bool minus, unsigned name, sum *u)
@@ -213,7 +214,7 @@ operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurr
     return v;
 }
 
-/* Write the recurrence of a step from its row of recurrence.def. */
+/* Write the recurrence of a step as its row of recurrence.def states it. */
 static void
 tabled(qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -231,11 +232,11 @@ tabled(qdot_generator *g, const qdot_taylor_step *s)
     }
 }
 
-/* --- by hand ------------------------------------------------------------------------ */
+/* --- recurrences with code of their own --------------------------------------------- */
 
 /* Write a step that is a plain sum or product. */
 static void
-direct(qdot_generator *g, const qdot_taylor_step *s)
+write_direct(qdot_generator *g, const qdot_taylor_step *s)
 {
     sum sum = {.v = {.reg = -1}};
 
@@ -243,9 +244,9 @@ direct(qdot_generator *g, const qdot_taylor_step *s)
     finish_sum(g, &sum, s->to);
 }
 
-/* k times coefficient k of x. */
+/* Write the product of k and coefficient k of x. */
 static void
-weighted(qdot_generator *g, const double *x, const double *to)
+write_weighted(qdot_generator *g, const double *x, const double *to)
 {
     sum d = {.v = {.reg = -1}};
 
@@ -253,7 +254,7 @@ weighted(qdot_generator *g, const double *x, const double *to)
     finish_sum(g, &d, to);
 }
 
-/* ((r + 1)/k sum d p - sum x p)/x_0 */
+/* Write coefficient k of a power: ((r + 1)/k sum d p - sum x p)/x_0. */
 static void
 write_power(qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -261,7 +262,7 @@ write_power(qdot_generator *g, const qdot_taylor_step *s)
     sum sum = past(g, s, 0), other = past(g, s, 1);
     int slopes;
 
-    weighted(g, s->x, s->d);
+    write_weighted(g, s->x, s->d);
     lately(g, &sum, false, code_at(g, s->d, 1), s->to, code_at(g, s->to, 1), s->d);
     scale_sum(g, &sum, code_inverse(g));
     slopes = sum.v.reg;
@@ -301,7 +302,7 @@ qdot_code_order(qdot_generator *g, const qdot_taylor_step *s)
     case QDOT_T_SQUARE: tabled(g, s); break;
     default:
         if (s->op <= QDOT_T_NMADD)
-            direct(g, s);
+            write_direct(g, s);
         else
             tabled(g, s);
     }

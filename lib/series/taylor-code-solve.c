@@ -1,4 +1,5 @@
-/* taylor-code-solve.c -- unknowns as code: M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}. */
+/* taylor-code-solve.c -- writes machine code that solves M_0 a_k = f_k - sum_{j=1..k} M_j a_{k-j}
+ * for unknowns. */
 #include "series/taylor-code-sum.h"
 
 /* The location of entry (i, j) of L, or later of M_0^-1. */
@@ -65,7 +66,7 @@ sum_divide_by_diagonal(qdot_generator *g, size_t block, size_t i, sum *s)
     scale_by(g, QDOT_ASM_DIV, &s->v, code_factor_at(g, block, i, i));
 }
 
-/* r becomes L^-1 r, then a = L^-T r. */
+/* Write the solution by the Cholesky factor: r becomes L^-1 r, then a = L^-T r. */
 static void
 by_factor(qdot_generator *g, size_t block)
 {

@@ -17,7 +17,7 @@ enum {
     latency_of_division = 14
 };
 
-/* --- registers ---------------------------------------------------------------------- */
+/* --- allocation of registers -------------------------------------------------------- */
 
 static inline int
 touch(qdot_generator *g, int reg)
@@ -58,7 +58,7 @@ code_coefficient_register(qdot_generator *g, uint32_t row, int k)
     return reg;
 }
 
-/* --- sums --------------------------------------------------------------------------- */
+/* --- adding terms of sums ----------------------------------------------------------- */
 
 /* A number in a register, or its negative. */
 typedef struct {
@@ -67,7 +67,7 @@ typedef struct {
     int ready;
 } value;
 
-/* +- factor times coefficient k of a row, or times a sum; `plain`: without factor. */
+/* A term: +- factor times coefficient k of a row, or times a sum; `plain`: without factor. */
 typedef struct {
     bool minus, plain;
     qdot_operand factor;
@@ -210,7 +210,7 @@ less(qdot_generator *g, const term *t, int when)
     return (value){.reg = reg, .own = true, .ready = when + latency};
 }
 
-/* The time at which a term is known that is added to something known at `before`. */
+/* The time at which a term is known once it is added to a sum that is known at `before`. */
 static inline int
 time_behind(int before, int when)
 {
@@ -278,7 +278,7 @@ total(qdot_generator *g, sum *s)
     return v[0];
 }
 
-/* Multiply or divide a value by `factor`. */
+/* Multiply or divide the value v by `factor`. */
 static inline void
 scale_by(qdot_generator *g, qdot_asm_operation name, value *v, qdot_operand factor)
 {
@@ -299,7 +299,7 @@ value_scale(qdot_generator *g, value *v, qdot_operand factor)
     scale_by(g, QDOT_ASM_MUL, v, factor);
 }
 
-/* The sum so far, times a factor. */
+/* Add the terms of a sum, and multiply by a factor. */
 static inline void
 scale_sum(qdot_generator *g, sum *s, qdot_operand factor)
 {
@@ -335,7 +335,7 @@ finish_sum(qdot_generator *g, sum *s, const double *to)
 
 /* --- products of lower orders ------------------------------------------------------- */
 
-/* +- sum number n, of the terms with orders from `lag` on, times a factor; NULL: none. */
+/* Add the term +- sum number n (of products with orders from `lag` on), times a factor; NULL: none. */
 static inline void
 add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_operand *factor, uint32_t n)
 {
@@ -348,7 +348,7 @@ add_past_of(qdot_generator *g, sum *s, bool minus, const qdot_operand *factor, u
     s->terms[s->n++] = t;
 }
 
-/* Product i of a step but for the terms with orders below `lag`. */
+/* Sum product i of a step except the terms with orders below `lag`. */
 static inline void
 add_past(qdot_generator *g, sum *sum, bool minus, const qdot_operand *factor,
          const qdot_taylor_step *s, int i)
@@ -376,7 +376,7 @@ late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
         sum_add_scaled(g, s, minus, x1, y, g->k - 1);
 }
 
-/* Add both such products; x_1 and y_1 are given by their locations, perhaps with a factor. */
+/* Add the two such products x_1 times y and y_1 times x; x_1 and y_1 by location, perhaps with a factor. */
 static inline void
 lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
        qdot_operand y1, const double *x)
@@ -388,12 +388,12 @@ lately(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y,
         late(g, s, minus, y1, x);
 }
 
-/* --- sums within sums --------------------------------------------------------------- */
+/* --- sums inside other sums --------------------------------------------------------- */
 
 static inline void add_terms(qdot_generator *g, sum *sum, bool minus,
                              const qdot_operand *scale, const qdot_taylor_step *s);
 
-/* +- coefficient k of a row times a factor (NULL: none), or what is folded into that row. */
+/* Add the term +- coefficient k of a row times a factor (NULL: none), or the sum folded into that row. */
 static inline void
 add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_operand *scale,
            const double *x)

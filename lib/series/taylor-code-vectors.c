@@ -56,7 +56,7 @@ begin_spreads(qdot_generator *g)
         g->spread[i] = QDOT_CODE_NONE;
 }
 
-/* The register with coefficient m of a row in every lane. */
+/* The register that has coefficient m of a row in every lane. */
 static int
 vector_spread(qdot_generator *g, uint32_t row, int m)
 {
@@ -75,7 +75,7 @@ vector_spread(qdot_generator *g, uint32_t row, int m)
     return reg;
 }
 
-/* to += coefficient m of a row times block b of another row, in these lanes. */
+/* Add coefficient m of a row, times block b of another row, to a register in these lanes. */
 static void
 vector_add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
                     qdot_asm_lane_set lanes)

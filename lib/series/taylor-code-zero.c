@@ -16,10 +16,10 @@ is(qdot_generator *g, int reg, const double *to, int k)
     value_finish(g, (value){.reg = reg, .own = true}, to, k);
 }
 
-/* to <- x op y */
+/* Write x op y to a row. */
 static void
-simple(qdot_generator *g, qdot_asm_operation name, int x, qdot_operand y,
-       const double *to)
+write_operation(qdot_generator *g, qdot_asm_operation name, int x, qdot_operand y,
+                const double *to)
 {
     const int reg = code_fresh_register(g);
 
@@ -32,7 +32,7 @@ simple_of_rows(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation 
 {
     const int x = zero(g, s->x);
 
-    simple(g, name, x, qdot_asm_in(zero(g, s->y)), s->to);
+    write_operation(g, name, x, qdot_asm_in(zero(g, s->y)), s->to);
 }
 
 /* Store x y + z, x y - z or z - x y, as `name` says; it is formed in a copy of z, which the instruction overwrites. */
@@ -69,7 +69,7 @@ write_root(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int x = zero(g, s->x);
 
-    simple(g, QDOT_ASM_ROOT, x, qdot_asm_in(x), s->to);
+    write_operation(g, QDOT_ASM_ROOT, x, qdot_asm_in(x), s->to);
     keep_inverse(g, s, qdot_code_work(QDOT_CODE_INVERSES + 2), zero(g, s->to));
 }
 
@@ -108,7 +108,7 @@ write_step_value(qdot_generator *g, const qdot_taylor_step *s)
 {
     switch (s->zero) {
     case QDOT_OP_NEG:
-        simple(g, QDOT_ASM_MUL, zero(g, s->x), qdot_code_work(QDOT_CODE_INVERSES), s->to);
+        write_operation(g, QDOT_ASM_MUL, zero(g, s->x), qdot_code_work(QDOT_CODE_INVERSES), s->to);
         break;
     case QDOT_OP_ADD: simple_of_rows(g, s, QDOT_ASM_ADD); break;
     case QDOT_OP_SUB: simple_of_rows(g, s, QDOT_ASM_SUB); break;

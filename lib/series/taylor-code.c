@@ -1,4 +1,4 @@
-/* taylor-code.c -- the frame of a program's code: vectors of products, registers, loops. */
+/* taylor-code.c -- generates machine code for a series program: vectors of products, registers, loops. */
 #include "series/taylor-code.h"
 
 #include <math.h>
@@ -122,7 +122,7 @@ is_same_code(const qdot_taylor_loops *l, int n, int other)
     return true;
 }
 
-/* --- what there is ------------------------------------------------------------------ */
+/* --- which rows and sums the code needs --------------------------------------------- */
 
 static void
 find_moving(qdot_generator *g)
@@ -293,9 +293,9 @@ give_places(qdot_generator *g)
     return at;
 }
 
-/* --- code --------------------------------------------------------------------------- */
+/* --- writing the code --------------------------------------------------------------- */
 
-/* An order of all recurrences, their vectors being up to date. */
+/* Write one order of all recurrences; their vectors must be up to date. */
 static void
 emit_order(qdot_generator *g)
 {
@@ -390,9 +390,9 @@ emit_all(qdot_generator *g)
     qdot_asm_return(&g->m);
 }
 
-/* The error of the double 1/n: exact value less double. */
+/* The error of the double 1/n: the exact value minus the double. */
 static double
-beyond(int n)
+rounding_of_inverse(int n)
 {
     return fma(-1.0 / n, n, 1) / n;
 }
@@ -415,8 +415,8 @@ make_work(qdot_taylor_code *c)
         c->work[QDOT_CODE_ORDERS + k] = k;
     }
     for (int k = 0; k <= QDOT_CODE_EXACT; k++) {
-        c->once_low[k] = beyond(k + 1);
-        c->twice_low[k] = beyond((k + 1) * (k + 2));
+        c->once_low[k] = rounding_of_inverse(k + 1);
+        c->twice_low[k] = rounding_of_inverse((k + 1) * (k + 2));
     }
     c->work[QDOT_CODE_INVERSES] = -1;
     memset(c->work + QDOT_CODE_ONES, 0xff, sizeof *c->work);
@@ -426,7 +426,7 @@ make_work(qdot_taylor_code *c)
     return QDOT_OK;
 }
 
-/* Whether all links (integrals) write rows of the program itself. */
+/* Whether the rows that links (integrals) write all belong to the program itself. */
 static bool
 reaches_all(const qdot_taylor *t)
 {
@@ -585,7 +585,7 @@ qdot_taylor_code_free(qdot_taylor_code *c)
     qdot_free(c);
 }
 
-/* --- running ------------------------------------------------------------------------ */
+/* --- running the code --------------------------------------------------------------- */
 
 void
 qdot_taylor_code_unit(qdot_taylor_code *c, double unit)

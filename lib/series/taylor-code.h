@@ -58,7 +58,7 @@ void qdot_taylor_code_begin(const qdot_taylor_code *code, qdot_taylor *t);
 void qdot_taylor_code_run(const qdot_taylor_code *code, qdot_taylor *t);
 
 int qdot_taylor_code_orders(const qdot_taylor_code *code);
-/* Bytes. */
+/* The size of the code in bytes. */
 size_t qdot_taylor_code_size(const qdot_taylor_code *code);
 
 #endif

@@ -17,7 +17,7 @@ struct qdot_taylor_change {
     int lead;
 };
 
-/* A row that contains j x_j: its change is k note[x], and no other row depends on it. */
+/* A row that contains j x_j: its change is k times that of x, and no other row depends on it. */
 struct qdot_taylor_scaled_change {
     double *row;
     uint32_t x;
@@ -53,7 +53,7 @@ qdot_taylor_changes_stale(qdot_taylor *t, int k)
         t->changes->stale = true;
 }
 
-/* --- the list ----------------------------------------------------------------------- */
+/* --- making the list of changes ----------------------------------------------------- */
 
 static void
 add_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
@@ -83,7 +83,7 @@ add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double 
         (struct qdot_taylor_scaled_change){row, qdot_taylor_row(t, x), s->lead};
 }
 
-/* List the rows that a step changes, the second result after the first. */
+/* List how a step changes its rows, the second result after the first. */
 static void
 list(qdot_taylor *t, const qdot_taylor_step *s)
 {
@@ -129,7 +129,7 @@ qdot_taylor_follow_motion(qdot_taylor *t)
     return QDOT_OK;
 }
 
-/* --- numbers ------------------------------------------------------------------------ */
+/* --- evaluating the changes --------------------------------------------------------- */
 
 /* Derivatives of a value by x, y and z of its step; the fourth is 0. */
 typedef double slopes __attribute__((vector_size(32)));

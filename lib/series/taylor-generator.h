@@ -54,14 +54,14 @@ typedef struct {
     size_t at;                 /* there, in doubles */
 } qdot_code_vector;
 
-/* A sum of x_i y_j with i, j >= lag, prepared for later orders. */
+/* A sum of products x_i y_j of coefficients with i, j >= lag, prepared for later orders. */
 typedef struct {
     uint32_t x, y; /* rows */
     bool further;  /* it is part of the sum before it, whose vector is `v` */
     qdot_code_vector v;
 } qdot_code_sum;
 
-/* A factor that is the product of two. */
+/* A factor that is the product of two others. */
 typedef struct {
     qdot_operand a, b;
 } qdot_code_composition;
@@ -77,7 +77,7 @@ typedef struct {
     int blocks;             /* vectors of a sum at most */
     int k;                  /* the order at hand */
     int lag;                /* orders below it and their partners are added singly; 1 or 2 */
-    bool exact;             /* links have factors of two doubles at it */
+    bool exact;             /* integrals have factors in two doubles at this order */
     bool *moving;           /* [rows] it has more than order 0 */
     bool *folded;           /* [rows] its orders above 0 are terms of its one reader */
     uint32_t *maker;        /* [rows] the step that it is `to` of; QDOT_CODE_NONE */
@@ -97,7 +97,7 @@ typedef struct {
     unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
     uint32_t held[QDOT_ASM_REGISTERS]; /* the row; QDOT_CODE_NONE */
     int held_order[QDOT_ASM_REGISTERS];
-    /* [spreads] rows whose coefficient fills a whole register */
+    /* for each register, the row whose coefficient fills all of it */
     uint32_t spread[QDOT_ASM_REGISTERS];
     int spreads, next_spread;
 } qdot_generator;
@@ -164,7 +164,7 @@ qdot_operand qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand 
 /* Write the solution of order g->k for a block of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
 
-/* The time, in instructions, at which coefficient k of a row is known. */
+/* The time, in instructions, at which coefficient k of a row becomes known. */
 static inline int *
 qdot_code_ready(qdot_generator *g, uint32_t row, int k)
 {
@@ -201,7 +201,7 @@ qdot_code_work(size_t i)
     return qdot_asm_at(QDOT_ASM_WORK, (int32_t)(8 * i));
 }
 
-/* The entry for order k of a table of numbers. */
+/* The entry of order k in a table of numbers. */
 static inline qdot_operand
 qdot_code_entry(size_t table, int k)
 {

@@ -4,7 +4,7 @@
 #include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- building the program ------------------------------------------------------------ */
 
 /* Remove the steps that compute explicit equations E; their products with K are summed separately. */
 static qdot_status
@@ -109,16 +109,16 @@ qdot_taylor_matrices(const qdot_taylor *t, size_t block)
     return t->blocks[block].matrices;
 }
 
-/* --- stages -------------------------------------------------------------------------- */
+/* --- stages of a motion -------------------------------------------------------------- */
 
-/* Whether no step reads newest coefficients of unknowns. */
+/* Whether no step reads the newest coefficients of unknowns. */
 static bool
 is_explicit(const qdot_taylor *t)
 {
     return !t->changes;
 }
 
-/* Order k of an integral is this factor times order k - 1 of the integrand. */
+/* The factor between order k of an integral and order k - 1 of the integrand. */
 static double
 integral_part(const qdot_taylor *t, int k)
 {

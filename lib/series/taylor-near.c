@@ -1,4 +1,4 @@
-/* taylor-near.c -- arguments of exponentials, and divisors, in a program of doubles. */
+/* taylor-near.c -- limits a step by arguments of exponentials and by divisors, for programs in doubles. */
 #include "series/near.h"
 #include "series/taylor-steps.h"
 #include "series/taylor.h"

@@ -1,4 +1,4 @@
-/* taylor-order.c -- the recurrences evaluated, order by order. */
+/* taylor-order.c -- evaluates the recurrences order by order. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "series/taylor.h"
 #include "series/taylor-order.h"
 
-/* Bits without a pattern: the finalizer of MurmurHash3. */
+/* A hash without visible pattern (the finalizer of MurmurHash3). */
 static uint64_t
 mix(uint64_t x)
 {
@@ -35,7 +35,7 @@ qdot_taylor_draw(qdot_taylor *t, double time)
     }
 }
 
-/* --- evaluation --------------------------------------------------------------------- */
+/* --- computing coefficients one order at a time ------------------------------------- */
 
 void
 qdot_taylor_value(qdot_taylor_step *i)

@@ -9,7 +9,7 @@
 #include "series/taylor-steps.h"
 
 #ifdef QDOT_X86_KINDS
-/* [k][recurrence], for processors with FMA; k from 1. */
+/* The functions for processors with FMA, by order k (from 1) and recurrence. */
 extern qdot_taylor_function *const qdot_taylor_order_fma[QDOT_SERIES_MOST + 1][QDOT_T_COUNT];
 #endif
 

@@ -5,7 +5,7 @@
 
 enum { lanes = 8 };
 
-/* sign times the sum number `of` is subtracted from component `to` of x. */
+/* A product sum that is subtracted: sum number `of`, times a sign, from component `to` of x. */
 typedef struct {
     size_t to, of;
     double sign;
@@ -20,7 +20,7 @@ struct qdot_taylor_products {
     size_t n_parts;
 };
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making the list of products ----------------------------------------------------- */
 
 static void
 products_add(qdot_taylor_products *p, const double *positive, size_t to, const qdot_taylor_coupling *c)
@@ -103,7 +103,7 @@ qdot_taylor_products_free(qdot_taylor_products *p)
     qdot_free(p);
 }
 
-/* --- orders -------------------------------------------------------------------------- */
+/* --- subtracting and recording an order ---------------------------------------------- */
 
 void
 qdot_taylor_products_take_off(qdot_taylor_products *p, const qdot_series_kernels *kernels,

@@ -26,7 +26,7 @@ struct qdot_taylor_drawn {
     double near, far, chance; /* both doubles; the probability of `far` */
 };
 
-/* Unknowns of explicit equations, solved for at every order (taylor-motion.h). */
+/* Unknowns that explicit equations determine at every order (taylor-motion.h). */
 typedef struct {
     uint32_t i; /* the product M a belongs to row i */
     const double *M, *a;
@@ -97,9 +97,9 @@ struct qdot_taylor {
 QDOT_MUST_CHECK qdot_status qdot_taylor_settle(qdot_taylor *t, const qdot_program *p,
                                                int most, size_t spare, size_t more,
                                                bool shaken);
-/* Blocks of the motion's explicit equations. Errors: QDOT_ENOMEM. */
+/* Make the blocks of the motion's explicit equations. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_solve_motion(qdot_taylor *t, int solved);
-/* Find the unknowns of the motion; `linked`: their integrals are links. Errors: QDOT_ENOMEM. */
+/* Find the unknowns of the motion; `linked`: their integrals are computed as links. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_find_unknowns(qdot_taylor *t, bool linked);
 /* Equations that are rates of a row become that row; steps go which only write explicit equations, such
  * rates, or an entry of K that is another one negated. Errors: QDOT_ENOMEM. */
@@ -112,7 +112,7 @@ qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
     return r == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)r * t->stride;
 }
 
-/* Compute order 0 of a step. */
+/* Compute the coefficient of order 0 of a step's rows. */
 void qdot_taylor_value(qdot_taylor_step *step);
 
 static inline uint32_t

@@ -1,4 +1,4 @@
-/* taylor-text.c -- keys of programs, executable memory, and a small cache of generated code. */
+/* taylor-text.c -- keeps generated code: keys of programs, executable memory, a small cache. */
 #include "series/taylor-text.h"
 
 #include <stdatomic.h>
@@ -29,7 +29,7 @@ enum {
 static _Atomic(qdot_taylor_text *) shelf[kept];
 static atomic_uint next_place;
 
-/* --- keys --------------------------------------------------------------------------- */
+/* --- keys that identify programs ---------------------------------------------------- */
 
 enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
@@ -105,7 +105,7 @@ put_all(const qdot_taylor *t, uint32_t *to)
         to = put_block(t, t->blocks + k, to);
 }
 
-/* --- keeping ------------------------------------------------------------------------ */
+/* --- the cache of generated code ---------------------------------------------------- */
 
 void
 qdot_taylor_text_give(qdot_taylor_text *text)

@@ -6,7 +6,7 @@
 #include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 
-/* Empty, for n unknowns with up to `count` couplings. */
+/* Add an empty block for n unknowns with up to `count` couplings. */
 static qdot_status
 taylor_add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block **block)
 {
@@ -59,7 +59,7 @@ taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *
     const qdot_motion *m = t->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
     const size_t n = end - first, from = *entry;
-    /* the number of unknowns with explicit equations */
+    /* unknowns with explicit equations */
     const size_t is_explicit = m->right.n > first ? m->right.n - first : 0;
     size_t count = 0;
     qdot_taylor_block *b;
@@ -108,7 +108,7 @@ qdot_taylor_solve_motion(qdot_taylor *t, int solved)
     return status;
 }
 
-/* --- what equations read -------------------------------------------------------------- */
+/* --- rows that equations read --------------------------------------------------------- */
 
 qdot_status
 qdot_taylor_find_unknowns(qdot_taylor *t, bool linked)
@@ -208,7 +208,7 @@ qdot_taylor_shorten(qdot_taylor *t)
     return QDOT_OK;
 }
 
-/* read [rows]: whether steps read a row at its newest order. */
+/* Find read [rows]: whether steps read a row at its newest order. */
 static void
 find_read(const qdot_taylor *t, bool *read)
 {

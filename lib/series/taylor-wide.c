@@ -1,4 +1,4 @@
-/* taylor-wide.c -- groups equal steps into vectors, and chooses the kernels. */
+/* taylor-wide.c -- groups equal steps into vectors, and chooses their kernels. */
 #include "series/taylor-wide.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static const double least_alike = 2.5;
 
 #define NO_LANE SIZE_MAX
 
-/* Pseudo-operations: operands copied side by side; the same for rows with order 0 only. */
+/* Pseudo-operations: copy operands side by side; the same for rows that have only order 0. */
 enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
 
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
     size_t *from;
 } group;
 
-/* Functions on coefficients stored by order, then by lane. */
+/* Functions for coefficients that are stored by order, then by lane. */
 typedef struct {
     void (*order)(const qdot_taylor_wide *w, int k);
     void (*correct)(const qdot_taylor_wide *w, int k, const double *newest,
@@ -102,7 +102,7 @@ kernels_here(void)
     return &portable_kernels;
 }
 
-/* --- groups -------------------------------------------------------------------------- */
+/* --- making groups of steps ---------------------------------------------------------- */
 
 /* A step, and the keys by which it is grouped. */
 typedef struct {
@@ -142,9 +142,9 @@ take_lanes(qdot_taylor_wide *w, size_t n)
     return at;
 }
 
-/* Whether a lane has more than order 0. */
+/* Whether a lane has coefficients of orders above 0. */
 static bool
-changes(const qdot_taylor_wide *w, size_t lane)
+lane_changes(const qdot_taylor_wide *w, size_t lane)
 {
     return lane < w->constant || lane >= w->changing;
 }
@@ -165,7 +165,7 @@ qdot_taylor_wide_align(qdot_taylor_wide *w, size_t count, const size_t *lanes, s
         return QDOT_ENOMEM;
     for (size_t i = 0; i < count; i++) {
         g.from[i] = lanes[i] == NO_LANE ? w->constant : lanes[i];
-        if (changes(w, g.from[i]))
+        if (lane_changes(w, g.from[i]))
             g.op = COPIED;
     }
     *at = g.to = take_lanes(w, count);
@@ -271,7 +271,7 @@ add_group(builder *b, member *m, size_t n)
         m[i].x = w->lane[wide_row_of(w, m[i].step->x)];
         m[i].y = w->lane[wide_row_of(w, m[i].step->y)];
         m[i].z = w->lane[wide_row_of(w, m[i].step->z)];
-        m[i].first = changes(w, m[i].x) ? m[i].x : changes(w, m[i].y) ? m[i].y : m[i].z;
+        m[i].first = lane_changes(w, m[i].x) ? m[i].x : lane_changes(w, m[i].y) ? m[i].y : m[i].z;
     }
     qsort(m, n, sizeof *m, by_operands);
     QDOT_TRY(align(b, m, n, offsetof(member, x), &g.x));
@@ -382,7 +382,7 @@ qdot_taylor_wide_free(qdot_taylor_wide *w)
     qdot_free(w);
 }
 
-/* --- evaluation ---------------------------------------------------------------------- */
+/* --- evaluating groups of steps ------------------------------------------------------ */
 
 size_t
 qdot_taylor_wide_width(const qdot_taylor_wide *w)

@@ -21,7 +21,7 @@ typedef struct qdot_taylor_wide qdot_taylor_wide;
 
 enum { QDOT_WIDE_LANES = 8 };
 
-/* sum over j = 0 ... n - 1 of x[j x_stride] y[-j y_stride], eight lanes each. */
+/* For eight lanes: the sum over j = 0 ... n - 1 of x[j x_stride] y[-j y_stride]. */
 typedef struct {
     const double *x, *y;
 } qdot_wide_pair;
@@ -44,7 +44,7 @@ size_t qdot_taylor_wide_lane(const qdot_taylor_wide *wide, const double *row);
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_align(qdot_taylor_wide *wide, size_t count,
                                                    const size_t *lanes, size_t *at);
 
-/* Allocate, after everything has been aligned. Errors: QDOT_ENOMEM. */
+/* Allocate the arrays, after everything has been aligned. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_wide_settle(qdot_taylor_wide *wide);
 
 /* Order 0, from the program's. Order k > 0 with coefficients k of the first n inputs at 0;
@@ -65,11 +65,11 @@ typedef struct {
     size_t n, x_stride, y_stride;
 } qdot_wide_sum;
 
-/* out [8] = scale times from [8] less the sum; from NULL: 0. */
+/* Set out [8] to scale times (from [8] minus the sum); from NULL: 0. */
 void qdot_taylor_wide_rest(const qdot_taylor_wide *wide, const qdot_wide_sum *sum,
                            double scale, const double *from, double *out);
 
-/* The vector operations of convolutions at one order; the number of groups. */
+/* The number of vector operations for convolutions at one order; _groups: the number of groups. */
 double qdot_taylor_wide_convolutions(const qdot_taylor_wide *wide);
 size_t qdot_taylor_wide_groups(const qdot_taylor_wide *wide);
 

@@ -1,4 +1,4 @@
-/* taylor.c -- a series program in doubles: its rows, and the integrals that link them. */
+/* taylor.c -- a series program in doubles: allocates its rows, and links integrals to their integrands. */
 #include "series/taylor.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "machine/asm.h"
 #include "tape/shake.h"
 
-/* --- building ----------------------------------------------------------------------- */
+/* --- making a program in doubles ---------------------------------------------------- */
 
 enum { LINE = 8 }; /* doubles of a line of the cache */
 

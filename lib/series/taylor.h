@@ -61,7 +61,7 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_link(qdot_taylor *taylor, size_t i, size
  * followed by what is linked to it in the order in which it was; `to` below the program's
  * highest but one. */
 void qdot_taylor_begin(qdot_taylor *taylor, double unit);
-/* The part of _begin that computes links only; order 0 of everything must be known, including unknowns. */
+/* Compute integrals as _begin does, and nothing else; order 0 of all rows, also of unknowns, must be known. */
 void qdot_taylor_begin_links(qdot_taylor *taylor, double unit);
 void qdot_taylor_extend(qdot_taylor *taylor, int from, int to);
 
@@ -78,7 +78,7 @@ bool qdot_taylor_take_kept(qdot_taylor *taylor, int to, int most);
 void qdot_taylor_drop_code(qdot_taylor *taylor);
 /* Evaluate all by the kernels, and write no code from now on, for the reason `why`, borrowed. */
 void qdot_taylor_refuse_code(qdot_taylor *taylor, const char *why);
-/* Whether orders 1 ... to are machine code. */
+/* Whether orders 1 ... `to` are computed by machine code. */
 bool qdot_taylor_is_code(const qdot_taylor *taylor, int to);
 /* Whether machine code is possible on this processor; the name of what that needs. */
 bool qdot_taylor_may_be_code(void);
@@ -92,7 +92,7 @@ size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 double qdot_taylor_near(const qdot_taylor *taylor, int p, double s, double least);
 bool qdot_taylor_may_hide(const qdot_taylor *taylor);
 
-/* Convolutions an order (a square counts half), and instructions. */
+/* The number of convolutions that an order costs (a square counts half); _instructions: of instructions. */
 double qdot_taylor_convolutions(const qdot_taylor *taylor);
 size_t qdot_taylor_length(const qdot_taylor *taylor);
 

@@ -1,4 +1,4 @@
-/* two.c -- a series program in sums of two doubles. */
+/* two.c -- evaluates a series program in sums of two doubles. */
 #include "series/two.h"
 
 #include <stdint.h>
@@ -26,7 +26,7 @@ two_place(const qdot_tape_two *t, qdot_program_row row)
     return t->numbers + (size_t)row * t->stride;
 }
 
-/* --- order 0 ------------------------------------------------------------------------ */
+/* --- evaluation of order 0 ---------------------------------------------------------- */
 
 static inline qdot_two
 truth(double x)
@@ -48,7 +48,7 @@ two_whole_part(qdot_two a)
     return hi == a.hi ? qdot_two_of(hi, floor(a.lo)) : (qdot_two){hi, 0};
 }
 
-/* tanh(a), and *slope = 1 - tanh(a)^2. */
+/* The value tanh(a); *slope = 1 - tanh(a)^2. */
 static qdot_two
 hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
 {
@@ -58,7 +58,7 @@ hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
     return d;
 }
 
-/* log(1 + e^a) */
+/* The value log(1 + e^a). */
 static qdot_two
 two_softplus(const qdot_two_functions *f, qdot_two a)
 {
@@ -93,7 +93,7 @@ two_value(const qdot_tape_two *t, const qdot_program_step *i)
     two_place(t, i->to)[0] = d;
 }
 
-/* --- order k ------------------------------------------------------------------------ */
+/* --- evaluation of order k ---------------------------------------------------------- */
 
 #define NAME(x) portable_##x
 #include "series/two.def"
@@ -120,9 +120,9 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
             two_value(t, i);
 }
 
-/* --- unknowns ------------------------------------------------------------------------ */
+/* --- unknowns: accelerations and multipliers ----------------------------------------- */
 
-/* Coefficient k + 1 of a row from order k of its derivative. */
+/* Compute coefficient k + 1 of a row from order k of its derivative. */
 static qdot_two
 integral(const qdot_tape_two *t, qdot_two rate, int k)
 {
@@ -160,7 +160,7 @@ qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
     }
 }
 
-/* Add the recorded change of a series to its coefficient of this order. */
+/* Add the recorded change of a series to its coefficient of the given order. */
 static void
 two_apply_note(qdot_tape_two *t, qdot_program_row row, int order)
 {
@@ -225,7 +225,7 @@ qdot_tape_two_change(qdot_tape_two *t, int k, const double *by)
         }
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making a program in two doubles ------------------------------------------------- */
 
 static void
 two_set_constants(qdot_tape_two *t)

@@ -40,7 +40,7 @@ uint64_t qdot_tape_two_sides(const qdot_tape_two *t);
  * and inf as IEEE 754 has them, where one of two doubles is. */
 void qdot_tape_two_order(qdot_tape_two *t, int k);
 
-/* --- motions ------------------------------------------------------------------------- */
+/* --- motions: systems with accelerations as unknowns --------------------------------- */
 
 /* The highest order of accelerations in two doubles. */
 enum { QDOT_TWO_MOST = 12 };
