@@ -1,4 +1,4 @@
-/* animation-gif.c -- a moving picture as an animated GIF, drawn frame by frame by gnuplot. */
+/* animation-gif.c -- writes a run as an animated GIF, drawn frame by frame by gnuplot. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 enum { MOST_PICTURES = 400, A_SECOND = 25, PIXELS = 560, TRAIL_POINTS = 240 };
 
-/* The projection of a scene, and the visible part of the plane. */
+/* The view of a scene: its projection, and the visible part of the plane. */
 typedef struct {
     const qdot_animation *a;
     double right[3], up[3];
@@ -33,7 +33,7 @@ cross_product(const double u[3], const double v[3], double w[3])
 
 /* Set the initial view of the player: from the side and a little from above. */
 static void
-aim(view *w)
+set_initial_view(view *w)
 {
     const double yaw = -0.6, pitch = 0.32, *u = w->a->up;
     double e1[3] = {0}, e2[3], size;
@@ -97,7 +97,7 @@ see(view *w, place p, double more)
 
 /* Find a view that contains all points of all frames, with a margin. */
 static qdot_status
-fit(view *w)
+fit_view(view *w)
 {
     const qdot_animation *a = w->a;
     double width, height;
@@ -142,7 +142,7 @@ add_place(qdot_text *out, place p)
 
 /* The point at the fraction `along` of the way from a to b, shifted sideways by `aside`. */
 static place
-beside(place a, place b, double along, double aside)
+point_beside(place a, place b, double along, double aside)
 {
     double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
 
@@ -158,14 +158,14 @@ add_spring(const view *w, place a, place b, double aside, qdot_text *out)
     const double size = 0.017 * w->size;
 
     add_place(out, a);
-    add_place(out, beside(a, b, 0, aside));
+    add_place(out, point_beside(a, b, 0, aside));
     for (int k = 0; k <= 9 * 12; k++) {
         double part = k / (9.0 * 12), fade = fmin(1, 12 * fmin(part, 1 - part));
 
-        add_place(out, beside(a, b, 0.12 + 0.76 * part,
-                              aside + fade * size * sin(2 * M_PI * k / 12)));
+        add_place(out, point_beside(a, b, 0.12 + 0.76 * part,
+                                    aside + fade * size * sin(2 * M_PI * k / 12)));
     }
-    add_place(out, beside(a, b, 1, aside));
+    add_place(out, point_beside(a, b, 1, aside));
     add_place(out, b);
     qdot_text_char(out, '\n');
 }
@@ -195,7 +195,7 @@ add_damper(const view *w, place a, place b, double aside, qdot_text *out)
         if (isnan(lines[i][0]))
             qdot_text_char(out, '\n');
         else
-            add_place(out, beside(a, b, lines[i][0], lines[i][1]));
+            add_place(out, point_beside(a, b, lines[i][0], lines[i][1]));
 }
 
 static bool
@@ -239,7 +239,7 @@ add_links(const view *w, qdot_animation_kind kind, size_t frame, qdot_text *out)
     }
 }
 
-/* The line c + cos u + sin v, once round. */
+/* Draw the closed line c + cos u + sin v, where the angle runs once round. */
 static void
 add_round(const view *w, const double c[3], const double u[3], const double v[3],
           qdot_text *out)
@@ -344,9 +344,9 @@ add_dots(const view *w, size_t frame, qdot_text *out)
     }
 }
 
-/* --- the script --------------------------------------------------------------------- */
+/* --- the script for gnuplot --------------------------------------------------------- */
 
-/* How gnuplot draws each layer. */
+/* How gnuplot draws the layers, one after the other. */
 static const char *const layers[] = {
     "using 1:2 with lines linecolor rgb '#9cc4e4' linewidth 1.2",
     "using 1:2 with lines linecolor rgb '#4a525b' linewidth 3",
@@ -446,8 +446,8 @@ qdot_animation_gif(const qdot_animation *a, const char *path)
 
     if (qdot_rank() > 0)
         return QDOT_OK;
-    aim(&w);
-    QDOT_TRY(fit(&w));
+    set_initial_view(&w);
+    QDOT_TRY(fit_view(&w));
     add_look(&w, 100 * seconds / (pictures - 1), &script);
     status = QDOT_OK;
     for (size_t k = 0; k < (size_t)pictures && status == QDOT_OK; k++) {

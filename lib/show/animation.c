@@ -84,7 +84,7 @@ add_indices(qdot_text *out, const char *name, const size_t *at, size_t n)
     qdot_text_char(out, ']');
 }
 
-/* --- columns ------------------------------------------------------------------------ */
+/* --- columns of numbers ------------------------------------------------------------- */
 
 enum { STEPS = 65534, UNKNOWN = 65535, PORTION = 3 * 1024 };
 
@@ -109,7 +109,7 @@ add_base64(qdot_text *out, const unsigned char *bytes, size_t n)
     qdot_text_add_n(out, block, used);
 }
 
-/* [*lo, *hi]: the range of the finite values; false if there are none. */
+/* Find the range [*lo, *hi] of the finite values; false if there are none. */
 static bool
 finite_range(const double *x, size_t n, double *lo, double *hi)
 {
@@ -249,7 +249,7 @@ add_diagrams(const qdot_animation *a, qdot_text *out)
     qdot_text_char(out, ']');
 }
 
-/* --- the page ----------------------------------------------------------------------- */
+/* --- the page of an animation ------------------------------------------------------- */
 
 void
 qdot_animation_escape(qdot_text *out, const char *text)

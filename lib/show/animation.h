@@ -103,7 +103,7 @@ void qdot_animation_head(qdot_text *out);
 void qdot_animation_section(const qdot_animation *a, qdot_text *out);
 void qdot_animation_foot(qdot_text *out);
 
-/* `text` as text of a page: & < > " as entities. */
+/* Append `text` to a page, with & < > " as entities. */
 void qdot_animation_escape(qdot_text *out, const char *text);
 
 #endif

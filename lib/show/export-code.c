@@ -35,7 +35,7 @@ typedef struct {
     size_t named;
 } writer;
 
-/* --- values ----------------------------------------------------------------------------- */
+/* --- values of the tape ----------------------------------------------------------------- */
 
 static int
 operation_operands(uint32_t op)
@@ -112,7 +112,7 @@ count_uses(writer *w)
                 w->values[w->values[v].args[k]].uses++;
 }
 
-/* --- expressions ------------------------------------------------------------------------ */
+/* --- writing expressions ---------------------------------------------------------------- */
 
 void
 qdot_export_number(double x, qdot_text *out)
@@ -135,7 +135,7 @@ add_operand(const writer *w, uint32_t v, int least, qdot_text *out)
     qdot_text_add(out, bracket ? ")" : "");
 }
 
-/* left SIGN right, in the order of evaluation of the tape. */
+/* Write `left SIGN right`; operands are evaluated in the order of the tape. */
 static void
 infix(const writer *w, uint32_t left, int least, const char *sign, uint32_t right, int right_least,
       qdot_text *out)
@@ -220,7 +220,7 @@ repeats(const char *text, char operand_name)
     return n > 1;
 }
 
-/* --- statements ------------------------------------------------------------------------- */
+/* --- writing statements ----------------------------------------------------------------- */
 
 /* Append a text by a printf format of our own tables. */
 static void
@@ -249,7 +249,7 @@ declare(writer *w, const char *word, bool truth, const char *text)
     qdot_text_clear(&line);
 }
 
-/* Keep the text as that of the value; or assign it to a variable and keep that name. */
+/* Keep the text as that of the value; or assign the text to a variable and keep the variable's name. */
 static qdot_status
 value_keep_text(writer *w, value *v, qdot_text *text, int binds, bool name)
 {
@@ -335,9 +335,9 @@ write_values(writer *w)
     return status;
 }
 
-/* --- outputs ---------------------------------------------------------------------------- */
+/* --- writing outputs -------------------------------------------------------------------- */
 
-/* Write an assignment by a format of our tables, with array, indices and value in this order. */
+/* Write an assignment by one of our format tables, with array, indices and value in this order. */
 static void
 set_element(writer *w, const qdot_export_block *b, size_t k, const char *text)
 {

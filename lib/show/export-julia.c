@@ -1,4 +1,4 @@
-/* export-julia.c -- export to Julia: a module of functions for OrdinaryDiffEq. */
+/* export-julia.c -- exports to Julia: a module of functions for OrdinaryDiffEq. */
 #include "show/export-language.h"
 
 static const char system_text[] = {

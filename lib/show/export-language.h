@@ -64,7 +64,7 @@ typedef struct {
     const char *const *targets;
 } qdot_export_frame;
 
-/* Errors: QDOT_EINVAL (a constant is not finite), QDOT_ENOMEM. */
+/* Write the source text of a file. Errors: QDOT_EINVAL (a constant is not finite), QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_export_code(const qdot_export_frame *frame,
                                              const qdot_export_function *function,
                                              qdot_text *out);

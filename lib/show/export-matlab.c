@@ -1,4 +1,4 @@
-/* export-matlab.c -- export to Matlab and Octave: a function file that returns a struct of functions. */
+/* export-matlab.c -- exports to Matlab and Octave: a function file that returns a struct of functions. */
 #include "show/export-language.h"
 
 static const char system_text[] = {

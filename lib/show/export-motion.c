@@ -1,4 +1,4 @@
-/* export-motion.c -- replaces the words of a motion's template. */
+/* export-motion.c -- replaces the words in the template of a motion's source text. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -41,7 +41,7 @@ declare_parameters(writer *w, const char *indent)
 
 /* Write a statement for each parameter that refuses it if it has no value. */
 static qdot_status
-checks(writer *w, const char *indent)
+write_checks(writer *w, const char *indent)
 {
     for (size_t i = 0; i < w->system->k; i++) {
         qdot_text_add(w->out, indent);
@@ -53,7 +53,7 @@ checks(writer *w, const char *indent)
     return QDOT_OK;
 }
 
-/* `target = %s` for each target of an event. */
+/* Write the assignments of event k, one `target = %s` for each target. */
 static qdot_status
 event_effect(writer *w, size_t k, const char *indent)
 {
@@ -96,7 +96,7 @@ event_effect(writer *w, size_t k, const char *indent)
 
 /* Write the members of a struct, "double a, b;". */
 static qdot_status
-fields(writer *w, const char *indent)
+write_fields(writer *w, const char *indent)
 {
     const size_t at = qdot_export_first_parameter(w->system);
 
@@ -113,7 +113,7 @@ effects(writer *w, const char *indent)
     return QDOT_OK;
 }
 
-/* --- lists ---------------------------------------------------------------------------------- */
+/* --- lists in the exported file ------------------------------------------------------------- */
 
 static void
 separate(const writer *w, size_t i)
@@ -123,7 +123,7 @@ separate(const writer *w, size_t i)
 
 /* Write quoted names, "theta", "x", separated. */
 static qdot_status
-names(writer *w, size_t n, const qdot_export_name *list)
+write_names(writer *w, size_t n, const qdot_export_name *list)
 {
     for (size_t i = 0; i < n; i++) {
         separate(w, i);
@@ -266,7 +266,7 @@ method(writer *w, const char *word, const char *indent)
                                          : matrix(w, 4, ROWS, curve[0], indent);
 }
 
-/* --- words ---------------------------------------------------------------------------------- */
+/* --- words of the template ------------------------------------------------------------------ */
 
 static bool
 word_is_in_list(const char *word, const char *list)
@@ -316,12 +316,12 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
         return events(w, word[6]);
     if (strncmp(word, "surface ", 8) == 0)
         return surfaces(w, word[8]);
-    return strcmp(word, "fields") == 0        ? fields(w, indent)
+    return strcmp(word, "fields") == 0        ? write_fields(w, indent)
            : strcmp(word, "parameters") == 0  ? declare_parameters(w, indent)
-           : strcmp(word, "checks") == 0      ? checks(w, indent)
+           : strcmp(word, "checks") == 0      ? write_checks(w, indent)
            : strcmp(word, "start") == 0       ? write_start(w)
-           : strcmp(word, "coordinates") == 0 ? names(w, x->n, x->q)
-           : strcmp(word, "multipliers") == 0 ? names(w, x->m, x->lambda)
+           : strcmp(word, "coordinates") == 0 ? write_names(w, x->n, x->q)
+           : strcmp(word, "multipliers") == 0 ? write_names(w, x->m, x->lambda)
            : strcmp(word, "orders") == 0      ? orders(w)
            : strcmp(word, "sets") == 0        ? sets(w, indent)
            : strcmp(word, "effects") == 0
@@ -329,7 +329,7 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
                : qdot_fail(QDOT_EINVAL, "the template has an unknown word: %.40s", word);
 }
 
-/* --- lines ---------------------------------------------------------------------------------- */
+/* --- conditions on template lines ----------------------------------------------------------- */
 
 bool
 qdot_export_tape_uses(const qdot_tape *tape, qdot_op first, qdot_op last)
@@ -355,7 +355,7 @@ any_uses(const qdot_export_system *x, qdot_op first, qdot_op last)
     return false;
 }
 
-/* Whether a tape reads accelerations or multipliers. */
+/* Whether a tape takes accelerations or multipliers as inputs. */
 static bool
 reads_motion(const qdot_export_system *x, const qdot_tape *tape)
 {

@@ -74,7 +74,7 @@ typedef struct {
     const qdot_export_event *event;
 } qdot_export_system;
 
-/* One value, or several, as a function of its symbols. */
+/* One expression, or several, to be exported as a function of its symbols. */
 typedef struct {
     const char *file, *origin;
     size_t k;

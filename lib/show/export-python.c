@@ -1,4 +1,4 @@
-/* export-python.c -- Python: a module for NumPy, integrated by SciPy. */
+/* export-python.c -- exports to Python: a module for NumPy, integrated by SciPy. */
 #include "show/export-language.h"
 
 static const char system_text[] = {

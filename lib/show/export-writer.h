@@ -27,7 +27,7 @@ qdot_export_first_parameter(const qdot_export_system *x)
     return 1 + 3 * x->n + x->m;
 }
 
-/* Write the statements of a function, each line after `indent`; targets as in qdot_export_frame. */
+/* Write the statements of a function, each line after `indent`; the targets are as in qdot_export_frame. */
 QDOT_MUST_CHECK qdot_status qdot_export_write_code(qdot_export_writer *w,
                                                    const qdot_export_function *f,
                                                    const char *indent, const char *const *targets);

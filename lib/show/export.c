@@ -11,9 +11,9 @@
 
 typedef qdot_export_writer writer;
 
-/* --- names ------------------------------------------------------------------------------ */
+/* --- names in the exported file --------------------------------------------------------- */
 
-/* theta[1]'' is theta_1_ddot: letters, digits and _. */
+/* Append a name as a word of letters, digits and _: theta[1]'' becomes theta_1_ddot. */
 static void
 as_word(const char *name, qdot_text *out)
 {
@@ -173,7 +173,7 @@ choose_name(writer *w, const char *file)
         qdot_text_char(&name, fits ? *c : '_');
         changed |= !fits;
     }
-    /* a motion in C has names that only begin with it */
+    /* in C, the names of a motion only begin with this name */
     if ((w->system == NULL || w->language != &qdot_export_c) &&
         is_reserved(w->language, qdot_text_str(&name))) {
         qdot_text_char(&name, '_');
@@ -258,7 +258,7 @@ shape(writer *w)
 }
 #pragma GCC diagnostic pop
 
-/* The lines of the scene, as comments. */
+/* Write the lines of the scene as comments. */
 static qdot_status
 comments(writer *w, const char *text)
 {
@@ -316,9 +316,9 @@ export_has(const writer *w, char what)
     }
 }
 
-/* --- templates ---------------------------------------------------------------------------- */
+/* --- templates of the languages ----------------------------------------------------------- */
 
-/* Write one line of the template; a word by itself writes lines of its own, with its indent. */
+/* Write one line of the template; a word alone on its line becomes lines of its own, with the line's indent. */
 static qdot_status
 export_write_line(writer *w, const char *line, size_t n)
 {

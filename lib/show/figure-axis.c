@@ -12,7 +12,8 @@
 
 enum { EXACT = 17, TIC = 12, MOST_TICS = 40 };
 
-/* 1, 2 or 5 times a power of ten, so that `span` has about `steps` steps; 0 if there is none. */
+/* A tic distance, 1, 2 or 5 times a power of ten, that divides `span` into about `steps`; 0 if
+ * there is none. */
 static double
 nice_step(double span, double steps)
 {
@@ -25,7 +26,7 @@ nice_step(double span, double steps)
                                       : 10 * ten;
 }
 
-/* printf, with a point whatever the locale. */
+/* Write a number as printf does, but with a decimal point in every locale. */
 static void
 print_number(char *out, size_t size, const char *format, int digits, double value)
 {
@@ -46,7 +47,7 @@ add_signed(qdot_text *out, const char *number)
 
 /* --- offset and power ----------------------------------------------------------------- */
 
-/* The middle, rounded to the power of ten above the span: of few digits and near. */
+/* Choose the offset: the middle, rounded to the power of ten above the span, so that it has few digits. */
 static void
 choose_offset(qdot_figure_axis *a)
 {
@@ -111,7 +112,7 @@ qdot_figure_axis_of(double least, double most, bool log, double steps, const int
     return a;
 }
 
-/* --- tics ----------------------------------------------------------------------------- */
+/* --- tics of an axis ------------------------------------------------------------------ */
 
 static double
 first_tic(const qdot_figure_axis *a)

@@ -74,7 +74,7 @@ add_terminal(const qdot_figure_drawing *d)
     qdot_text_char(s, '\n');
 }
 
-/* --- the figure --------------------------------------------------------------------- */
+/* --- writing image, script and data ------------------------------------------------- */
 
 /* Append the path with another ending. */
 static void

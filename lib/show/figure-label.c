@@ -49,7 +49,7 @@ qdot_figure_add_quoted(qdot_text *script, const char *text)
     qdot_text_char(script, '"');
 }
 
-/* --- formulas ----------------------------------------------------------------------- */
+/* --- formulas in gnuplot's markup --------------------------------------------------- */
 
 static bool
 label_is_letter(const char *c)
@@ -63,9 +63,9 @@ continues_name(const char *c)
     return label_is_letter(c) || isdigit((unsigned char)*c) || *c == '_';
 }
 
-/* The bracket that closes the one at `open`; NULL if it is not closed. */
+/* The bracket that closes the bracket at `open`; NULL if it is not closed. */
 static const char *
-closing(const char *open)
+closing_bracket(const char *open)
 {
     int depth = 0;
 
@@ -83,8 +83,8 @@ label_add_power(qdot_text *out, const char *c, bool markup)
 {
     const char *end = c;
 
-    if (*c == '(' && closing(c) != NULL)
-        end = closing(c) + 1;
+    if (*c == '(' && closing_bracket(c) != NULL)
+        end = closing_bracket(c) + 1;
     else if (isdigit((unsigned char)*c))
         while (isdigit((unsigned char)*end))
             end++;
@@ -149,8 +149,8 @@ label_add_name(qdot_text *out, const char *c, bool markup)
     while (continues_name(c))
         c++;
     qdot_text_add_n(&name, start, (size_t)(c - start));
-    if (*c == '[' && closing(c) != NULL) {
-        const char *end = closing(c) + 1;
+    if (*c == '[' && closing_bracket(c) != NULL) {
+        const char *end = closing_bracket(c) + 1;
 
         qdot_text_add_n(&name, c, (size_t)(end - c));
         c = end;
@@ -158,7 +158,7 @@ label_add_name(qdot_text *out, const char *c, bool markup)
     for (; *c == '\''; c++)
         primes++;
     qdot_print_name(NULL, qdot_text_str(&name), QDOT_UNICODE, &shown);
-    /* the letters before digits, `_` and brackets */
+    /* find the end of the letters, before digits, `_` and brackets */
     for (first = 0; qdot_text_str(&name)[first] != '\0' && label_is_letter(name.at + first); first++)
         ;
     qdot_text_add_n(&letters, qdot_text_str(&name), first);
@@ -247,7 +247,7 @@ qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup)
     }
 }
 
-/* --- labels ------------------------------------------------------------------------- */
+/* --- writing labels ----------------------------------------------------------------- */
 
 void
 qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)

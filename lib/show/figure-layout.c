@@ -5,13 +5,13 @@
 #include "base/interrupt.h"
 #include "show/figure-parts.h"
 
-/* cm; the usual figure is 14 cm wide, legible in a column of 8.6 cm */
+/* Sizes in cm; the usual figure is 14 cm wide, legible in a column of 8.6 cm. */
 static const double usual_width = 14, usual_height = 8.75, panel_height = 5.2,
                     left_room = 1.8, right_room = 0.5, high_room = 0.9, low_room = 1.3;
 
 enum { BLOCK = 4096 };
 
-/* --- what can be shown ---------------------------------------------------------------- */
+/* --- ranges of the data --------------------------------------------------------------- */
 
 bool
 qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t k)
@@ -97,7 +97,7 @@ panel_measure(const qdot_panel *panel, extent *e)
 
 /* Add some margin to a range. */
 static void
-pad(double *least, double *most, bool log, double part)
+widen_range(double *least, double *most, bool log, double part)
 {
     if (log) {
         double factor = *most > *least ? pow(*most / *least, part) : 2;
@@ -167,7 +167,7 @@ qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zo
     seen[2] = box * side[2] / longest * high;
 }
 
-/* --- panels that share ---------------------------------------------------------------- */
+/* --- panels with a common horizontal axis --------------------------------------------- */
 
 static bool
 same_text(const char *a, const char *b)
@@ -216,7 +216,7 @@ measure_shared(const qdot_figure *figure, size_t i, extent *e)
     return QDOT_OK;
 }
 
-/* --- sizes ---------------------------------------------------------------------------- */
+/* --- sizes of a figure ---------------------------------------------------------------- */
 
 static qdot_status
 view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
@@ -237,7 +237,7 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
         view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];
         view->most[k] = fixed[k] ? panel->range[k].most : e.most[k];
         if (!fixed[k] && panel->map == NULL && (k > 0 || !e.course || !joined || !(e.most[0] > e.least[0])))
-            pad(&view->least[k], &view->most[k], view->log[k], 0.04);
+            widen_range(&view->least[k], &view->most[k], view->log[k], 0.04);
     }
     if (panel->equal)
         even_out(view, fixed, axes);

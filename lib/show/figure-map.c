@@ -1,4 +1,4 @@
-/* figure-map.c -- numbers over a grid as colours: data, palette, and dots of a sketch. */
+/* figure-map.c -- draws numbers over a grid as colours: data, palette, dithering of a sketch. */
 #include <math.h>
 
 #include "base/interrupt.h"
@@ -19,7 +19,7 @@ qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i)
                  : map->least[axis];
 }
 
-/* Half the width of a cell. */
+/* Half the width of a cell of the grid. */
 static double
 map_half_cell(const qdot_figure_map *map, int axis)
 {

@@ -13,7 +13,7 @@ typedef struct {
     bool log;
 } qdot_figure_axis;
 
-/* --- labels ------------------------------------------------------------------------- */
+/* --- writing labels ----------------------------------------------------------------- */
 
 /* Append text in gnuplot's quotes, taken literally whatever it contains. */
 void qdot_figure_add_quoted(qdot_text *script, const char *text);
@@ -21,14 +21,14 @@ void qdot_figure_add_quoted(qdot_text *script, const char *text);
 void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
 /* Append the label in gnuplot's markup, without quotes. */
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
-/* A formula in plain style as Unicode, for a sketch; with `markup` in gnuplot's markup. */
+/* Append a formula in plain style as Unicode, for a sketch; with `markup` in gnuplot's markup. */
 void qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup);
 /* What curve k is called in the key. */
 qdot_figure_label qdot_figure_curve_label(const qdot_panel *panel, size_t k);
 /* The approximate width of the label in characters. */
 size_t qdot_figure_label_width(const qdot_figure_label *label);
 
-/* --- axes --------------------------------------------------------------------------- */
+/* --- ranges and tics of axes -------------------------------------------------------- */
 
 /* The power of ten by which the numbers of an axis are divided; 0 if they are short anyway. */
 int qdot_figure_power(double least, double most);
@@ -37,7 +37,7 @@ qdot_figure_axis qdot_figure_axis_of(double least, double most, bool log, double
                                      const int *power);
 /* The number of tics of a linear axis; 0: gnuplot chooses them, or it is logarithmic. */
 int qdot_figure_count_tics(const qdot_figure_axis *axis);
-/* `set xrange`, `set xtics`; bare: tics without numbers. *width: characters of the widest. */
+/* Append `set xrange` and `set xtics`; bare: tics without numbers. *width: characters of the widest. */
 void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
                           bool bare, size_t *width);
 /* Append `set xlabel` with offset and power of ten, if any: (E - 9.81) / 10^-12. */
@@ -50,7 +50,7 @@ void qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis
 /* Append the expression of a column for gnuplot's `using`. */
 void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *axis);
 
-/* --- sizes -------------------------------------------------------------------------- */
+/* --- sizes and views ---------------------------------------------------------------- */
 
 /* Whether point k can be shown on these axes. */
 bool qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t k);
@@ -69,27 +69,27 @@ typedef struct {
 } qdot_figure_room;
 void qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zoom,
                          double *seen);
-/* The size of the whole figure in cm, and of its letters in points. */
+/* Find the size of the whole figure in cm, and of its letters in points. */
 QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
                                              double *height, double *points);
 
-/* --- maps (figure-map.c) ------------------------------------------------------------- */
+/* --- maps in colours (figure-map.c) -------------------------------------------------- */
 
 /* The coordinate of column or row i; the range that the cells cover along an axis. */
 double qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i);
 void qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most);
-/* Lines "x y value". Errors: QDOT_EINTR, QDOT_ENOMEM. */
+/* Append the grid as lines "x y value". Errors: QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out);
-/* Palette, range and scale of the colours. */
+/* Append palette, range and scale of the colours. */
 void qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script);
-/* The smallest and the largest number, ends [2]; 0 if there is none. */
+/* Find the smallest and the largest number, ends [2]; 0 if there is none. */
 void qdot_figure_map_ends(const qdot_figure_map *map, double *ends);
 /* Whether dot (i, j) of a sketch, at these parts [2] of the axes, is black: the more often the
  * greater the number is between the ends. */
 bool qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const double *part, size_t i,
                          size_t j);
 
-/* --- the script --------------------------------------------------------------------- */
+/* --- the whole script --------------------------------------------------------------- */
 
 /* An image format. */
 typedef struct {

@@ -34,7 +34,7 @@ enum {
     MANY_MARKS = 24 /* on a curve */
 };
 
-/* --- the data ----------------------------------------------------------------------- */
+/* --- writing the data --------------------------------------------------------------- */
 
 /* Write the points of a curve, one per line, with a blank line at interruptions. */
 static qdot_status
@@ -83,7 +83,7 @@ figure_add_data(const qdot_figure_drawing *d)
     return QDOT_OK;
 }
 
-/* The head of index i of gnuplot's data. */
+/* Append the head of one index (data set) of gnuplot's data. */
 static void
 begin_index(qdot_text *out, bool first, const char *label)
 {
@@ -112,9 +112,9 @@ qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* --- one panel ---------------------------------------------------------------------- */
+/* --- drawing one panel -------------------------------------------------------------- */
 
-/* Letters of the widest number along an axis. */
+/* The number of letters of the widest number along an axis. */
 static size_t
 widest_number(const qdot_figure_axis *a)
 {
@@ -230,7 +230,7 @@ spacing_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
     return fmax(0.5, fmin(1, (d->height - around) / (line * (double)panel->n)));
 }
 
-/* high: the height of the axes in cm, if they were placed */
+/* Write the key; high: the height of the axes in cm, if they were placed. */
 static void
 add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
 {
@@ -421,7 +421,7 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
     qdot_text_char(d->script, '\n');
 }
 
-/* --- several panels ------------------------------------------------------------------- */
+/* --- placing several panels ----------------------------------------------------------- */
 
 static void
 add_at(qdot_text *s, const char *what, double at)
@@ -431,7 +431,7 @@ add_at(qdot_text *s, const char *what, double at)
     qdot_text_char(s, '\n');
 }
 
-/* Rooms above and below the axes of panel i, in cm. */
+/* Find the room above and below the axes of panel i, in cm. */
 static void
 rooms(const qdot_figure_drawing *d, size_t i, double *above, double *below)
 {
@@ -459,7 +459,7 @@ has_power(const qdot_figure_label *label)
     return found;
 }
 
-/* Letters right of the axes: half of the last number, or a key, or the scale of colours. */
+/* The number of letters right of the axes: half of the last number, or a key, or the scale of colours. */
 static double
 letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
@@ -468,7 +468,7 @@ letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
     return has_key_beside(d, panel) ? 1 + 0.62 * (double)key_width(panel) : 1;
 }
 
-/* The space left of the axes in characters: numbers, tics, a label; the same for all panels. */
+/* Find the space left of the axes in characters: numbers, tics, a label; the same for all panels. */
 static qdot_status
 letters_left(const qdot_figure_drawing *d, double *letters)
 {

@@ -82,7 +82,7 @@ typedef struct {
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);
 
-/* The view of panel i, from its ranges and its curves. Errors: QDOT_EDOMAIN. */
+/* Find the view of panel i, from its ranges and its curves. Errors: QDOT_EDOMAIN. */
 QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size_t i,
                                                  qdot_figure_view *view);
 

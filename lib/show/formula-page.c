@@ -1,4 +1,4 @@
-/* formula-page.c -- lines of answers as blocks of aligned equations and paragraphs. */
+/* formula-page.c -- writes lines of answers as blocks of aligned equations and paragraphs. */
 #include "show/formula-page.h"
 
 #include <ctype.h>
@@ -28,9 +28,9 @@ page_keep(page *p, qdot_status status)
         p->status = status;
 }
 
-/* --- width ------------------------------------------------------------------------------ */
+/* --- widths of texts -------------------------------------------------------------------- */
 
-/* A word of LaTeX: letters of functions count, marks above a letter do not. */
+/* The width of a LaTeX word: letters of functions count, marks above a letter do not. */
 static size_t
 word_width(const char *word, size_t n)
 {
@@ -69,7 +69,7 @@ latex_width(const char *at, size_t n)
     return width;
 }
 
-/* Whether a node is a text in LaTeX: the name of an answer, latex(...). */
+/* Whether a node is a text given in LaTeX: the name of an answer, or latex(...). */
 static bool
 is_typed(const qdot_formula_node *node)
 {
@@ -262,7 +262,7 @@ add_label(page *p, size_t to)
     qdot_text_add(&p->out, QDOT_FORMULA_MATH_END "</p>\n");
 }
 
-/* The first part from k on with one of the two duties; the end if there is none. */
+/* The first part from k on that has one of the two duties; the end if there is none. */
 static size_t
 find_duty(const page *p, size_t k, qdot_formula_duty one, qdot_formula_duty other)
 {
@@ -302,7 +302,7 @@ add_formula(page *p, const qdot_formula *f, qdot_formula_id formula)
     return QDOT_OK;
 }
 
-/* --- text ------------------------------------------------------------------------------- */
+/* --- paragraphs of text ----------------------------------------------------------------- */
 
 static void
 latex_escape(const char *text, size_t length, qdot_text *out)
@@ -454,7 +454,7 @@ page_add_line(page *p, const qdot_formula *f, qdot_formula_id line)
     return QDOT_OK;
 }
 
-/* --- the page ----------------------------------------------------------------------------- */
+/* --- beginning and ending a page ---------------------------------------------------------- */
 
 void
 qdot_formula_page_line(qdot_formula_page *p, const qdot_formula *f, qdot_formula_id line)

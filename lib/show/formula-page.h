@@ -40,7 +40,7 @@ typedef struct qdot_formula_page {
 
 void qdot_formula_page_clear(qdot_formula_page *page);
 
-/* Append a line; its formulas are QDOT_NOTATION_DRAWN. */
+/* Append a line whose formulas are in the notation QDOT_NOTATION_DRAWN. */
 void qdot_formula_page_line(qdot_formula_page *page, const qdot_formula *f, qdot_formula_id line);
 /* Append lines without formulas. */
 void qdot_formula_page_text(qdot_formula_page *page, const char *lines, size_t n);

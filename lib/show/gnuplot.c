@@ -1,4 +1,4 @@
-/* gnuplot.c -- gnuplot as a child process. */
+/* gnuplot.c -- runs gnuplot as a child process. */
 #include "show/gnuplot.h"
 
 #include <errno.h>
@@ -16,7 +16,7 @@ extern char **environ;
 
 enum { IN, OUT, SAID, FDS };
 
-/* The child's file descriptors 0, 1, 2, kept above these so that none overwrites another. */
+/* The child's standard streams, on file descriptors above 0, 1 and 2, so that none overwrites another. */
 typedef struct {
     int fd[FDS];
     int from; /* our end of the child's output; -1: none */
@@ -30,7 +30,7 @@ broken(const char *what)
 
 /* Move `fd` above the three standard ones, closed on exec; -1 stays -1. */
 static int
-above(int fd)
+move_descriptor_up(int fd)
 {
     int moved;
 
@@ -41,7 +41,7 @@ above(int fd)
     return moved;
 }
 
-/* A temporary file without a name that contains `text`, to be read from its beginning; -1 on failure. */
+/* Open a temporary file without a name that contains `text`, at its beginning; -1 on failure. */
 static int
 nameless(const char *text, size_t length)
 {
@@ -80,10 +80,10 @@ plumb(plumbing *p, const qdot_text *script, bool wants_output)
 
         if (pipe(ends) != 0)
             return broken("open a pipe");
-        p->from = above(ends[0]);
-        p->fd[OUT] = above(ends[1]);
+        p->from = move_descriptor_up(ends[0]);
+        p->fd[OUT] = move_descriptor_up(ends[1]);
     } else {
-        p->fd[OUT] = above(open("/dev/null", O_WRONLY));
+        p->fd[OUT] = move_descriptor_up(open("/dev/null", O_WRONLY));
     }
     if (p->fd[OUT] < 0 || (wants_output && p->from < 0))
         return broken("open a pipe");
@@ -186,7 +186,7 @@ gnuplot_finish(pid_t child, bool stop)
  * failure. Its errors read `line 12: what`, after an echo of the line and a caret. Some systems
  * tell of a program that is not there only by how the child ended. */
 static qdot_status
-complain(int said, int ended)
+fail_by_stderr(int said, int ended)
 {
     qdot_text all = {0};
     const char *line = "it says nothing", *found = NULL;
@@ -261,7 +261,7 @@ qdot_gnuplot_run(const qdot_text *script, const char *end, qdot_text *image)
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK && (ended != 0 || (image != NULL && image->n == before)))
-        status = complain(p.fd[SAID], ended);
+        status = fail_by_stderr(p.fd[SAID], ended);
     if (status == QDOT_OK && image != NULL)
         status = check_whole(image->at + before, image->n - before, end);
     unplumb(&p);

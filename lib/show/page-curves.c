@@ -1,4 +1,4 @@
-/* page-curves.c -- figures of curves on a page, as SVG. */
+/* page-curves.c -- draws curves on a page as SVG. */
 #include "show/page-curves.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "show/animation.h"
 
-/* Sizes in units of the picture, whose width is WIDE. */
+/* Sizes in units in which the picture has the width WIDE. */
 enum {
     WIDE = 640,
     LOW = 170, /* height of a course */
@@ -105,9 +105,9 @@ add_key(qdot_text *out, double x, double y, const char *label)
     qdot_text_add(out, "</text>");
 }
 
-/* --- courses ------------------------------------------------------------------------ */
+/* --- curves against time ------------------------------------------------------------ */
 
-/* 1, 2 or 5 times a power of ten that divides the span into at most `most` steps. */
+/* A distance of grid lines: 1, 2 or 5 times a power of ten that divides the span into at most `most` steps. */
 static double
 nice_step(double span, double most)
 {
@@ -147,7 +147,7 @@ add_axes(qdot_text *out, const frame *f)
     }
 }
 
-/* The ranges of the curves, a little widened; false if there is nothing to draw. */
+/* Find the ranges of the curves, widened a little; false if there is nothing to draw. */
 static bool
 find_ranges(size_t n, const qdot_page_course *list, frame *f)
 {
@@ -222,7 +222,7 @@ qdot_page_courses(qdot_text *out, const char *name, size_t n,
     svg_end(out, name, " against t");
 }
 
-/* --- logarithmic axes --------------------------------------------------------------- */
+/* --- figures with logarithmic axes -------------------------------------------------- */
 
 static bool
 is_shown(double x, double y)
@@ -230,7 +230,7 @@ is_shown(double x, double y)
     return x > 0 && y > 0 && isfinite(x) && isfinite(y);
 }
 
-/* Powers of ten that enclose the positive values; false if there are none. */
+/* Find powers of ten that enclose the positive values; false if there are none. */
 static bool
 find_decades(size_t n, const qdot_page_points *list, frame *f)
 {

@@ -1,4 +1,4 @@
-/* page.c -- answers as parts of an HTML page: headings and formulas. */
+/* page.c -- writes answers as parts of an HTML page: headings and formulas. */
 #include "show/page.h"
 
 #include <string.h>
@@ -37,7 +37,7 @@ qdot_page_end(qdot_text *out)
     qdot_text_add(out, "</body>\n</html>\n");
 }
 
-/* --- lines --------------------------------------------------------------------------- */
+/* --- writing lines ------------------------------------------------------------------- */
 
 static void
 escape_n(qdot_text *out, const char *text, size_t n)
@@ -50,7 +50,7 @@ escape_n(qdot_text *out, const char *text, size_t n)
     }
 }
 
-/* Whether a line may be broken before the sign, which is not the first of its formula. */
+/* Whether a line may be broken before this sign, which is not the first of its formula. */
 static bool
 is_break(const qdot_formula_node *node)
 {

@@ -1,4 +1,4 @@
-/* pdf.c -- a page printed by a browser without a window. */
+/* pdf.c -- prints a page to PDF by a browser without a window. */
 #include "show/pdf.h"
 
 #include <errno.h>

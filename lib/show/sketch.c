@@ -43,7 +43,7 @@ grid_put(grid *g, double x, double y)
     g->looks[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] = (unsigned char)(g->look + 1);
 }
 
-/* A path in space is seen from in front, to the right and above. */
+/* Place a point of a curve; a path in space is seen from the front, the right and above. */
 static void
 grid_place(const qdot_figure_view *v, const qdot_curve *c, size_t k, const grid *g, double *at)
 {

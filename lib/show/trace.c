@@ -61,7 +61,7 @@ qdot_trace_begin(const qdot_trace_source *source, size_t n, const double *s,
     return status;
 }
 
-/* --- as it is seen -------------------------------------------------------------------- */
+/* --- the curve as it is drawn --------------------------------------------------------- */
 
 /* A point in cm; side: -1 or 1 for each axis whose range it exceeds. */
 typedef struct {
@@ -90,7 +90,7 @@ seen(const qdot_figure_view *v, const qdot_trace *p, size_t axes, size_t k)
     return one;
 }
 
-/* Whether both ends lie beyond the same side of the view. */
+/* Whether both ends of a segment lie beyond the same side of the view. */
 static bool
 segment_is_outside(const place *a, const place *b)
 {
@@ -134,7 +134,7 @@ segment_turn(const place *a, const place *b, const place *c)
 
 /* Mark the segments, k from point k to k + 1, that are to be halved; returns their number. */
 static size_t
-mark(const place *places, size_t n, bool jumps, bool *halve)
+mark_to_halve(const place *places, size_t n, bool jumps, bool *halve)
 {
     size_t marked = 0;
 
@@ -156,7 +156,7 @@ mark(const place *places, size_t n, bool jumps, bool *halve)
     return marked;
 }
 
-/* --- more points ---------------------------------------------------------------------- */
+/* --- adding points where a curve bends ------------------------------------------------ */
 
 /* Insert the points of `more` after each segment that was halved. */
 static qdot_status
@@ -183,7 +183,7 @@ trace_merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halv
     return QDOT_OK;
 }
 
-/* Halve once; *done: no segment needed it. */
+/* Halve the segments that need it, once; *done: none needed it. */
 static qdot_status
 halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
            qdot_trace *p, bool *done)
@@ -198,7 +198,7 @@ halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
     *done = true;
     for (size_t k = 0; k < p->n && status == QDOT_OK; k++)
         places[k] = seen(view, p, source->axes, k);
-    if (status == QDOT_OK && mark(places, p->n, source->jumps, halve) > 0) {
+    if (status == QDOT_OK && mark_to_halve(places, p->n, source->jumps, halve) > 0) {
         for (size_t k = 0; k + 1 < p->n; k++) {
             const double middle = p->s[k] + (p->s[k + 1] - p->s[k]) / 2;
 

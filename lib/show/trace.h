@@ -11,7 +11,8 @@
 
 #include "show/figure.h"
 
-/* The function to trace: at s [n] its components [axes * n], one component after the other. */
+/* The function to trace: from s [n] it computes the components [axes * n], all values of one before
+ * the next. */
 typedef struct {
     size_t axes; /* 2 or 3 */
     qdot_status (*values)(void *user, size_t n, const double *s, double *values);
@@ -19,7 +20,7 @@ typedef struct {
     bool jumps; /* break the line where it jumps from above the view to below it, or back */
 } qdot_trace_source;
 
-/* Points in the order of s; all arrays [n], owned. */
+/* The points of the curve, in the order of s; all arrays [n], owned. */
 typedef struct {
     size_t n;
     double *s, *at[3]; /* at[2] NULL in the plane */
@@ -27,10 +28,10 @@ typedef struct {
 
 enum { QDOT_TRACE_MOST = 20001 };
 
-/* Make the points at s [n], which is copied. */
+/* Begin with the points at the parameter values s [n], which are copied. */
 QDOT_MUST_CHECK qdot_status qdot_trace_begin(const qdot_trace_source *source, size_t n,
                                               const double *s, qdot_trace *points);
-/* Add points where the view needs them. */
+/* Add points wherever the figure's view needs more. */
 QDOT_MUST_CHECK qdot_status qdot_trace_refine(const qdot_trace_source *source,
                                                const qdot_figure_view *view,
                                                qdot_trace *points);
