@@ -1,4 +1,4 @@
-/* bind-slopes.c -- slopes by the tape: the Jacobian of q'', and the form with M. */
+/* bind-slopes.c -- slopes of the equations from the tape: the Jacobian of q'', and the form with M. */
 #include "sim/bind/bind-state.h"
 
 #include "base/memory.h"
@@ -174,7 +174,7 @@ bind_slopes(double t, const double *y, const double *a, double *z, double *dq, d
     return QDOT_OK;
 }
 
-/* --- work space ------------------------------------------------------------------------- */
+/* --- allocating work space -------------------------------------------------------------- */
 
 qdot_status
 qdot_bind_make_slopes(qdot_bind *b)

@@ -29,7 +29,7 @@ struct qdot_bind {
     qdot_guarded *guarded;
     const qdot_ode_series *series; /* the callbacks of the series in use; NULL: there is none */
     qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
-    qdot_ode_bonds bonds;  /* the constraints, for a geometric method */
+    qdot_ode_bonds bonds;  /* the momenta of the system, for geometric methods that need them */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
@@ -41,12 +41,12 @@ struct qdot_bind {
     double *slopes_work;
     qdot_ode_mass_form mass_form; /* how M enters the Jacobian of implicit methods */
 
-    /* For a plan with ignorable coordinates: the reduced plan, which is the one that is integrated. */
+    /* The reduced plan of a plan with ignorable coordinates; the reduced plan is the one that is integrated. */
     qdot_tape *reduced; /* a shaken copy; else NULL */
     qdot_blocks reduced_blocks;
     qdot_momenta *momenta;
 
-    /* For a plan of decoupled parts: the bind and the system of each part. */
+    /* For a plan of decoupled parts: the bind and the equations of each part. */
     qdot_bind **parts;        /* [plan->n_parts] */
     qdot_ode_system *systems; /* [n_parts] */
     qdot_ode_part *listed;    /* [n_parts] */
@@ -57,7 +57,7 @@ struct qdot_bind {
     qdot_pulses pulses; /* what looks at steps of methods without series; made when first asked for */
 };
 
-/* The tape of M and f. */
+/* The tape that computes M and f. */
 static inline const qdot_tape *
 qdot_bind_equations(const qdot_bind *b)
 {
@@ -74,10 +74,10 @@ qdot_bind_load(const qdot_bind *b, double t, const double *y)
     b->in[2 * n] = t;
 }
 
-/* q'' at the inputs, into a [n]. */
+/* Find q'' at the inputs, into a [n]. */
 QDOT_MUST_CHECK qdot_status qdot_bind_accelerate(qdot_bind *b, double *a);
 
-/* The Jacobian of the system (ode/system.h). */
+/* Evaluate the Jacobian of the system (ode/system.h). */
 qdot_status qdot_bind_jacobian(double t, const double *y, double *dfdy, double *dfdt,
                                void *user);
 

@@ -1,4 +1,4 @@
-/* bind.c -- the right-hand side: evaluates the tape, then solves for q''. */
+/* bind.c -- the right-hand side of the equations of motion: evaluates the tape, then solves for q''. */
 #include "sim/bind/bind.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b);
 }
 
-/* --- the system --------------------------------------------------------------------- */
+/* --- the equations as a system of ode/ ---------------------------------------------- */
 
 /* The accelerations of the blocks, from the outputs that begin at `out`; *end: the first output
  * after these. */
@@ -98,7 +98,7 @@ begin_elsewhere(qdot_bind *b, double *a)
     return QDOT_OK;
 }
 
-/* q'' at the loaded state, into a [n]. */
+/* Find q'' at the loaded state, into a [n]. */
 qdot_status
 qdot_bind_accelerate(qdot_bind *b, double *a)
 {
@@ -184,7 +184,7 @@ sum_roundings(const qdot_plan_block *block, const double *of, const double *a, d
     return M;
 }
 
-/* The uncertainty of q'' from the rounding of the equations, or from underflow alone. */
+/* Find the uncertainty of q'' from the rounding of the equations, or from underflow alone. */
 static qdot_status
 find_roundings(const qdot_ode_system *system, double t, const double *y, const double *a, bool underflows, double *e)
 {
@@ -395,7 +395,7 @@ qdot_bind_factored(const qdot_bind *b)
            b->reduced_blocks.factored;
 }
 
-/* Make the evaluator of the constraints. */
+/* Make the evaluator that keeps the state on the constraints. */
 static qdot_status
 make_held(qdot_bind *b, bool shaken)
 {
@@ -471,7 +471,7 @@ make_reduced(qdot_bind *b, bool shaken)
     return QDOT_OK;
 }
 
-/* Work space for M q'' = f, unless the plan has only the tree. */
+/* Allocate work space for M q'' = f, unless the plan uses only the tree. */
 static qdot_status
 make_equations(qdot_bind *b, bool shaken)
 {

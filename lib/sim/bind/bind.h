@@ -44,7 +44,7 @@ QDOT_MUST_CHECK qdot_status qdot_bind_accelerations(const qdot_ode_system *syste
  * 0 under constraints, and of a plan without M. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_bind_roundings(const qdot_ode_system *system, double t,
                                                 const double *y, const double *a, double *e);
-/* The uncertainty e of q'' that underflow alone causes; it may be infinite or a NaN. */
+/* Find the uncertainty e of q'' that underflow alone causes; it may be infinite or a NaN. */
 QDOT_MUST_CHECK qdot_status qdot_bind_underflows(const qdot_ode_system *system, double t, const double *y,
                                                  const double *a, double *e);
 
@@ -61,7 +61,7 @@ qdot_constrained *qdot_bind_held(qdot_bind *bind);
  * 10.3 kB`, or `kernels` and why. */
 void qdot_bind_tell_code(const qdot_bind *bind, qdot_text *to);
 
-/* How many times M was factored so far. */
+/* The number of times that M has been factored so far. */
 size_t qdot_bind_factored(const qdot_bind *bind);
 
 #endif

@@ -1,4 +1,4 @@
-/* polynomial-bounds.c -- bounds around a stretch of time by discs. */
+/* polynomial-bounds.c -- bounds expressions on a time interval by discs in the complex plane. */
 #include "sim/bind/polynomial-bounds.h"
 
 #include <float.h>
@@ -199,7 +199,7 @@ qdot_polynomial_bounds_look(qdot_polynomial_bounds *h, double a, double b, int n
         for (size_t i = 0; i < m; i++) {
             double most = h->out_radius[i];
 
-            /* on the ellipse |t - a| is smallest on its axis */
+            /* over the ellipse, |t - a| is smallest at an end of its major axis */
             if (quotients && quotients[i])
                 most = 2 * (most + fabs(h->out[i] - base[i])) / (0.5 * (rho + 1 / rho) - 1);
             h->miss[i] = fmin(h->miss[i], 4 * most * pow(rho, 1 - nodes) / (rho - 1));

@@ -20,10 +20,10 @@ enum {
  * values and in tolerances. */
 static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it = 0.01;
 
-/* The largest exponent u of a force e^u that series and differences still resolve. */
+/* The largest exponent u of a force e^u that series and differences can still resolve. */
 static const double short_reach = 10;
 
-/* The share of the allowed error that unexamined intervals may have: all of them together, and each one. */
+/* The share of the allowed error that is left to unexamined intervals: for all of them, and for each one. */
 static const double unknown_in_all = 0.5, unknown_on_one = 0.1;
 
 /* A part begins what is missed if it is that much shorter than the step, and its values change by
@@ -81,7 +81,7 @@ bend_of(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
     return (s->to[i] - s->from[i]) / (s->b - s->a) - 0.5 * (s->from[p->n + i] + s->to[p->n + i]);
 }
 
-/* Positions and velocities at t from the cubic through both ends of the step. */
+/* Interpolate positions and velocities at t by the cubic through both ends of the step. */
 static void
 interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y)
 {
@@ -98,7 +98,7 @@ interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y
     }
 }
 
-/* The state at t: by the interpolation of the step if it has one, else by cubics. */
+/* Evaluate the state at t: by the interpolation of the step if it has one, else by cubics. */
 static qdot_status
 state_at(qdot_pulses *p, qdot_pulses_step *s, double t, double *y)
 {
@@ -114,7 +114,7 @@ time_at(double a, double b, int nodes, int j)
     return qdot_chebyshev_place(a, b, qdot_chebyshev_node(nodes, j));
 }
 
-/* Values at the nodes of a ... b; *finite: all are numbers. */
+/* Evaluate the outputs at the nodes of a ... b; *finite: all are numbers. */
 static qdot_status
 sample(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool *finite)
 {
@@ -203,7 +203,7 @@ add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
     }
 }
 
-/* The largest allowed error of output i, whose integral over the step is `all`. */
+/* The largest error of output i that is allowed; its integral over the step is `all`. */
 static double
 allowance(const qdot_pulses_step *s, double all)
 {
@@ -318,7 +318,7 @@ find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
         }
 }
 
-/* The smallest disc about the interval of four numbers, enlarged by rounding. */
+/* Find the smallest disc about the interval of four numbers, enlarged by rounding. */
 static void
 disc_about(const double *x, double *centre, double *radius)
 {
@@ -329,7 +329,7 @@ disc_about(const double *x, double *centre, double *radius)
     *radius = 0.5 * (hi - lo) + 4 * DBL_EPSILON * fmax(fabs(lo), fabs(hi));
 }
 
-/* Discs that enclose the cubics of positions and their slopes, from the control points of the cubics. */
+/* Find discs that enclose the cubics of positions and their slopes, from the control points of the cubics. */
 static void
 enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
 {
@@ -417,9 +417,9 @@ shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
            goes_one_way(p, s, k);
 }
 
-/* The error of output i from forces that were missed, divided by its allowed error. */
+/* The error of output i caused by forces that were missed, divided by its allowed error. */
 static double
-missed(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
+missed_error(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {
     return p->beyond[i] / allowance(s, p->all[i]);
 }
@@ -444,8 +444,8 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
         qdot_chebyshev_fit(p->nodes, p->values + i * MOST, p->whole + i * MOST);
     QDOT_TRY(look_at_parts(p, s, &all));
     for (size_t i = 1; i < p->m; i++)
-        worst = missed(p, s, i) > missed(p, s, worst) ? i : worst;
-    s->missed = missed(p, s, worst) > 1;
+        worst = missed_error(p, s, i) > missed_error(p, s, worst) ? i : worst;
+    s->missed = missed_error(p, s, worst) > 1;
     if (s->missed) {
         find_begin(p, worst, s);
         p->most = MOST_PARTS;

@@ -24,7 +24,7 @@
 #include "sim/model/equations.h"
 #include "tape/disc.h"
 
-/* What is recorded to find pulses: forces that act for a shorter time than a step. Initialise with {0}. */
+/* Data recorded to find pulses: forces that act for a shorter time than a step. Initialise with {0}. */
 typedef struct {
     const qdot_tape *tape; /* of M and f; NULL: none yet */
     size_t n, m;           /* coordinates; outputs that are inspected */
@@ -52,7 +52,7 @@ typedef struct {
 typedef struct {
     double a, b, tol;
     const double *from, *to; /* [2n] the states at a, b */
-    /* The state at t into y [2n]; NULL: by a cubic through positions and velocities of both ends. */
+    /* Read the state at t into y [2n]; NULL: by a cubic through positions and velocities of both ends. */
     qdot_status (*read)(double t, double *y, void *user);
     void *user;
     bool missed;

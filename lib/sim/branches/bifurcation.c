@@ -50,7 +50,7 @@ normalise(const qdot_path *x, double *t)
         t[i] /= length;
 }
 
-/* The tangents of the two curves at a crossing, into one and two [n + 1]. */
+/* Find the tangents of the two curves at a crossing, into one and two [n + 1]. */
 static void
 directions(const qdot_path *x, const double *c, const double *v, double root, double *one,
            double *two)

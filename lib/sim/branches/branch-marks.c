@@ -18,7 +18,7 @@ static const double close_together = 1e-2;
 /* How far apart two bifurcations of a kind may be found that are one: those that are not located better
  * than by their errors, and those of equations with accurate test functions, by these. */
 static double
-apart(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
+tolerance_of_identity(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
 {
     const double errors = sqrt(qdot_path_product(x, a->error, a->error)) +
                           sqrt(qdot_path_product(x, b->error, b->error));
@@ -37,7 +37,7 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
     while (i < s->all->bifurcations.n &&
            (s->all->bifurcations.at[i].kind != b->kind ||
             qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) >
-                apart(s->x, &s->all->bifurcations.at[i], b)))
+                tolerance_of_identity(s->x, &s->all->bifurcations.at[i], b)))
         i++;
     return i;
 }
@@ -263,7 +263,7 @@ qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d, size_t place, double 
         status = find_crossing_from(s, &d->at[place], k == 0 ? -way : way, &room, &b[k], other[k], both);
     }
     *both = *both && status == QDOT_OK &&
-            qdot_path_distance(x, b[0].y, b[1].y) > apart(x, &b[0], &b[1]);
+            qdot_path_distance(x, b[0].y, b[1].y) > tolerance_of_identity(x, &b[0], &b[1]);
     if (*both && status == QDOT_OK)
         status = insert_pair(s, d, place, b, other, &room, branch);
     for (int k = 0; k < 2; k++) {

@@ -15,7 +15,7 @@
 /* Reduce angles to -pi < q <= pi, where the equations are known to have that period. */
 void qdot_branch_turn_back(const qdot_path *x, double *y);
 
-/* The longest step from y that does not go over to another curve near two crossings that lie close together. */
+/* The longest step from y that stays on this curve although two crossings lie close together. */
 double qdot_branch_longest_near(const qdot_branch_search *s, const double *y);
 
 /* Keep the bifurcation b, if it is new, with the direction of the other curve; *mark is 1 + its index. Owns both

@@ -13,7 +13,7 @@ typedef enum {
     QDOT_END_HALF,    /* an orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, jump, or have a kink */
-    QDOT_END_BLURRED, /* the errors are larger than what decides on stability and bifurcations */
+    QDOT_END_BLURRED, /* errors are too large to decide on stability and bifurcations */
     QDOT_END_NO_REST, /* known exactly: these equilibria do not exist further on */
     QDOT_END_STOPPED  /* interrupted, or too many points */
 } qdot_branch_end;

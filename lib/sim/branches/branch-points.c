@@ -1,4 +1,4 @@
-/* branch-points.c -- the points of a branch. */
+/* branch-points.c -- makes, copies and removes the points of a branch. */
 #include "sim/branches/branch-points.h"
 
 #include <string.h>

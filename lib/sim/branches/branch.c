@@ -9,15 +9,15 @@
 #include "sim/branches/branch-marks.h"
 #include "sim/branches/branch-points.h"
 
-/* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
+/* Lengths along curves, where p's range, a full angle in radians and the size of each coordinate count as 1. */
 static const double first_step = 2e-3, far_away = 100;
 /* The tangents of neighbouring points may differ by an angle of at most acos of this. */
 static const double straight = 0.99;
 /* A point whose distance exceeds the step by more than this factor belongs to another curve. */
 static const double longer = 1.02;
-/* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
+/* Multipliers of neighbouring orbits turn and grow by less than this, unless the step is short. */
 static const double turned = 0.5, grown = 1;
-/* Two bifurcations of different kinds that are closer than this (arclength) are not told apart. */
+/* Two bifurcations of different kinds that are closer than this (arclength) are taken for one place. */
 static const double together = 1e-6;
 /* The smallest step (arclength) with which two curves that do not cross are told apart. */
 static const double nearest = 1e-8;
@@ -30,7 +30,7 @@ enum { MOST_POINTS = 20000, UNKNOWN = 20, HALVINGS = 52 };
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
-/* Whether p is stationary along the curve at a: the tangent has no component along p, as at a fold. */
+/* Whether p is stationary along the curve at a, as at a fold: the tangent has no component along p. */
 static bool
 is_upright(const qdot_path *x, const qdot_path_point *a)
 {
@@ -330,11 +330,11 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     return QDOT_OK;
 }
 
-/* --- steps -------------------------------------------------------------------------------- */
+/* --- steps along a branch ----------------------------------------------------------------- */
 
-/* Which bound y has passed: the index of that unknown (n for p), *held the bound itself; n + 1 if none. */
+/* The bound that y has passed, as the index of its unknown (n for p), *held being the bound; n + 1 if none. */
 static size_t
-passed(const qdot_path *x, const double *y, double *held)
+bound_passed(const qdot_path *x, const double *y, double *held)
 {
     for (size_t i = 0; i <= x->n; i++) {
         const double lo = i < x->n ? qdot_path_end_of(x, i, false, y[x->n]) : x->least;
@@ -378,7 +378,7 @@ end_by_halving(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, doubl
 
         if (!qdot_path_go(x, a, middle, b, &steps))
             return false;
-        *(passed(x, b->y, &held) > x->n ? &inside : &outside) = middle;
+        *(bound_passed(x, b->y, &held) > x->n ? &inside : &outside) = middle;
     }
     if (!(inside > 0) || !qdot_path_go(x, a, inside, b, &steps))
         return false;
@@ -408,7 +408,7 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
                 x->reason[0] = '\0';
             continue;
         }
-        i = passed(x, b->y, &held);
+        i = bound_passed(x, b->y, &held);
         if (i > x->n) {
             *step *= steps <= 4 ? 1.5 : 1;
             *last = false;
@@ -425,7 +425,7 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
 
 /* The distance of two places in scaled unknowns; angles are not reduced to a turn. */
 static double
-way(const qdot_path *x, const double *a, const double *b)
+scaled_way(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;
 
@@ -451,7 +451,7 @@ is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_poin
     return true;
 }
 
-/* Judge the stability of b and look for bifurcations between a and b; records if the user interrupted. */
+/* Judge the stability of b and find bifurcations between a and b; records if the user interrupted. */
 static qdot_status
 branch_look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
             qdot_branch *branch)
@@ -563,7 +563,7 @@ branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_poi
         QDOT_TRY(qdot_branch_add(x, branch, b->y, b->stability, 0));
         gone += length;
         qdot_dips_add(x, d, b, gone, branch->n);
-        far = way(x, start->y, b->y);
+        far = scaled_way(x, start->y, b->y);
         if (b->rests || (!last && far > far_away)) {
             branch->end[1] = b->rests ? QDOT_END_REST : QDOT_END_FAR;
             return QDOT_OK;

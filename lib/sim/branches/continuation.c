@@ -1,4 +1,4 @@
-/* continuation.c -- tells which curves are known already, and follows the others through their crossings. */
+/* continuation.c -- finds which curves are known already, and follows the others through their crossings. */
 #include "sim/branches/continuation.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 /* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. Of a unit
  * direction: below, it has no part along p. */
 static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4}, upright = 1e-8;
-/* A residual counts as 0 below this part of the residuals at shifted unknowns. */
+/* A residual counts as 0 below this fraction of the residuals at shifted unknowns. */
 static const double zero = 1e-9;
 enum { MOST_BRANCHES = 400 };
 
@@ -28,7 +28,7 @@ qdot_continuation_clear(qdot_continuation *x)
     *x = (qdot_continuation){0};
 }
 
-/* --- what is known already --------------------------------------------------------------------- */
+/* --- curves that are known already ------------------------------------------------------------- */
 
 /* Whether y lies on the curve between its points `from` and `to`; `here` is work space. */
 static bool
@@ -83,7 +83,7 @@ qdot_continuation_knows(qdot_branch_search *s, const double *y, bool *known)
     return status;
 }
 
-/* --- branches ----------------------------------------------------------------------------- */
+/* --- following branches ------------------------------------------------------------------- */
 
 /* One branch of two ways that begin at the same place: the first backwards, `middle` if not NULL, the
  * second. */
@@ -217,7 +217,7 @@ follow_from(qdot_branch_search *s, const double *y, bool *left)
     return status;
 }
 
-/* --- crossings ----------------------------------------------------------------------------- */
+/* --- crossings of branches ----------------------------------------------------------------- */
 
 /* Whether dp/ds changes its sign between the crossing `start` and a: then that step has jumped over a fold. */
 static bool
@@ -229,8 +229,8 @@ turns_between(const qdot_path *x, const qdot_path_point *start, const qdot_path_
 /* A first point a beyond a crossing at y along `other`, times `way`, by a few lengths, not `over` a fold unless that is
  * said; false: none. */
 static bool
-leap(qdot_path *x, const double *y, const double *other, double way, bool over, qdot_path_point *start,
-     qdot_path_point *a)
+point_beyond_crossing(qdot_path *x, const double *y, const double *other, double way, bool over,
+                      qdot_path_point *start, qdot_path_point *a)
 {
     const size_t m = x->n + 1;
     int steps;
@@ -304,8 +304,8 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     arm->end[1] = QDOT_END_RANGE;
     if (status == QDOT_OK)
         status = qdot_path_point_begin(s->x, &a);
-    if (status == QDOT_OK && (leap(s->x, y, other, way, false, &start, &a) ||
-                              (over = leap(s->x, y, other, way, true, &start, &a)))) {
+    if (status == QDOT_OK && (point_beyond_crossing(s->x, y, other, way, false, &start, &a) ||
+                              (over = point_beyond_crossing(s->x, y, other, way, true, &start, &a)))) {
         if (!qdot_path_is_inside(s->x, a.y))
             arm->end[1] = QDOT_END_DOMAIN;
         if (arm->end[1] == QDOT_END_RANGE)
@@ -366,7 +366,7 @@ follow_crossings(qdot_branch_search *s, size_t *done)
     return status;
 }
 
-/* --- all ------------------------------------------------------------------------------------ */
+/* --- the whole continuation ----------------------------------------------------------------- */
 
 /* Append the point y to s->all->left, the points that are not on a curve followed so far. */
 static qdot_status

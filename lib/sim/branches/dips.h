@@ -37,7 +37,7 @@ QDOT_MUST_CHECK qdot_status qdot_dips_begin(const qdot_path *x, qdot_dips *d);
 void qdot_dips_end(qdot_dips *d);
 /* Forget the points before a bifurcation, across which the test functions are not smooth. */
 void qdot_dips_forget(qdot_dips *d);
-/* b follows, at `gone`, the branch has `count` points with it. */
+/* Add the point b, which lies at arclength `gone`; with it the branch has `count` points. */
 void qdot_dips_add(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, double gone,
                    size_t count);
 /* Call before b is added. The answer ZERO refers to the determinant only. */

@@ -1,4 +1,4 @@
-/* fold-guess.c -- a cubic through four points of a curve, around a crossing. */
+/* fold-guess.c -- guesses a fold near a crossing from the cubic through four points of a curve. */
 #include "sim/branches/fold-guess.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ enum { POINTS = 4, HALVINGS = 60 };
 /* Points are on one curve if the tangents differ by no more than the angle with this cosine. */
 static const double straight = 0.9;
 
-/* The cubic through f_k at s = -3, -1, 1, 3 (times h). */
+/* The value at s of the cubic with values f_k at s = -3, -1, 1, 3. */
 static double
 cubic(const double *f, size_t stride, double s)
 {
@@ -27,7 +27,7 @@ cubic(const double *f, size_t stride, double s)
     return sum;
 }
 
-/* The zero of the cubic between its outer nodes, where its values have different signs. */
+/* The zero of the cubic between the two nodes at its ends, where its values have different signs. */
 static double
 zero_of(const double *f)
 {

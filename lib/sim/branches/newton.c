@@ -1,4 +1,4 @@
-/* newton.c -- Newton's iteration with a tape's derivatives. */
+/* newton.c -- Newton's iteration with the derivatives of a tape. */
 #include "sim/branches/newton.h"
 
 #include <math.h>
@@ -96,7 +96,7 @@ prove(qdot_newton *s, double *x, double *error)
     return QDOT_OK;
 }
 
-/* Newton's method from x until only rounding is left; then prove that a solution exists there. */
+/* Iterate Newton's method from x until only rounding is left; then prove that a solution exists there. */
 static qdot_status
 iterate(qdot_newton *s, double *x, double *error, bool *found)
 {

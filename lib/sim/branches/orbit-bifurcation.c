@@ -1,4 +1,4 @@
-/* orbit-bifurcation.c -- zeros along a curve of orbits. */
+/* orbit-bifurcation.c -- finds bifurcations of periodic orbits as zeros of test functions along a curve. */
 #include "sim/branches/orbit-bifurcation.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static const double apart = 1e-10;
 static const double rounding = 4e-15;
 /* A pair of multipliers on the unit circle: ||mu| - 1| is below the first, |sin(arg mu)| above the second. */
 static const double on_circle = 1e-6, off_axis = 1e-3;
-/* How far, of a length of 1, a crossing may be off at least. */
+/* The smallest error that is assumed for a crossing, for an orbit of length 1. */
 static const double least_off = 5e-14;
 /* If the states half a period apart differ by less than this (in scaled length), the period is half as long. */
 static const double half = 1e-9;
@@ -35,7 +35,7 @@ typedef struct {
     double angle, beside;   /* of the pair nearest to the unit circle, and how far it is from it */
 } search;
 
-/* --- test functions ------------------------------------------------------------------------------ */
+/* --- test functions of bifurcations -------------------------------------------------------------- */
 
 static double
 of_pairs(search *f, size_t z)
@@ -110,7 +110,7 @@ test_at(search *f, double s)
     return qdot_path_go(&f->x->path, f->a, s, &f->point, &steps) ? test(f) : NAN;
 }
 
-/* --- zeros ------------------------------------------------------------------------------------ */
+/* --- zeros of test functions ------------------------------------------------------------------ */
 
 /* The zero between *lo and *hi, whose values are known, to `fine`, by regula falsi with halved values (Illinois). False:
  * the values do not differ in sign, or one is not known. */
@@ -156,7 +156,7 @@ close_in(search *f, double *lo, double *hi, double fine)
 
 /* The polynomial through (x, f) [n] at s, by Neville's scheme. */
 static double
-through(size_t n, const double *x, const double *f, double s)
+interpolate_neville(size_t n, const double *x, const double *f, double s)
 {
     double p[PLACES];
 
@@ -171,7 +171,8 @@ through(size_t n, const double *x, const double *f, double s)
 static double
 zero_through(size_t n, const double *x, const double *f, double s, double step)
 {
-    double a = s - step, b = s + step, at_a = through(n, x, f, a), at_b = through(n, x, f, b);
+    double a = s - step, b = s + step, at_a = interpolate_neville(n, x, f, a),
+           at_b = interpolate_neville(n, x, f, b);
 
     for (int k = 0; k < STEPS && at_a != at_b; k++) {
         const double c = b - at_b * (b - a) / (at_b - at_a);
@@ -179,7 +180,7 @@ zero_through(size_t n, const double *x, const double *f, double s, double step)
         a = b;
         at_a = at_b;
         b = c;
-        at_b = through(n, x, f, b);
+        at_b = interpolate_neville(n, x, f, b);
         if (fabs(b - a) < 1e-16)
             break;
     }
@@ -210,7 +211,7 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
 
         for (size_t k = 0; k < PLACES; k++)
             own[k] = all[k * m + i];
-        y[i] = through(PLACES, at, own, zero);
+        y[i] = interpolate_neville(PLACES, at, own, zero);
     }
     *s = zero;
     qdot_free(all);
@@ -257,7 +258,7 @@ find_crossing(search *f, double lo, double hi, double *off)
     return found;
 }
 
-/* Where as many multipliers are beyond the unit circle as at the point a, and where not: halved. */
+/* Halve lo .. hi, between whose ends the number of multipliers outside the unit circle changes. */
 static qdot_status
 halve(search *f, double *lo, double *hi, bool *found)
 {
@@ -282,7 +283,8 @@ halve(search *f, double *lo, double *hi, bool *found)
     return QDOT_OK;
 }
 
-/* Multipliers count as growing beyond 1 + 1e-6 only: the circle may lie outside lo .. hi by as much. */
+/* Widen lo .. hi: as multipliers count as growing beyond 1 + 1e-6 only, the circle may lie outside
+ * by as much. */
 static void
 multipliers_widen(search *f, double *lo, double *hi)
 {
@@ -328,9 +330,9 @@ orbit_locate(search *f, double lo, double hi, double *y, double *off, bool *foun
     return path->failure;
 }
 
-/* --- crossings ------------------------------------------------------------------------------------ */
+/* --- the other branch at a crossing --------------------------------------------------------------- */
 
-/* (psi.F)_y at y + h v: out [n + 1]. */
+/* Find the derivative (psi.F)_y at y + h v: out [n + 1]. */
 static bool
 slope_beside(qdot_path *x, const double *y, const double *v, double h, const double *psi,
              double *room, double *out)
@@ -350,7 +352,7 @@ slope_beside(qdot_path *x, const double *y, const double *v, double h, const dou
     return true;
 }
 
-/* v_i.(psi.F)_yy v_j. */
+/* Find the matrix of second derivatives v_i.(psi.F)_yy v_j. */
 static bool
 find_form(qdot_path *x, const double *y, const double *v, const double *psi, double *room, double *c)
 {
@@ -375,7 +377,7 @@ find_form(qdot_path *x, const double *y, const double *v, const double *psi, dou
     return true;
 }
 
-/* Null vectors v of F_y and psi of its transpose, of unit length in the scaled norm. */
+/* Find null vectors v of F_y and psi of its transpose, of unit length in the scaled norm. */
 static qdot_status
 find_null_vectors(qdot_path *x, const double *y, double *v, double *psi)
 {
@@ -412,7 +414,7 @@ point_up(const qdot_path *x, double *t)
     t[most] = fabs(t[most]);
 }
 
-/* The tangent of the branch of doubled period at y; along it p is constant to first order. */
+/* Find the tangent of the branch of doubled period at y; along it p is constant to first order. */
 qdot_status
 qdot_orbit_bifurcation_double(qdot_orbit_path *orbit, const double *y, double *t)
 {
@@ -451,7 +453,7 @@ classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other,
     return qdot_grave(status);
 }
 
-/* --- any of them ---------------------------------------------------------------------------------- */
+/* --- locating a bifurcation of any kind ----------------------------------------------------------- */
 
 /* The point a, recomputed by the run with the coarse tolerance. */
 static bool

@@ -1,4 +1,4 @@
-/* orbit-continuation.c -- starts the continuation from one orbit, and tells how curves of orbits end. */
+/* orbit-continuation.c -- starts the continuation from one orbit, and finds how curves of orbits end. */
 #include "sim/branches/orbit-continuation.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static const double alike = 1e-6;
 
 /* Whether the period grows without bound between points `from` and `to`, which lie at one end of the branch. */
 static bool
-grows(const qdot_path *x, const qdot_branch *b, size_t from, size_t to)
+period_grows(const qdot_path *x, const qdot_branch *b, size_t from, size_t to)
 {
     const size_t T = 2 * (x->coordinates / 2);
     const double *y = b->y + from * x->width, *z = b->y + to * x->width;
@@ -45,7 +45,7 @@ name_ends(const qdot_path *x, qdot_continuation *all)
         for (size_t side = 0; side < 2 && b->n > 3; side++)
             if ((b->end[side] == QDOT_END_LOST || b->end[side] == QDOT_END_BLURRED ||
                  b->end[side] == QDOT_END_FAR) &&
-                grows(x, b, side == 0 ? 2 : b->n - 3, side == 0 ? 0 : b->n - 1))
+                period_grows(x, b, side == 0 ? 2 : b->n - 3, side == 0 ? 0 : b->n - 1))
                 b->end[side] = QDOT_END_PERIOD;
     }
 }
@@ -63,7 +63,7 @@ check_range(const qdot_orbit_path *x, double p)
                      p, of->least, of->most);
 }
 
-/* --- period doubling ----------------------------------------------------------------------------- */
+/* --- branches of doubled period ------------------------------------------------------------------ */
 
 static qdot_status
 open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation *out)
@@ -259,7 +259,7 @@ double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size
     return status;
 }
 
-/* --- all ------------------------------------------------------------------------------------------ */
+/* --- the whole continuation ----------------------------------------------------------------------- */
 
 qdot_status
 qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)

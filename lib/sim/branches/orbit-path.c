@@ -1,4 +1,5 @@
-/* orbit-path.c -- F and F' of periodic orbits by integration with sensitivities; stability and multipliers. */
+/* orbit-path.c -- F and F' of periodic orbits from integration with sensitivities; stability and
+ * multipliers. */
 #include "sim/branches/orbit-path.h"
 
 #include <math.h>
@@ -39,7 +40,7 @@ qdot_orbit_path_most(size_t n)
     return 2 * n * QDOT_FLOW_MOST_SEGMENTS + 3 + 3 * n;
 }
 
-/* --- one evaluation ------------------------------------------------------------------------- */
+/* --- one evaluation of F -------------------------------------------------------------------- */
 
 /* The number of variables of the flow: 2n, and p if it is a parameter of the scene. */
 static size_t
@@ -80,9 +81,9 @@ slope_of(const qdot_orbit_path *x, size_t k, size_t end, size_t i, size_t j)
     return x->slopes[((2 * k + end) * x->flow[0].m + i) * width_of(x) + j];
 }
 
-/* The runs at y, their numbers. */
+/* Integrate the segments of the orbit y, and store their values and derivatives. */
 static qdot_status
-ask(qdot_orbit_path *x, const double *y)
+integrate_segments(qdot_orbit_path *x, const double *y)
 {
     const qdot_flow_orbit o = orbit_of(x, y);
     qdot_flow *const f = &x->flow[x->by];
@@ -99,7 +100,8 @@ ask(qdot_orbit_path *x, const double *y)
     return QDOT_OK;
 }
 
-/* The difference between the end of segment k and the start of the next, and its derivatives, into F and J. */
+/* Write the difference between the end of segment k and the start of the next, and its derivatives,
+ * into F and J. */
 static void
 fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 {
@@ -183,7 +185,7 @@ orbit_evaluate(qdot_path *path, const double *y)
     for (size_t i = 0; i <= path->n; i++)
         if (!isfinite(y[i]))
             return;
-    status = path->failure == QDOT_OK ? ask(x, y) : path->failure;
+    status = path->failure == QDOT_OK ? integrate_segments(x, y) : path->failure;
     if (status != QDOT_OK) {
         path->failure = qdot_grave(status);
         snprintf(path->reason, sizeof path->reason, "%.150s", qdot_last_error()->message);
@@ -224,7 +226,7 @@ qdot_orbit_path_ask(qdot_orbit_path *x, size_t by)
     x->by = by;
 }
 
-/* --- what is judged --------------------------------------------------------------------------- */
+/* --- judging an orbit ------------------------------------------------------------------------- */
 
 /* Fill B, the monodromy of the selected run (fine or coarse), and E, its difference from the other run's. */
 static bool
@@ -281,7 +283,7 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
                                                           : QDOT_STABLE_TO_FIRST_ORDER;
 }
 
-/* A reader of the orbit that was evaluated last. */
+/* A reader for the orbit that was evaluated last. */
 static qdot_orbit_read
 read_of(qdot_orbit_path *x, const qdot_flow_orbit *o)
 {
@@ -326,7 +328,7 @@ orbit_judge(qdot_path *path, qdot_path_point *a)
     return status;
 }
 
-/* --- made ----------------------------------------------------------------------------------- */
+/* --- making the path ------------------------------------------------------------------------ */
 
 static qdot_status
 orbit_allocate(qdot_orbit_path *x)
@@ -453,7 +455,8 @@ orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
     return QDOT_OK;
 }
 
-/* The first point of the branch: y with the states between segments, and the typical size of each component. */
+/* Make the first point of the branch: y with the states between segments, and the typical size of
+ * each component. */
 static qdot_status
 make_first(qdot_orbit_path *x, double *size, double *y)
 {
@@ -465,14 +468,14 @@ make_first(qdot_orbit_path *x, double *size, double *y)
         y[z + 1] = 0;
     y[n] = x->of.p;
     QDOT_TRY(follow_states(x, y));
-    QDOT_TRY(ask(x, y));
+    QDOT_TRY(integrate_segments(x, y));
     QDOT_TRY(fill_factors(x, y)); /* finds how many multipliers there are */
     QDOT_TRY(orbit_find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));
     if (x->phase < z && !(fabs(x->rate) > 0)) { /* the start was moved */
         QDOT_TRY(follow_states(x, y));
-        QDOT_TRY(ask(x, y));
+        QDOT_TRY(integrate_segments(x, y));
         x->rate = segment_value(x, 0, 0, x->n + x->phase);
     }
     x->energy = x->conserved ? segment_value(x, 0, 0, 3 * x->n) : 0;

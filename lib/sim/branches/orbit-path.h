@@ -81,7 +81,7 @@ void qdot_orbit_path_end(qdot_orbit_path *x);
  * are of a scene: */
 size_t qdot_orbit_path_most(size_t n);
 
-/* The monodromy matrix B at y by the selected run; false if there is none. E is not changed. */
+/* Find the monodromy matrix B at y by the selected run; false if there is none. E is not changed. */
 bool qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y);
 /* Use the runs with the fine tolerance (0) or the coarse one (1) from now on. */
 void qdot_orbit_path_ask(qdot_orbit_path *x, size_t by);

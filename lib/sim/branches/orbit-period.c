@@ -78,7 +78,7 @@ qdot_orbit_is_driven(qdot_scene *s, const qdot_run_request *r, bool *driven)
     return status;
 }
 
-/* The value of e with the number `at` for the parameter p. */
+/* Evaluate e with the number `at` for the parameter p. */
 static qdot_status
 number_of(qdot_pool *pool, qdot_expr e, qdot_expr p, double at, double *value)
 {

@@ -52,7 +52,7 @@ at(const shape *s, size_t k, size_t i)
 
 /* The sample at which q_i is largest; *least is its smallest value. */
 static size_t
-largest(const shape *s, size_t i, double *least)
+sample_of_maximum(const shape *s, size_t i, double *least)
 {
     size_t best = 0;
 
@@ -106,7 +106,7 @@ qdot_orbit_shape(qdot_orbit_read *r, double *most, double *size)
     *size = 0;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double least;
-        const size_t k = largest(&s, i, &least);
+        const size_t k = sample_of_maximum(&s, i, &least);
 
         status = shape_find_turn(&s, i, k);
         most[i] = fmax(at(&s, k, i), s.one[i]);
@@ -124,7 +124,7 @@ qdot_orbit_changes(qdot_orbit_read *r, double *change)
 
     for (size_t i = 0; i < 2 * s.n && status == QDOT_OK; i++) {
         double least;
-        const size_t k = largest(&s, i, &least);
+        const size_t k = sample_of_maximum(&s, i, &least);
 
         change[i] = (at(&s, k, i) - least) / 2;
     }
@@ -143,7 +143,7 @@ qdot_orbit_turn(qdot_orbit_read *r, size_t *phase, double *z)
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double least;
-        const size_t k = largest(&s, i, &least);
+        const size_t k = sample_of_maximum(&s, i, &least);
 
         if (at(&s, k, i) - least > most) {
             most = at(&s, k, i) - least;

@@ -1,4 +1,4 @@
-/* path.c -- tangents and corrections of curves. */
+/* path.c -- follows curves of zeros: tangents, predictions and corrections. */
 #include "sim/branches/path.h"
 
 #include <math.h>
@@ -137,7 +137,7 @@ qdot_path_distance(const qdot_path *x, const double *a, const double *b)
     return sqrt(sum);
 }
 
-/* Factor [J; g^T] with the J of the latest evaluation. */
+/* Factor the matrix of J, from the latest evaluation, with the row g^T below it. */
 static bool
 factor(qdot_path *x, const double *g)
 {

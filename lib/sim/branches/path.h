@@ -41,7 +41,7 @@ struct qdot_path {
     double (*end)(const qdot_path *x, size_t i, bool upper, double p); /* one that moves with p; NULL: none does */
     double least, most;      /* of p */
     double *weight;          /* [n + 1] */
-    double exact;            /* corrections of Newton's below are rounding */
+    double exact;            /* Newton corrections smaller than this are rounding errors */
     double most_det;         /* the largest determinant so far */
     double gauge;            /* what the determinant is divided by, as `at` found it */
     double shortest, longest; /* steps along the curve */
@@ -62,7 +62,7 @@ struct qdot_path {
     qdot_status failure;     /* of the latest evaluation: not QDOT_OK ends the search */
 };
 
-/* Room for n unknowns. From {0}; ended in any case. The rest is filled by the caller. */
+/* Allocate room for n unknowns. From {0}; ended in any case. The rest is filled by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_path_begin(qdot_path *x, size_t n);
 void qdot_path_end(qdot_path *x);
 /* Set the weights of y: 1 / range of p, 1 / size [n] of the unknowns; hidden unknowns get small weights. */
@@ -92,7 +92,7 @@ bool qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps);
 bool qdot_path_hold(qdot_path *x, size_t i, double *y);
 /* Compute the tangent a->t and a->sign at a->y, oriented along `along`; false if there is no tangent. */
 bool qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a);
-/* The point at arclength s from a, predicted along a->t, with its tangent; false if there is none. */
+/* Find the point at arclength s from a, predicted along a->t, with its tangent; false if there is none. */
 bool qdot_path_go(qdot_path *x, const qdot_path_point *a, double s, qdot_path_point *to, int *steps);
 
 #endif

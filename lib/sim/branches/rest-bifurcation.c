@@ -14,7 +14,7 @@
 /* Components of a unit tangent along p below `upright` count as 0; entries of Gamma below
  * `undamped` mean no damping. */
 static const double upright = 1e-8, undamped = 1e-9;
-/* --- systems ------------------------------------------------------------------------------ */
+/* --- systems of equations for bifurcations ------------------------------------------------ */
 
 /* A new symbol for the k-th auxiliary unknown of a kind; it is not a symbol of the scene. */
 static qdot_expr
@@ -201,9 +201,9 @@ qdot_rest_bifurcations_end(qdot_rest_bifurcations *b)
     *b = (qdot_rest_bifurcations){0};
 }
 
-/* --- guesses ---------------------------------------------------------------------------- */
+/* --- guesses for Newton's method -------------------------------------------------------- */
 
-/* phi, the null vector of F_u. */
+/* Guess phi, the null vector of F_u, at a fold. */
 static qdot_status
 guess_fold(qdot_path *x, double *phi)
 {
@@ -214,7 +214,7 @@ guess_fold(qdot_path *x, double *phi)
     return qdot_null_vectors(n, n, x->A, 1, phi);
 }
 
-/* psi, the null vector of F_y^T. */
+/* Guess psi, the null vector of F_y^T, at a crossing. */
 static qdot_status
 guess_crossing(qdot_path *x, double *psi)
 {
@@ -226,7 +226,7 @@ guess_crossing(qdot_path *x, double *psi)
     return qdot_null_vectors(n + 1, n, x->A, 1, psi);
 }
 
-/* --- crossings ---------------------------------------------------------------------------- */
+/* --- kinds of crossings ------------------------------------------------------------------- */
 
 /* The bilinear form v.H w, with H [m * m] stored in rows of length `width`. */
 static double
@@ -266,7 +266,7 @@ classify(qdot_rest_bifurcations *b, const double *z, double beta_error, const do
     return QDOT_OK;
 }
 
-/* --- oscillations --------------------------------------------------------------------------- */
+/* --- onset of oscillations ------------------------------------------------------------------ */
 
 /* The frequency of the pair of roots nearest to the imaginary axis; where it is undamped, of the pair that
  * has a partner. */
@@ -350,7 +350,7 @@ what_meets(const qdot_rest_bifurcations *b)
     return damping <= undamped * most && lopsided <= undamped * size * size ? MEETS_TURNING : CROSSES;
 }
 
-/* z [n + 1 + 2 all + 2]: y, then room. */
+/* Solve for the point at which an oscillation begins; z [n + 1 + 2 all + 2]: y, then work space. */
 static qdot_status
 find_oscillation(qdot_rest_bifurcations *b, qdot_bifurcation *out, double *z, double *error, bool *found)
 {
@@ -388,7 +388,7 @@ find_oscillation(qdot_rest_bifurcations *b, qdot_bifurcation *out, double *z, do
     return status;
 }
 
-/* --- any of them ---------------------------------------------------------------------------- */
+/* --- locating a bifurcation of any kind ----------------------------------------------------- */
 
 static qdot_status
 find_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z,

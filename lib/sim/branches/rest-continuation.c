@@ -1,4 +1,4 @@
-/* rest-continuation.c -- where curves of equilibria begin; curves known only by exact formulas. */
+/* rest-continuation.c -- starts curves of equilibria, and adds curves known only by exact formulas. */
 #include "sim/branches/rest-continuation.h"
 
 #include <float.h>
@@ -48,7 +48,7 @@ starts_add(starts *s, const double *y, size_t count)
     return QDOT_OK;
 }
 
-/* --- where to begin -------------------------------------------------------------------------- */
+/* --- points to start from -------------------------------------------------------------------- */
 
 /* Add the equilibria of the exact set at p. `existing`: only those whose conditions hold there. */
 static qdot_status
@@ -128,7 +128,7 @@ places_find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t coun
     }
 }
 
-/* --- exact curves ------------------------------------------------------------------------------ */
+/* --- curves known by formulas ------------------------------------------------------------------ */
 
 /* Remove those points that lie on exact solution k from the list of points without a curve. */
 static qdot_status
@@ -152,7 +152,7 @@ leave_out_member(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t 
     return QDOT_OK;
 }
 
-/* The limit of exact solution k as p approaches an end of its interval: y. */
+/* The limit y of exact solution k as p approaches an end of its interval. */
 typedef struct {
     double *y;     /* [n + 1] */
     bool finite;   /* else it grows beyond bounds, as far as is known */
@@ -409,7 +409,7 @@ is_passed(const qdot_branch_search *s, double at)
     return false;
 }
 
-/* What is 0 at single values of p without an energy or a force that branches lead over. */
+/* List expressions that are 0 at single values of p where energy or force is undefined on a branch. */
 static qdot_status
 tell_gaps(qdot_branch_search *s, const qdot_equilibrium_set *set)
 {
@@ -439,7 +439,7 @@ draw_exact(qdot_branch_search *s, qdot_equilibrium_set *set, double *y)
     return tell_gaps(s, set);
 }
 
-/* --- all --------------------------------------------------------------------------------------- */
+/* --- the whole continuation -------------------------------------------------------------------- */
 
 static qdot_status
 follow_all(qdot_equilibrium_curve *c, qdot_equilibrium_set *set, qdot_branch_search *s)

@@ -25,7 +25,7 @@ rest_evaluate(qdot_path *path, const double *y)
     }
 }
 
-/* The tape of the energy, where it depends on the unknowns and p alone. */
+/* Make the tape of the energy, where it depends on the unknowns and p alone. */
 static qdot_status
 energy_begin(qdot_rest_path *x)
 {

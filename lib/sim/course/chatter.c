@@ -67,7 +67,7 @@ qdot_chatter_add_state(const qdot_course *c, double t, const double *y, double *
     }
 }
 
-/* The largest |g(y + fraction of the oscillation) - g(y)|; y [2n] is in the reader. */
+/* Find the largest |g(y + fraction of the oscillation) - g(y)|; y [2n] is in the reader. */
 static qdot_status
 try_parts(const qdot_course_chatter *x, double place, size_t n, qdot_reader *r, double t, const double *y,
           const double *values, double *g, double *most)

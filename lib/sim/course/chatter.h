@@ -18,7 +18,7 @@
 #include "sim/course/course.h"
 #include "sim/course/reader.h"
 
-/* Whether the motion chatters at t. */
+/* Whether the motion oscillates too fast about a surface at t to be followed. */
 bool qdot_chatters_at(const qdot_course *course, double t);
 
 /* Add the error that such oscillations cause in the state y [n] at t to errors [n]. */

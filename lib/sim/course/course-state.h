@@ -23,7 +23,7 @@ typedef struct {
     bool touched;
 } qdot_course_faded;
 
-/* The root that ended a piece. */
+/* The root of a watched function at which a piece ended. */
 typedef struct {
     size_t piece, function; /* index of the piece; of the function watched in its mode */
     double t;
@@ -31,7 +31,8 @@ typedef struct {
     double late; /* t less the true time of the root; 0: the root is at t */
 } qdot_course_end;
 
-/* A disc on a rough plane that came to rest in the piece of the run from t on; it has stopped at `after`. */
+/* A disc on a rough plane that came to rest in the piece of the run that begins at t; it has
+ * stopped at `after`. */
 typedef struct {
     size_t surface;
     double t, after;

@@ -121,7 +121,7 @@ come_to_rest(qdot_piece *x, bool anew, bool *over)
 
 /* Integrate the pieces of the run one after another from y0 [n] at x->start.t. */
 static qdot_status
-loop(qdot_piece *x, const double *y0)
+integrate_pieces(qdot_piece *x, const double *y0)
 {
     qdot_course *c = x->c;
     double *y = x->start.y;
@@ -229,14 +229,14 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                     .start.t = t0};
     qdot_status status = make_room(&x);
 
-    /* a repeated run keeps nothing of the first one */
+    /* clear the results of an earlier integration of this course */
     c->occurrences.n = c->faded.n = c->ends.n = c->rests.n = 0;
     forget_chatters(c);
     c->reason[0] = '\0';
     c->failed = c->began_on = false;
     c->stopped_by = SIZE_MAX;
     if (status == QDOT_OK)
-        status = loop(&x, y);
+        status = integrate_pieces(&x, y);
     qdot_trajectory_close(x.cursor);
     qdot_trajectory_clear(&x.step);
     qdot_free(x.side);

@@ -1,4 +1,4 @@
-/* crossings.c -- the roots of a function along a stored run. */
+/* crossings.c -- finds the roots of a function along a stored run. */
 #include "sim/course/crossings.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ take(search *s, const qdot_root *root)
     return qdot_vec_push(s->out, ((qdot_crossing){t, -s->direction * root->late, s->piece, way}));
 }
 
-/* The roots within the step from stored point k; `last`: the next piece starts from another state. */
+/* Find the roots within the step from stored point k; `last`: the next piece starts from another state. */
 static qdot_status
 search_step(search *s, qdot_watch *w, size_t k, bool last)
 {

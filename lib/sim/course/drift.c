@@ -1,4 +1,4 @@
-/* drift.c -- max |c - c0| / max(1, |c0|) along a trajectory, with a tape for each quantity. */
+/* drift.c -- measures drifts max |c - c0| / max(1, |c0|) of conserved quantities along a trajectory. */
 #include "sim/course/drift.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ is_switch(const qdot_trajectory *tr, size_t piece, size_t k)
                && !at[piece + 1].jumped);
 }
 
-/* Point k of the trajectory as the inputs of a lane. */
+/* Write point k of the trajectory as the inputs of a lane. */
 static void
 put_point(const qdot_trajectory *tr, size_t k, size_t lane, double *in)
 {
@@ -240,7 +240,7 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
     return status;
 }
 
-/* The largest sum of the magnitudes of a quantity's terms along the run; 0 if not known. */
+/* Find the largest sum of the magnitudes of a quantity's terms along the run; 0 if not known. */
 static qdot_status
 measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity, double *most)
 {

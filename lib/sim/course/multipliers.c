@@ -1,4 +1,4 @@
-/* multipliers.c -- residuals at every stored point, multipliers at the last. */
+/* multipliers.c -- residuals of constraints at every stored point, multipliers at the last one. */
 #include "sim/course/multipliers.h"
 
 #include <float.h>
@@ -95,10 +95,10 @@ qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
     return find_multipliers(held, tr, qdot_constrained_rows(held), b);
 }
 
-/* The multipliers lambda at y with component i shifted by h, into `out`; NaN if undefined. */
+/* Find the multipliers lambda at y with component i shifted by h, into `out`; NaN where undefined. */
 static void
-look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
-     double *out)
+multipliers_shifted(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
+                    double *out)
 {
     qdot_error before = *qdot_last_error();
     double kept = y[i];
@@ -136,8 +136,8 @@ qdot_multipliers_errors(qdot_bind *const *binds, const qdot_trajectory *tr,
     for (size_t i = 0; i < n; i++) {
         double h = 0x1p-20 * fmax(1, fabs(y[i]));
 
-        look(held, t, y, i, h, a, up);
-        look(held, t, y, i, -h, a, down);
+        multipliers_shifted(held, t, y, i, h, a, up);
+        multipliers_shifted(held, t, y, i, -h, a, down);
         for (size_t k = 0; k < m; k++)
             b->error[k] += fabs(up[k] - down[k]) / (2 * h) * difference[i];
     }

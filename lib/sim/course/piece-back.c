@@ -25,7 +25,7 @@ typedef enum {
     NEVER  /* no motion comes here: the event would have changed it */
 } verdict;
 
-/* g' and g'' of the event at a state [n], and the size of rounding of g', and of g. */
+/* The rates g' and g'' of the event's function at a state [n], and the rounding errors of g' and g. */
 typedef struct {
     double rate, bend, noise, size;
 } pace;
@@ -58,7 +58,7 @@ find_pace(qdot_piece *x, const qdot_staged_event *e, double t, const double *y, 
     return status;
 }
 
-/* Whether the bounce that begins or ends with this rate is too low to be told from rest. */
+/* Whether the bounce that begins or ends with this rate is too low to be distinguished from rest. */
 static bool
 is_slow(const pace *of)
 {

@@ -74,7 +74,7 @@ find_touches(blows *b)
     return QDOT_OK;
 }
 
-/* du/dt of a contact, at the state of the trial. */
+/* Find du/dt of a contact at the state of the trial. */
 static qdot_status
 touch_measure(blows *b, touch *c)
 {

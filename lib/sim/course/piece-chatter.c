@@ -21,7 +21,7 @@ static const double most_lost = 0.01, slow_in_doubles = 1e-3;
 /* The factor by which the speed of an oscillation that is not followed may grow until the end. */
 static const double most_growth = 10;
 
-/* The motion held at u = 0 of surface i, at the start of a piece of the run. */
+/* The motion held on surface i, where u = 0, at the start of a piece of the run. */
 typedef struct {
     qdot_piece *x;
     size_t i, n, mode[3]; /* of the sides -1, 0 (it slides), 1 */
@@ -56,7 +56,7 @@ pull(held_motion *h, int way, const double *flow, double by, double more, double
     return QDOT_OK;
 }
 
-/* Make the modes of the three sides (-1, sliding, 1), and move the start onto the surface. */
+/* Make the modes of the three sides (below, sliding, above), and move the start onto the surface. */
 static qdot_status
 hold(held_motion *h)
 {
@@ -80,7 +80,7 @@ hold(held_motion *h)
     return QDOT_OK;
 }
 
-/* The accelerations to the surface from below and above, and the direction of their difference. */
+/* Find the accelerations towards the surface from below and above, and the direction of their difference. */
 static qdot_status
 find_pulls(held_motion *h, double a[2])
 {
@@ -94,7 +94,7 @@ find_pulls(held_motion *h, double a[2])
     return QDOT_OK;
 }
 
-/* The rate d(log v)/dt at which the speed v of the oscillation about the surface grows. */
+/* Find the rate d(log v)/dt at which the speed v of the oscillation about the surface grows. */
 static qdot_status
 find_growth(held_motion *h, const double a[2], double *growth)
 {

@@ -28,7 +28,7 @@ static const double led = 16;
 static const double apart = 64 * DBL_EPSILON;
 /* No contact begins if it would change a component of the state by more than this, relative to its size. */
 static const double fastest = 1e-4;
-/* No contact begins if the acceleration towards the wall is below this, relative to its terms. */
+/* No contact begins if the acceleration towards the wall is below this fraction of its terms. */
 static const double rounded = 32 * DBL_EPSILON;
 /* A bounce is not low if its initial speed exceeds this part of the largest speed so far. */
 static const double slow = 1e-2;
@@ -68,7 +68,7 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
     return QDOT_OK;
 }
 
-/* --- where one begins ----------------------------------------------------------------- */
+/* --- how a lasting contact begins ----------------------------------------------------- */
 
 /* The bounces left out when a lasting contact begins, and how the start is moved onto the contact. */
 typedef struct {
@@ -80,7 +80,7 @@ typedef struct {
     double *along; /* [n] M^-1 du/dq of u = 1, then the slopes of u [n] */
 } skipped;
 
-/* The change of u if each coordinate changes by its largest value so far: the size of the terms of u. */
+/* The change of u if each coordinate changed by its largest value so far; it gives the size of u's terms. */
 static double
 size_of_place(const qdot_piece *x, const skipped *s)
 {
@@ -173,7 +173,7 @@ keep_others(qdot_piece *x, size_t surface, double *d, skipped *s)
 
 /* Enter the lasting contact: set x->side and x->start.y, and record in s what that leaves out. */
 static qdot_status
-enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
+enter_contact(qdot_piece *x, size_t surface, skipped *s, bool *can)
 {
     const size_t mode = x->mode;
     double *d = qdot_malloc((x->n + 1) * sizeof *d), size = 0, rest = 0;
@@ -229,7 +229,7 @@ skipped_in_run(const qdot_piece *x, size_t surface)
     return most;
 }
 
-/* The height below which a method without series cannot tell a bounce from its own error. */
+/* The height below which a method without series cannot distinguish a bounce from its own error. */
 static double
 least_told(const qdot_piece *x, const skipped *s)
 {
@@ -332,7 +332,7 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
         return QDOT_ENOMEM;
     s.along = kept + x->n;
     memcpy(kept, x->start.y, x->n * sizeof *kept);
-    status = enter(x, surface, &s, lasts);
+    status = enter_contact(x, surface, &s, lasts);
     if (status == QDOT_OK && *lasts && !may_rest(x, surface, left, &s)) {
         *lasts = false;
         *soon = s.moved <= fastest || left > 0;
@@ -362,7 +362,7 @@ qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may)
 
 /* --- where a run starts ---------------------------------------------------------------- */
 
-/* Whether the event sets velocities only. */
+/* Whether the event changes only velocities and stops nothing. */
 static bool
 sets_velocities(const qdot_piece *x, const qdot_staged_event *e)
 {
@@ -419,7 +419,7 @@ qdot_piece_meets_again(const qdot_piece *x, size_t i)
            && qdot_watch_first(qdot_piece_watch(x))[i] == way && x->signs[i] != -way && !qdot_piece_just_noted(x, i);
 }
 
-/* --- after a change ------------------------------------------------------------------- */
+/* --- contacts after a change of the state --------------------------------------------- */
 
 /* The rate of a contact that lasts where an event has changed velocities; *noise: what is left of it by rounding, and by
  * the error of a method without series. */

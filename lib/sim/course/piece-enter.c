@@ -72,7 +72,7 @@ qdot_piece_keep(qdot_piece *x, bool *near)
     return QDOT_OK;
 }
 
-/* --- what is known where a piece starts ---------------------------------------------- */
+/* --- quantities at the start of a piece ---------------------------------------------- */
 
 bool
 qdot_piece_just_noted(const qdot_piece *x, size_t event)
@@ -113,7 +113,7 @@ qdot_piece_carry(qdot_piece *x)
         const qdot_watched *w = &next->watched[i];
 
         if (w->kind == QDOT_WATCH_SURFACE && x->c->stage->switches.surfaces.at[w->index].puck > 0) {
-            /* the friction cone is left where it is reached */
+            /* a motion leaves the friction cone just where it is reached */
             if (slides(old, w->index) && w->beyond == QDOT_SIDE_SLIDES
                 && next->side[w->index] == QDOT_SIDE_CREEPS && !x->start.jumped) {
                 x->residual[i] = 0;
@@ -182,7 +182,7 @@ qdot_piece_widen_residuals(qdot_piece *x)
     for (size_t i = 0; i < qdot_piece_mode(x)->m; i++) {
         double off, noise;
 
-        /* positions are moved onto their surfaces, except those of massless coordinates */
+        /* move positions onto their surfaces, except those of massless coordinates */
         if (!(x->residual[i] >= 0) || !(qdot_piece_mode(x)->watched[i].velocity || qdot_piece_has_massless(x)))
             continue;
         QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));
@@ -236,7 +236,7 @@ turns_a_corner(qdot_piece *x, bool *corners)
 
 /* --- jumps of T - V ------------------------------------------------------------------ */
 
-/* The level function of a mode at the state y with component k shifted by a fraction of it. */
+/* Evaluate the level function of a mode at the state y with component k shifted by a fraction of itself. */
 static double
 level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, double *in,
          double *work)
@@ -365,7 +365,7 @@ qdot_piece_low(const qdot_piece *x, double *low)
         low[i] = x->start.y[i] == x->start.low_of[i] ? x->start.low[i] : 0;
 }
 
-/* Whether the piece ends on surface i. */
+/* Whether the piece ends because surface i is reached. */
 static bool
 is_met(const qdot_piece *x, size_t i)
 {
@@ -380,7 +380,7 @@ is_met(const qdot_piece *x, size_t i)
     return met;
 }
 
-/* Whether all other switches have the same sides at the state y [n] as at the start of the piece. */
+/* Whether all other switches have the same sides in the state y [n] as at the start of the piece. */
 static qdot_status
 has_sides(qdot_piece *x, const double *y, bool *alike)
 {
@@ -421,7 +421,7 @@ start_at(qdot_piece *x, const qdot_two *state, bool *moved)
     return status;
 }
 
-/* x->start moved by `time` along the rates of a mode, added to moved [n]. */
+/* Move x->start by `time` along the rates of a mode; the result is added to moved [n]. */
 static qdot_status
 move_along(qdot_piece *x, size_t mode, double time, qdot_two *moved)
 {
@@ -502,7 +502,7 @@ qdot_piece_go_to_root(qdot_piece *x)
     return qdot_piece_make_up(x, x->mode, SIZE_MAX);
 }
 
-/* --- the whole ----------------------------------------------------------------------- */
+/* --- the whole transition ------------------------------------------------------------ */
 
 qdot_status
 qdot_piece_cross(qdot_piece *x)

@@ -1,4 +1,5 @@
-/* piece-impact.c -- whether an event's `then` is an impact on a smooth wall, while other contacts last. */
+/* piece-impact.c -- tests whether the `then` of an event is an impact on a smooth wall while other
+ * contacts last. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 
 /* Two velocities count as equal up to this relative difference. */
 static const double alike = 1e-9;
-/* The `then` of an event may add this many rounding errors of the velocities. */
+/* The values that an event's `then` sets may contain this many rounding errors of the velocities. */
 static const double roundings = 32;
 /* The speed of a trial impact, over that of the motion where this is above 1. */
 static const double trial = 1e-3;
@@ -33,7 +34,7 @@ dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* q'' of the present mode minus q'' of mode `other`, into d [n]. */
+/* Find q'' of the present mode minus q'' of mode `other`, into d [n]. */
 static qdot_status
 find_difference(qdot_piece *x, size_t other, double *d, double *size)
 {

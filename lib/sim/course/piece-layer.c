@@ -253,7 +253,7 @@ decelerate(qdot_piece *x, size_t i, const held_motion *held, int way, double at,
     return status;
 }
 
-/* What remains until rest: the time, its uncertainty, and the distance (time times velocity). */
+/* The time until rest, its uncertainty, and the distance until rest (time times velocity). */
 typedef struct {
     double time, doubt, mean;
 } remainder_of_motion;
@@ -266,7 +266,7 @@ time_by(double u0, double w, double rim, double p)
     return w / (rim * (1 - p)) * pow(u0 / w, 1 - p);
 }
 
-/* The uncertainty of u' that rounding of the velocities causes. */
+/* The uncertainty of u' caused by rounding of the velocities. */
 static double
 noise_of(const qdot_piece *x, const double *slopes)
 {
@@ -310,7 +310,7 @@ find_rest(qdot_piece *x, size_t i, const held_motion *held, remainder_of_motion 
 /* The distance until rest is known except for the change of the forces meanwhile; it may err by this much. */
 static const double way_left_out = 1e-12;
 
-/* Whether the distance that the held motion would still cover is small enough to be left out. */
+/* Whether the distance that the held motion would still cover is small enough to be ignored. */
 static bool
 may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *left)
 {
@@ -462,7 +462,7 @@ qdot_piece_stop_in_layers(qdot_piece *x)
     return status == QDOT_OK && any ? meet_events(x) : status;
 }
 
-/* --- passing -------------------------------------------------------------------------------------------- */
+/* --- passing through a layer ---------------------------------------------------------------------------- */
 
 qdot_status
 qdot_piece_check_layers(qdot_piece *x)
@@ -480,7 +480,7 @@ qdot_piece_check_layers(qdot_piece *x)
             x->entered = false;
         else if ((old->side[i] == 0) != (now->side[i] == 0))
             QDOT_TRY(pass_rim(x, i, old->side[i] == 0));
-        /* from a power of less than 1 the motion may leave at any time */
+        /* with a power of less than 1, the motion may leave the surface at any time */
         if (now->side[i] == 0 && surface(x, i)->power < 1 && !is_in_time(x, i))
             QDOT_TRY(rests(x, i, &stays));
         if (stays && !holds_velocities(x, i))

@@ -18,11 +18,11 @@
 #include "sim/model/constrained.h"
 #include "sim/model/massless.h"
 
-/* A change by less, relative to the sizes of components, is rounding. */
+/* A change below this, relative to the sizes of components, is rounding. */
 static const double rounding = 64 * DBL_EPSILON;
 /* A position does not jump if it moves by less than this: projected states err by the tolerance. */
 static const double least_jump = 1e-9;
-/* The velocity of a jump of 1. */
+/* The velocity that represents a jump of length 1. */
 static const double very_fast = 0x1p60;
 
 bool
@@ -58,7 +58,7 @@ mark_kept(const qdot_plan *p, bool *kept, bool *some)
     }
 }
 
-/* Write the jumps of positions from `old` as very fast velocities into y [2n]; whether there are any. */
+/* Write jumps of positions from `old` to now as very large velocities into y [2n]; whether there are any. */
 static bool
 write_jump(const qdot_piece *x, const double *old, double *y)
 {
@@ -140,7 +140,7 @@ find_jumps(qdot_piece *x, const double *old, double *g, int *signs)
     return QDOT_OK;
 }
 
-/* The equations have no solution: list every switch whose side has changed as uncertain. */
+/* Note that the equations have no solution: list every switch whose side has changed as uncertain. */
 static qdot_status
 doubt_all(qdot_piece *x)
 {

@@ -68,9 +68,9 @@ accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
     return status;
 }
 
-/* The response of the disc in the mode in which it moves, about its state of rest, rest [x->n]. */
+/* Find the response of the disc, in the mode in which it moves, about its state of rest, rest [x->n]. */
 static qdot_status
-respond(qdot_piece *x, size_t i, double *rest, response *r)
+find_response(qdot_piece *x, size_t i, double *rest, response *r)
 {
     const qdot_puck *puck = puck_at(x, i);
     const size_t k = puck->k, n = x->n / 2;
@@ -104,7 +104,7 @@ respond(qdot_piece *x, size_t i, double *rest, response *r)
 
 /* Whether friction decelerates motion in every direction, e G K e < 0, tested by a Cholesky factorisation. */
 static bool
-brakes(const response *r)
+friction_brakes(const response *r)
 {
     const size_t k = r->k;
     double A[QDOT_PUCK_MOST * QDOT_PUCK_MOST];
@@ -204,7 +204,7 @@ start_one(qdot_piece *x, size_t i, double speed)
     double *rest = qdot_malloc(x->n * sizeof *rest), e[QDOT_PUCK_MOST], a, from,
            friction = 0;
     response r;
-    qdot_status status = rest ? respond(x, i, rest, &r) : QDOT_ENOMEM;
+    qdot_status status = rest ? find_response(x, i, rest, &r) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         a = start_of(&r, e);
@@ -277,8 +277,8 @@ may_rest(qdot_piece *x, size_t i, bool *may)
     if (status == QDOT_OK)
         status = qdot_piece_enter(x);
     if (status == QDOT_OK)
-        status = respond(x, i, rest, &r);
-    *may = status == QDOT_OK && brakes(&r);
+        status = find_response(x, i, rest, &r);
+    *may = status == QDOT_OK && friction_brakes(&r);
     if (*may && side == QDOT_SIDE_SLIDES)
         status = stop_one(x, i, &r, mode);
     x->side[surface] = side;

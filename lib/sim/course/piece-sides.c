@@ -23,7 +23,7 @@ keeps(const qdot_piece *x, const qdot_watched *w, int first)
            || (first == 0 && ((w->inside == 1 && is_step(x, w->index)) || slides));
 }
 
-/* The side to which the motion went, if not to the present one. */
+/* The side to which the motion went, if that is not the present one. */
 static long
 went_to(const qdot_piece *x, const qdot_watched *w, int first)
 {
@@ -83,7 +83,7 @@ was_crossed(const qdot_piece *x, size_t surface)
     return false;
 }
 
-/* Whether function i leaves it open whether other sides than those of the present mode also fit. */
+/* Whether function i leaves it undecided whether other sides than those of the mode also fit. */
 static bool
 is_open(const qdot_piece *x, size_t i)
 {

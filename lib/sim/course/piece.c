@@ -51,14 +51,14 @@ is_by_series(const qdot_piece *x)
     return (x->now ? x->now : x->method)->series;
 }
 
-/* The state at t within the step, for a method that changes between series and others. */
+/* Read the state at t within the step, for a method that changes between series and others. */
 static qdot_status
 read_either(double t, double *y, void *user)
 {
     return is_by_series(user) ? read_series(t, y, user) : read_step(t, y, user);
 }
 
-/* --- what a step holds --------------------------------------------------------------- */
+/* --- events and surfaces within a step ----------------------------------------------- */
 
 /* The direction of a root as t grows: 1 rising, -1 falling, 0 a touch. */
 static int
@@ -172,7 +172,7 @@ leaves_domain(qdot_piece *x)
     return NULL;
 }
 
-/* In a run that ends so few roundings of t behind the start of a piece nothing is seen to leave its zero. */
+/* If a run ends within this fraction of t after the start of a piece, a function cannot leave 0 in it. */
 static const double no_time = 64 * DBL_EPSILON;
 
 /* Whether the motion stays on the zero of event i with a `then`: it leaves it so slowly that rounding
@@ -285,7 +285,7 @@ follow_at_once(qdot_piece *x, double t0)
     return QDOT_OK;
 }
 
-/* After the first step: whether the piece continues with the sides it has assumed. */
+/* Judge after the first step whether the piece can continue with the sides it has assumed. */
 static qdot_status
 judge_sides(qdot_piece *x)
 {
@@ -344,7 +344,7 @@ end_of(qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
     return t;
 }
 
-/* Drop what was recorded in a step that is searched again or was rejected. */
+/* Drop the results of a step that is searched again or was rejected. */
 static void
 forget_step(qdot_piece *x)
 {
@@ -599,7 +599,7 @@ accepted(double t, const double *y, bool *stop, void *user)
     return qdot_piece_take_faded(x, t);
 }
 
-/* --- the piece ------------------------------------------------------------------------ */
+/* --- integrating a piece -------------------------------------------------------------- */
 
 /* Start watching the functions of the mode at the start of a piece. */
 qdot_status

@@ -38,7 +38,7 @@ typedef struct {
     long sides[4]; /* [n] candidates, the present side first */
 } qdot_piece_doubt;
 
-/* course.c owns the arrays and the cursor. */
+/* State of the integration of one piece; course.c owns the arrays and the cursor. */
 typedef struct {
     qdot_course *c;
     const qdot_ode_options *options;
@@ -76,7 +76,7 @@ typedef struct {
     double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
     bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
-    /* Search for the sides of switches: one set is tried, then alternatives to it, then they are known. */
+    /* Stages of the search for sides of switches: one set is tried, then alternatives; then they are known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
     char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "" */
     bool well;          /* RETRIED: the motion leaves to its sides, but others may fit as well */
@@ -103,7 +103,7 @@ typedef struct {
         size_t parts; /* looked at since then */
     } searched;
 
-    /* Data to read the state within the step. */
+    /* Data with which the state within the step is read. */
     qdot_watch_reader reader;
     const qdot_ode_expanded *expanded;
     qdot_trajectory step; /* the two ends of the step */
@@ -112,7 +112,7 @@ typedef struct {
     size_t resting; /* the event of a persistent contact; SIZE_MAX: none was found in this piece */
     int resting_way; /* the sign to which the motion would leave it */
 
-    /* the sets of sides tried from one point, [tries x surfaces]; the surfaces with other possible sides */
+    /* the sets of sides tried from one start, [tries x surfaces]; the surfaces with other possible sides */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
     qdot_tape_two **thens; /* [events] `then` in two doubles; NULL until it is needed */
@@ -141,7 +141,7 @@ qdot_piece_sides(qdot_piece *x, const long *old)
     return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
 }
 
-/* The rates [n] of the state at the start of the piece, in a mode that has been entered. */
+/* Evaluate the rates [n] of the state at the start of the piece, in a mode that has been entered. */
 QDOT_MUST_CHECK static inline qdot_status
 qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
 {
@@ -213,7 +213,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_take_faded(qdot_piece *x, double t);
 /* A root that is no occurrence, for it only touches where the event is to rise or fall: it may be two crossings that a
  * tighter tolerance (c->passed_over), or nothing in this run (c->faded), tells from a touch. */
 QDOT_MUST_CHECK qdot_status qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root);
-/* An event that is met where a piece starts: it is noted, and in x->roots, if its way fits. */
+/* Record an event that is met at the start of a piece if its direction fits; also in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 
 /* A piece ends at the first double after its root, x->late behind it. The motion goes on as if it
@@ -226,7 +226,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, siz
 QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
 /* Start the next piece at the last point of this one, with the low part of its state. */
 void qdot_piece_start_at_end(qdot_piece *x);
-/* The exact state at the start of the piece minus y [n], into low [n]. */
+/* Find the exact state at the start of the piece minus y [n], into low [n]. */
 void qdot_piece_low(const qdot_piece *x, double *low);
 /* (piece-end.c) Whether the last piece ended where function i crosses 0 flatly: such a motion goes on, it does not rest. */
 bool qdot_piece_has_crossed_flatly(const qdot_piece *x, size_t i);
@@ -322,7 +322,7 @@ void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *be
  * If not, x->side gets other sides and x->doubts the surfaces. */
 QDOT_MUST_CHECK qdot_status qdot_piece_leaves_well(qdot_piece *x, bool *well);
 
-/* If the piece leaves to its assumed sides: whether other sides might fit as well. */
+/* Whether other sides might fit as well, if the motion leaves to the sides that are assumed. */
 bool qdot_piece_is_open(const qdot_piece *x);
 /* Set x->doubts to the surfaces for which other sides might fit. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_open(qdot_piece *x);

@@ -9,7 +9,7 @@
 
 #include "sim/course/course.h"
 
-/* Expressions along a run, lowered to a tape. */
+/* Expressions along a run, compiled to a tape. */
 typedef struct {
     const qdot_plan *plan; /* of the first course; borrowed, as everything except the tape */
     size_t m;
@@ -42,10 +42,10 @@ typedef struct {
     double *work;
 } qdot_reader;
 
-/* Lower exprs [m]; the tape is the caller's to free, NULL on errors. */
+/* Compile exprs [m] to a tape, which the caller frees; NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
                                               const qdot_expr *exprs, qdot_reading *of);
-/* Lower exprs [m] along the same courses as another reading, which may have no tape. */
+/* Compile exprs [m] along the same courses as another reading, which may have no tape. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, size_t m,
                                                      const qdot_expr *exprs, qdot_reading *of);
 

@@ -52,7 +52,7 @@ typedef struct {
     const qdot_expr *exact;        /* [2n + m] with `digits`: q, v, multipliers (nil: unknown) at
                                       t1 as rational numbers; else NULL */
     const char *notice;            /* notices about the start, a line each; NULL: none */
-    /* for scenes with constraints: */
+    /* Fields for scenes with constraints: */
     size_t m;                      /* multipliers; 0: no constraints */
     const qdot_expr *multipliers;  /* [m] symbols */
     const double *lambda;          /* [m] at t1; NaN where there are none */

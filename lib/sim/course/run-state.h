@@ -70,7 +70,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *r
 /* Set why the error is unknown; the text is copied. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_doubt(struct qdot_run *run, const char *doubt);
 
-/* qdot_run_say_why with the course's reason, if an event, a bound or a switch ended the run. */
+/* Set the reason of the run from that of its course, if an event, a bound or a switch ended the run. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_course(struct qdot_run *run);
 
 #endif

@@ -14,7 +14,7 @@
 
 #include "sim/course/run-state.h"
 
-/* The time t of a time s counted from the run's origin. */
+/* The time t that corresponds to a time s counted from the run's origin. */
 double qdot_run_time_told(const qdot_run *run, double s);
 
 /* From here on the run, which is finished, tells its times from that origin: its texts are written anew. Errors:

@@ -21,16 +21,16 @@
 /* The most surfaces whose sides are uncertain at the same time: 4^4 combinations. */
 enum { MOST_DOUBTS = 4 };
 
-/* --- words --------------------------------------------------------------------------- */
+/* --- texts of failures --------------------------------------------------------------- */
 
 /* Let the run fail at a surface; c->reason is `before`, the surface's description, and `behind`. */
 static void
-say(qdot_piece *x, size_t surface, const char *before, const char *behind)
+set_reason_at(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     long side = m->side[surface];
 
-    /* for floor(u): the integer at which the piece starts */
+    /* for floor(u): the integer u at which the piece starts */
     for (size_t i = 0; i < m->m; i++)
         if (m->watched[i].kind == QDOT_WATCH_SURFACE && m->watched[i].index == surface
             && x->functions_on[i])
@@ -38,7 +38,7 @@ say(qdot_piece *x, size_t surface, const char *before, const char *behind)
     qdot_piece_stop_at(x, surface, side, before, behind);
 }
 
-/* The surface of the first disc that is to come to rest; surface 0 if there is none. */
+/* The surface of the first disc that is about to come to rest; surface 0 if there is none. */
 static size_t
 held_surface(const qdot_piece *x)
 {
@@ -57,25 +57,25 @@ say_slides(qdot_piece *x)
     const size_t surface = x->doubts.n > 0 ? x->doubts.at[0].surface : held_surface(x);
 
     if (x->c->stage->switches.surfaces.at[surface].puck > 0) {
-        say(x, surface, "the motion cannot be followed at", x->hindrance);
+        set_reason_at(x, surface, "the motion cannot be followed at", x->hindrance);
         return;
     }
     snprintf(why, sizeof why, ", where the equations switch: both sides lead back to it%s",
              x->hindrance);
-    say(x, surface, "the motion would slide along", why);
+    set_reason_at(x, surface, "the motion would slide along", why);
 }
 
 static void
 say_open(qdot_piece *x, size_t surface)
 {
-    say(x, surface, "on",
-        ", where the equations switch, the motion may go on in more than one way: which one "
-        "they do not say");
+    set_reason_at(x, surface, "on",
+                  ", where the equations switch, the motion may go on in more than one way: which one "
+                  "they do not say");
 }
 
-/* --- the search ---------------------------------------------------------------------- */
+/* --- the search for the right sides -------------------------------------------------- */
 
-/* Whether the present sides have been tried from this start; marks them as tried. */
+/* Whether the present sides have been tried from this start already; they count as tried from now on. */
 static qdot_status
 was_tried(qdot_piece *x, bool *again)
 {
@@ -183,9 +183,9 @@ put_start(qdot_piece *x, const double *y)
     memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
 }
 
-/* Integrate this piece of the run on the sides x->side of the surfaces, or only its first step. */
+/* Integrate this piece of the run with the sides x->side of the surfaces, or only its first step. */
 static qdot_status
-go(qdot_piece *x)
+integrate_on_sides(qdot_piece *x)
 {
     QDOT_TRY(qdot_piece_begin(x));
     return qdot_piece_integrate(x);
@@ -209,7 +209,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     status = side_enter(x, &can);
     if (status == QDOT_OK && can) {
         qdot_piece_carry(x);
-        status = go(x);
+        status = integrate_on_sides(x);
         *too = status == QDOT_OK && x->intent == QDOT_PIECE_RETRIED && x->well
                && x->side[surface] == side;
     }
@@ -223,7 +223,7 @@ stays_alike(long side, long other)
     return (side == 0 && other == QDOT_SIDE_SLIDES) || (side == QDOT_SIDE_SLIDES && other == 0);
 }
 
-/* Whether the present sides, held [surfaces], are the only right ones; c->reason if not. */
+/* Whether the present sides, in held [surfaces], are the only right ones; if not, c->reason is set. */
 static qdot_status
 sides_compare(qdot_piece *x, const long *held)
 {
@@ -275,7 +275,7 @@ go_by(qdot_piece *x)
     x->search = QDOT_SIDES_KNOWN;
     QDOT_TRY(qdot_piece_enter(x));
     qdot_piece_carry(x);
-    return go(x);
+    return integrate_on_sides(x);
 }
 
 /* Whether a surface in doubt is one of places that the motion crosses, or one that it leaves after it has slid along it
@@ -317,7 +317,7 @@ go_by_crossing(qdot_piece *x, bool *decided)
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
     x->search = QDOT_SIDES_KNOWN;
-    return go(x);
+    return integrate_on_sides(x);
 }
 
 static qdot_status
@@ -351,7 +351,7 @@ search(qdot_piece *x)
         QDOT_TRY(qdot_piece_cross(x));
         if (x->c->reason[0] != '\0')
             return QDOT_OK;
-        QDOT_TRY(go(x));
+        QDOT_TRY(integrate_on_sides(x));
         if (x->intent != QDOT_PIECE_RETRIED || x->resting != SIZE_MAX)
             return QDOT_OK;
         if (x->well)

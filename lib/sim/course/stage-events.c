@@ -26,7 +26,7 @@ qdot_staged_event_clear(qdot_staged_event *e)
     qdot_tape_free(e->then);
 }
 
-/* Whether a new value of component k of the state may break constraints. */
+/* Find whether a new value of component k of the state may break constraints. */
 static qdot_status
 find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
 {
@@ -90,7 +90,7 @@ simplify_zeros(qdot_pool *pool, qdot_staged_event *e)
     return QDOT_OK;
 }
 
-/* --- back in time -------------------------------------------------------------------- */
+/* --- events of runs backwards in time ------------------------------------------------ */
 
 static qdot_status
 lower_rates(const qdot_plan *p, qdot_expr g, qdot_staged_undoing *u)
@@ -111,7 +111,7 @@ lower_rates(const qdot_plan *p, qdot_expr g, qdot_staged_undoing *u)
     return status;
 }
 
-/* Whether an event of the function g that sets these leaves g' as it is. */
+/* Whether an event with function g leaves g' unchanged when it sets these targets. */
 static bool
 keeps_speed(const qdot_plan *p, qdot_expr g, size_t n, const qdot_expr *targets)
 {
@@ -123,7 +123,7 @@ keeps_speed(const qdot_plan *p, qdot_expr g, size_t n, const qdot_expr *targets)
     return true;
 }
 
-/* Make e, which has the function and the `then` of an event, that which undoes it. */
+/* Change e, which has the function and the `then` of an event, to the event that undoes it. */
 static qdot_status
 turn_back(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr *targets, const qdot_expr *values,
           qdot_staged_event *e)
@@ -161,7 +161,7 @@ turn_back(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_expr
     return status == QDOT_OK ? qdot_pool_check(p->pool) : status;
 }
 
-/* --- all ----------------------------------------------------------------------------- */
+/* --- all events of a scene ----------------------------------------------------------- */
 
 static qdot_status
 stage_event(const qdot_stage *s, const qdot_plan *p, const qdot_event *event, qdot_staged_event *e)

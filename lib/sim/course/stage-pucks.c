@@ -1,4 +1,4 @@
-/* stage-pucks.c -- the numbers of pucks at a state, and how slow a puck is at rest. */
+/* stage-pucks.c -- evaluates the quantities of sliding discs at a state, and how slow a disc at rest is. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -25,7 +25,7 @@ outputs_of(const qdot_puck *puck, size_t n)
     return puck->k * (2 + puck->k + n);
 }
 
-/* For a disc: d_i, the rate of d_i without its q'' terms, G_ij, dd_i/dq'_j, into out. */
+/* Write the expressions d_i, rate of d_i without its q'' terms, G_ij and dd_i/dq'_j of a disc into out. */
 static void
 lower_one(const qdot_stage *s, const qdot_puck *puck, const qdot_expr *in, qdot_expr *out)
 {
@@ -83,7 +83,7 @@ qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y,
     return QDOT_OK;
 }
 
-/* The largest |B_ij|/M_ii of a disc at the start: how much its friction can change q'_i. */
+/* Find the largest |B_ij|/M_ii of a disc at the start: how much its friction can change q'_i. */
 static qdot_status
 friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
             const double *in, double *most)

@@ -198,7 +198,7 @@ side_decide(const decision *d, size_t i, bool anew, long kept, long *side)
     return QDOT_OK;
 }
 
-/* f_i/M_ii at the start, into a [n]; 0 if it is not finite or contains multipliers. */
+/* Find f_i/M_ii at the start, into a [n]; 0 if it is not finite or contains multipliers. */
 static qdot_status
 start_accelerations(const decision *d, double *a)
 {
@@ -233,7 +233,7 @@ start_accelerations(const decision *d, double *a)
     return status;
 }
 
-/* How fast all u change, into rate [m], if coordinate i does by w[i]. */
+/* Find how fast all u change, rate [m], if each coordinate i changes at the rate w[i]. */
 static void
 rates_of(decision *d, const long *side, const double *w, double *rate)
 {

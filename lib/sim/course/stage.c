@@ -1,4 +1,4 @@
-/* stage.c -- events, domains and surfaces with parameter values; the modes. */
+/* stage.c -- inserts parameter values into events, domains and surfaces, and makes the modes of a run. */
 #include "sim/course/stage.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ qdot_stage_clear(qdot_stage *s)
     *s = (qdot_stage){0};
 }
 
-/* --- modes --------------------------------------------------------------------------- */
+/* --- functions watched in a mode ----------------------------------------------------- */
 
 static void
 watch_function(qdot_mode *m, qdot_expr g, qdot_watched watched)
@@ -114,7 +114,7 @@ watch_between(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const 
     }
 }
 
-/* Watch the boundaries of a layer at which the motion leaves the present side: u = layer, u = -layer. */
+/* Watch u = layer and u = -layer, the boundaries at which the motion leaves the present side of a layer. */
 static void
 watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
 {
@@ -237,7 +237,7 @@ watch_contacts(const qdot_stage *s, qdot_mode *m)
             m->functions[s->switches.surfaces.at[i].event] = QDOT_ONE;
 }
 
-/* The values of the symbols of discs in a mode, after those of surfaces, into out. */
+/* Evaluate the symbols of discs in a mode, after those of surfaces, into out. */
 static void
 value_pucks(const qdot_stage *s, const qdot_mode *m, qdot_expr *out)
 {
@@ -352,7 +352,7 @@ qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
     return status;
 }
 
-/* --- the start ----------------------------------------------------------------------- */
+/* --- the start of the run ------------------------------------------------------------ */
 
 /* Whether the requested run goes backwards in time. */
 static qdot_status
@@ -372,7 +372,7 @@ runs_back(const qdot_stage *s, bool *back)
     return QDOT_OK;
 }
 
-/* The request's start as doubles, y [2n]. */
+/* Write the request's start as doubles, y [2n]. */
 static qdot_status
 start_numbers(const qdot_stage *s, double *t, double *y)
 {
@@ -400,7 +400,8 @@ tol_of_series(const qdot_run_request *r)
     return r->digits == 0 && (!method || method->series) ? r->tol : 0;
 }
 
-/* Expressions that decide about a power with a layer: what counts as 0 in the layer is 0 for them, too. */
+/* Lower expressions that decide about a power with a layer: what counts as 0 in the layer is 0 for
+ * them, too. */
 static qdot_status
 lower_with_layers(qdot_stage *s)
 {
@@ -438,7 +439,7 @@ start_sides(qdot_stage *s, const double *settled, long *side)
     return status;
 }
 
-/* The radii of pucks, by the start. */
+/* Choose the radii of discs from their state at the start. */
 static qdot_status
 start_pucks(qdot_stage *s, const double *settled)
 {

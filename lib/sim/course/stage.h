@@ -21,7 +21,7 @@ typedef struct {
     bool keeps_speed; /* it changes nothing on which the speed of its function depends */
     bool moved;       /* its function is not that of the event, which a change of places or parameters has moved */
     qdot_tape *rates; /* from q, q', t, q'': g' of the function g of the event, g'' (0 if g holds q'), dg/dq [n] */
-    /* the event as stated; the targets are those of its inverse */
+    /* the event as declared, with the targets of its inverse */
     struct qdot_staged_event *forward;
 } qdot_staged_undoing;
 
@@ -41,7 +41,7 @@ typedef struct qdot_staged_event {
     qdot_staged_undoing *undoing; /* NULL: time goes on, or the event changes nothing */
 } qdot_staged_event;
 
-/* Whether the event does more than to be seen. */
+/* Whether the event changes or stops the motion, or may do so. */
 static inline bool
 qdot_staged_event_acts(const qdot_staged_event *e)
 {
@@ -74,7 +74,7 @@ typedef struct {
     qdot_sliding_rows held; /* what the motion keeps where it slides along surfaces; else no rows */
 } qdot_mode;
 
-/* The scene of a run lowered to modes. Start from {0}. */
+/* The scene of a run, compiled for each of its modes. Start from {0}. */
 typedef struct {
     qdot_scene *scene;               /* borrowed while modes are made */
     const qdot_run_request *request; /* likewise */
@@ -112,10 +112,10 @@ void qdot_staged_event_clear(qdot_staged_event *e);
 QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
                                             size_t *mode);
 
-/* The symbols of q, q', t into in [2n + 1]; their number. */
+/* Write the symbols of q, q', t to in [2n + 1]; returns their number. */
 size_t qdot_stage_inputs(const qdot_stage *stage, qdot_expr *in);
 
-/* Make stage->sides, the tape of the surfaces' functions. Errors: as qdot_tape_new. */
+/* Make stage->sides, the tape of the functions of all surfaces. Errors: as qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
 
 /* The sides of all surfaces at a state, the inner ones first, into side [surfaces].
@@ -139,7 +139,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const
  * `latest`. Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_pucks(qdot_stage *stage, double t, const double *y,
                                              double latest);
-/* The numbers of puck i at a state, from the tape stage->pucks. */
+/* Quantities of sliding disc i at a state, from the tape stage->pucks. */
 typedef struct {
     size_t k;
     double speed;                                         /* |w| */
@@ -150,7 +150,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_stage_puck(const qdot_stage *stage, size_t i, double t,
                                             const double *y, qdot_puck_state *of);
 
-/* A surface in words: "x' = 0". */
+/* Append a surface as text, such as "x' = 0". */
 QDOT_MUST_CHECK qdot_status qdot_stage_describe(const qdot_stage *stage, size_t surface,
                                                 long side, qdot_text *out);
 

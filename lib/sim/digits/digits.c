@@ -1,4 +1,4 @@
-/* digits.c -- a pair of precise runs as a run. */
+/* digits.c -- presents a pair of runs in MPFR as a run: its report, end state and events. */
 #include "sim/digits/digits.h"
 
 #include <math.h>
@@ -53,7 +53,7 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
     const qdot_constraints *c = run->plan->constraints;
 
     for (size_t k = 0; k < c->m; k++) {
-        /* do not use the row's own f, which holds for one side only if the equations switch */
+        /* if the equations switch do not use the row's own f, which holds for one side only */
         const bool massless = c->rows[k].multiplier == QDOT_NIL; /* with such nothing switches */
         qdot_drift f = {
             .quantity = massless ? c->rows[k].f : qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};

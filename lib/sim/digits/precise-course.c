@@ -15,7 +15,7 @@
 
 #define RN MPFR_RNDN
 
-/* The largest distance of a root from that of the run in doubles, as a fraction of the piece's duration. */
+/* The largest distance of a root from the root in doubles, as a fraction of the piece's duration. */
 static const double pad = 0x1p-8;
 
 enum { MOST_BOUNCES = 1000000 };
@@ -23,7 +23,7 @@ enum { MOST_BOUNCES = 1000000 };
 /* A function whose root is sought has this many times the digits of the state: one of that multiplicity is no less exact. */
 enum { FLAT = 8 };
 
-/* --- what is prepared ---------------------------------------------------------------- */
+/* --- preparing a course in MPFR ------------------------------------------------------ */
 
 void
 qdot_precise_course_clear(qdot_precise_side *s)
@@ -239,7 +239,7 @@ state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, 
 
 /* Shorten a segment so that it ends at t. */
 static qdot_status
-cut(qdot_precise_side *s, size_t segment, mpfr_srcptr t)
+shorten_segment(qdot_precise_side *s, size_t segment, mpfr_srcptr t)
 {
     qdot_precise_run *run = &s->segments.at[segment].run;
 
@@ -276,7 +276,7 @@ end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end 
         if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
             return beyond_doubles(ends[0].t);
     }
-    QDOT_TRY(cut(s, segment, t));
+    QDOT_TRY(shorten_segment(s, segment, t));
     return state_change(s, segment, ends, n, t);
 }
 
@@ -370,7 +370,7 @@ does_not_rest(double t)
     return qdot_hint("a run in doubles rests there; digits are right until before t = %.6g", t);
 }
 
-/* Integrate one more flight in the mode, to the next impact on the same surface. */
+/* Integrate one more flight in the present mode, to the next impact on the same surface. */
 static qdot_status
 fly(qdot_precise_side *s, size_t mode, const qdot_precise_formula *f, const qdot_course_end *end)
 {
@@ -398,7 +398,7 @@ fly(qdot_precise_side *s, size_t mode, const qdot_precise_formula *f, const qdot
     if (!found)
         return does_not_rest(end->t);
     mpfr_set(t, at[X], RN);
-    QDOT_TRY(cut(s, segment, t));
+    QDOT_TRY(shorten_segment(s, segment, t));
     QDOT_TRY(state_change(s, segment, end, 1, t));
     mpfr_sub(at[FLIGHT], t, at[BEGAN], RN);
     return QDOT_OK;
@@ -429,7 +429,7 @@ piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
             break;
         if (count == MOST_BOUNCES || mpfr_cmp_d(at[W], 1) >= 0)
             return does_not_rest(end->t);
-        QDOT_TRY(fly(s, mode, f, end));
+        QDOT_TRY(integrate_flight(s, mode, f, end));
         QDOT_TRY(find_speeds(s, mode, rate, t));
     }
     mpfr_sub(at[W], at[SPEED_BEFORE], at[SPEED], RN);
@@ -443,7 +443,7 @@ piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
     return QDOT_OK;
 }
 
-/* Find the times of the guide's occurrences. */
+/* Find the times of the occurrences that the run in doubles has found. */
 static qdot_status
 time_occurrences(qdot_precise_side *s)
 {

@@ -17,7 +17,7 @@ static const double places[] = {0.5131, 0.5573, 0.6217, 0.6749, 0.7271,
                                 0.7853, 0.8311, 0.8929, 0.9467};
 enum { PLACES = sizeof places / sizeof places[0] };
 
-/* log10 max_i |a_i - b_i| / max(1, |b_i|) */
+/* Find log10 of the distance max_i |a_i - b_i| / max(1, |b_i|). */
 static double
 distance(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
 {
@@ -94,9 +94,9 @@ qdot_precise_compare(qdot_precise_pair *pair)
     return qdot_grave(status);
 }
 
-/* --- whether digits help ------------------------------------------------------------- */
+/* --- whether more digits help -------------------------------------------------------- */
 
-/* log10 of the distance of run and companion at the fraction `part` of the run's duration. */
+/* Find log10 of the distance of run and companion at the fraction `part` of the run's duration. */
 static qdot_status
 distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_distance)
 {
@@ -112,7 +112,7 @@ distance_at(qdot_precise_pair *pair, double part, qdot_reals *w, double *log10_d
     return QDOT_OK;
 }
 
-/* The time *t at which run and companion have separated, tested at times 9 % apart; NaN: not known. */
+/* Find the time *t at which run and companion have separated, tested at times 9 % apart; NaN: not known. */
 static qdot_status
 parting(qdot_precise_pair *pair, double *t)
 {

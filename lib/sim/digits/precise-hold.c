@@ -1,4 +1,4 @@
-/* precise-hold.c -- states brought onto the constraints, in all digits. */
+/* precise-hold.c -- projects states onto the constraints in all digits. */
 #include "sim/digits/precise-hold.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ struct qdot_precise_hold {
     mpfr_prec_t bits;
     qdot_precise *metric, *rows[2]; /* M and A; F of positions, of velocities */
     size_t count[2];                /* of such F */
-    /* of the level and the equations at hand: */
+    /* Fields of the level (positions or velocities) and the equations in use: */
     bool velocities;
     size_t m, kept; /* its equations; those that hold a free value */
     size_t *free;   /* [f] the unknowns that are free */
@@ -107,7 +107,7 @@ qdot_precise_hold_new(const qdot_plan *plan, mpfr_prec_t bits, qdot_precise_hold
     return status;
 }
 
-/* --- at a state ---------------------------------------------------------------------- */
+/* --- matrices at a state ------------------------------------------------------------- */
 
 static void
 hold_evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
@@ -121,7 +121,7 @@ hold_evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
     qdot_precise_order(program, 0);
 }
 
-/* The mass matrix into W (unless NULL) and the constraint rows of the present level into A. */
+/* Evaluate the mass matrix into W (unless NULL), and the constraint rows of the present level into A. */
 static void
 take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpfr_t *A)
 {
@@ -155,9 +155,9 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
     }
 }
 
-/* log2 of the largest violation |F| among the constraints in use. */
+/* Find log2 of the largest violation |F| among the constraints in use. */
 static double
-excess(const qdot_precise_hold *h)
+log2_violation(const qdot_precise_hold *h)
 {
     double log2 = -INFINITY;
 
@@ -187,7 +187,8 @@ choose_rows(qdot_precise_hold *h)
     }
 }
 
-/* The coordinates whose flag equals `free` may be changed; parameters that events set may not. */
+/* Choose the coordinates that may be changed: those whose flag equals `free`; not parameters that
+ * events set. */
 static void
 choose_level(qdot_precise_hold *h, bool velocities, const bool *flag, bool free)
 {
@@ -221,7 +222,7 @@ assemble(qdot_precise_hold *h)
         }
 }
 
-/* Solve K x = b; b becomes x. */
+/* Solve K x = b; the solution x replaces b. */
 static qdot_status
 hold_solve(qdot_precise_hold *h)
 {
@@ -245,7 +246,7 @@ take_residual(qdot_precise_hold *h)
                  qdot_precise_output(h->rows[h->velocities], h->row[k])[0], RN);
 }
 
-/* --- after an event ------------------------------------------------------------------ */
+/* --- projection after an event ------------------------------------------------------- */
 
 static qdot_status
 hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
@@ -259,7 +260,7 @@ hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
         take_metric(h, t, (const mpfr_t *)y, h->W, h->A);
         choose_rows(h);
         hold_evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
-        now = excess(h);
+        now = log2_violation(h);
         if (now <= 16 - (double)h->bits ||
             (now < 48 - (double)h->bits && now >= before - 1))
             return QDOT_OK;
@@ -293,7 +294,7 @@ qdot_precise_hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, const bool
     return QDOT_OK;
 }
 
-/* --- of a start ---------------------------------------------------------------------- */
+/* --- projection of a start ----------------------------------------------------------- */
 
 /* Add sum_k lambda_k d(A_k)/dx, computed by differences, to the upper left block of K. */
 static void
@@ -326,7 +327,7 @@ add_curvature(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
     }
 }
 
-/* b = -(W (x - a) + A^T lambda) of the free values. */
+/* Compute the right side b = -(W (x - a) + A^T lambda) for the free values. */
 static void
 take_gradient(qdot_precise_hold *h, const mpfr_t *x)
 {
@@ -348,7 +349,7 @@ take_gradient(qdot_precise_hold *h, const mpfr_t *x)
     }
 }
 
-/* One Newton step towards the nearest state on the constraints; *moved: log2 of its length. */
+/* Make one Newton step towards the nearest state on the constraints; *moved: log2 of its length. */
 static qdot_status
 step_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, double *moved)
 {

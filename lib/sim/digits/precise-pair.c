@@ -1,4 +1,4 @@
-/* precise-pair.c -- stored points and states of a run in MPFR; constants of its plan. */
+/* precise-pair.c -- reads points and states of a run in MPFR, and constants of its plan. */
 #include "sim/digits/precise-pair.h"
 
 #include <float.h>

@@ -8,7 +8,7 @@
 
 #define QDOT_LOG2_10 3.3219280948873626
 
-/* A piece of a run; a run that is not divided has one. */
+/* A part of a run between changes; a run that is not divided has only one. */
 typedef struct {
     qdot_precise_run run;
     size_t mode;
@@ -52,7 +52,7 @@ extern const double qdot_precise_parted;
  * arrive. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_precise_compare(qdot_precise_pair *pair);
 
-/* Results of earlier passes of a pair, each with more digits; start from {.t = NaN}. */
+/* Results of the earlier passes of a pair, in which the digits increase; start from {.t = NaN}. */
 typedef struct {
     double t;                   /* when run and companion parted the last time; NaN */
     double digits, log10_error; /* of the first pass in which they agreed at the end */
@@ -74,11 +74,11 @@ mpfr_t *qdot_precise_last(const qdot_precise_side *side);
 /* The segment that contains t; at the time between two segments the later one. */
 size_t qdot_precise_segment_at(const qdot_precise_side *side, mpfr_srcptr t);
 
-/* The state y [2n] at t within a segment. */
+/* Evaluate the state y [2n] at t within a segment. */
 QDOT_MUST_CHECK qdot_status qdot_precise_state_in(qdot_precise_side *side, size_t segment,
                                                   mpfr_srcptr t, mpfr_t *y);
 
-/* The state y [2n] of the run at t, which must lie within it. */
+/* Evaluate the state y [2n] of the run at t, which must lie within the run. */
 QDOT_MUST_CHECK qdot_status qdot_precise_state(qdot_precise_side *side, mpfr_srcptr t,
                                                mpfr_t *y);
 
@@ -89,11 +89,11 @@ QDOT_MUST_CHECK qdot_status qdot_precise_evaluate(qdot_precise_side *side, size_
                                                   bool accelerations, mpfr_srcptr t,
                                                   const mpfr_t *y);
 
-/* The value of an exact constant, with the parameter values of the plan. */
+/* Evaluate an exact constant, with the parameter values of the plan. */
 QDOT_MUST_CHECK qdot_status qdot_precise_constant(const qdot_plan *plan, qdot_expr e,
                                                   mpfr_ptr x);
 
-/* 10^x, never 0: an error below any double is rounded up. */
+/* The number 10^x, never 0: an error below any double is rounded up. */
 double qdot_precise_power(double x);
 
 #endif

@@ -1,4 +1,4 @@
-/* precise-start.c -- Newton's method, residuals in MPFR. */
+/* precise-start.c -- solves the constraints of a start by Newton's method with residuals in MPFR. */
 #include "sim/digits/precise-start.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ typedef struct {
     qdot_row_space space;
 } level;
 
-/* log2 of the largest residual of the equations at the start. */
+/* Find log2 of the largest residual of the equations at the start. */
 static double
 start_evaluate(level *l)
 {
@@ -48,7 +48,8 @@ start_evaluate(level *l)
     return log2;
 }
 
-/* The derivatives of the equations by the free values at y; whether they determine these values. */
+/* Find the derivatives of the equations by the free values at y; returns whether they determine
+ * these values. */
 static bool
 take_slopes(level *l, double *in, double *out)
 {
@@ -81,7 +82,8 @@ take_slopes(level *l, double *in, double *out)
     return l->space.rank == unknown;
 }
 
-/* Newton's method from the values in doubles, while it converges, until the residual is at most 2^-bits. */
+/* Iterate Newton's method from the values in doubles while it converges, until the residual is at
+ * most 2^-bits. */
 static qdot_status
 iterate(level *l, mpfr_prec_t bits)
 {

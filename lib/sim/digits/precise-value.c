@@ -36,7 +36,7 @@ reader_init(reader *r, const qdot_reading *of, qdot_precise_side *side)
     return qdot_precise_new(of->plan->pool, of->tape, 0, side->start.bits, &r->program);
 }
 
-/* The program at the state y of t. */
+/* Evaluate the program at the time t and the state y. */
 static qdot_status
 reader_evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 {
@@ -86,7 +86,7 @@ read_end(reader *r, size_t piece, bool last)
     return reader_evaluate(r, point[0], point + 1);
 }
 
-/* --- both ---------------------------------------------------------------------------- */
+/* --- reading run and companion ------------------------------------------------------- */
 
 /* Readers of the same expressions along the run and along its companion. */
 typedef struct {
@@ -131,7 +131,7 @@ undefined(const readers *r, size_t j)
     return status;
 }
 
-/* Where both runs are read: at the times stored in the readers, or at an end of a piece. */
+/* The places where both runs are read: the times stored in the readers, or an end of a piece. */
 typedef struct {
     bool end, last;
     size_t piece;
@@ -143,7 +143,7 @@ read_place(reader *r, place at)
     return at.end ? read_end(r, at.piece, at.last) : reader_read_at(r);
 }
 
-/* Values of the run, and their distances from the companion's into errors [m] (may be NULL). */
+/* Evaluate along the run; the distances from the companion's values go to errors [m] (may be NULL). */
 static qdot_status
 read_both(readers *r, place at, double *errors)
 {
@@ -256,7 +256,7 @@ qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_ex
     return status;
 }
 
-/* --- drifts -------------------------------------------------------------------------- */
+/* --- drifts of conserved quantities -------------------------------------------------- */
 
 /* A segment: the drift from w[0], which is what it starts with where `anew`. Where the
  * equations switch its ends are on neither side. */

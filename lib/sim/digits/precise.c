@@ -17,7 +17,7 @@
 
 #define RN MPFR_RNDN
 
-/* How far rounding to doubles may move a value that is preserved, relative to max(1, |x|). */
+/* The change of a preserved value that rounding to doubles may cause, relative to max(1, |x|). */
 static const double moved_by = 1e-13;
 
 enum {
@@ -62,7 +62,7 @@ qdot_precise_request(const qdot_run_request *request)
     return r;
 }
 
-/* --- one of the two ------------------------------------------------------------------ */
+/* --- one run of the pair ------------------------------------------------------------- */
 
 static void
 side_clear(qdot_precise_side *s)
@@ -80,7 +80,7 @@ side_clear(qdot_precise_side *s)
     *s = (qdot_precise_side){.near = SIZE_MAX};
 }
 
-/* *log2 at least that of the largest residual of a tape at the start, in all digits. */
+/* Find a bound *log2 of the largest residual of a tape at the start, in all digits. */
 static qdot_status
 residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tape, double *log2)
 {
@@ -100,7 +100,7 @@ residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tap
     return QDOT_OK;
 }
 
-/* Whether a named value of the level had to change in doubles. */
+/* Whether a named value (a position, or with `velocities` a velocity) had to change in doubles. */
 static bool
 has_moved(const qdot_precise_side *s, const qdot_precise_pair *pair, bool velocities)
 {
@@ -185,7 +185,7 @@ precise_settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, 
     return qdot_hint("start with every value exact, as x = sin(2), y = -cos(2)");
 }
 
-/* Prepare a run with `digits`: everything that needs the pool. */
+/* Prepare one run with `digits`: everything for which the pool is needed. */
 static qdot_status
 side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, int orders_more)
 {
@@ -267,7 +267,7 @@ side_thread(void *user)
     return NULL;
 }
 
-/* Whether the run so far is kept after this status. */
+/* Whether the points computed so far are kept after a run with this status. */
 static bool
 run_is_kept(qdot_status status)
 {
@@ -313,7 +313,7 @@ cut_at_domain(qdot_precise_side *s)
     return status;
 }
 
-/* --- both ---------------------------------------------------------------------------- */
+/* --- run and companion --------------------------------------------------------------- */
 
 /* Carry out both runs of the pair with `digits` and compare them. QDOT_OK if there is a run, even
  * an incomplete one. */
@@ -378,7 +378,7 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
                              pair->digits, pair->run.digits, pair->log10_error);
         QDOT_TRY(precise_carry_out(pair, digits, domains));
         QDOT_TRY(qdot_precise_check_progress(pair, &progress));
-        /* as long as the runs separate the digits are doubled; that does not count as a pass */
+        /* double the digits as long as the runs separate; that does not count as a pass */
         if (!(pair->log10_error > qdot_precise_parted))
             passes++;
         digits = digits_wanted(pair);
@@ -430,7 +430,7 @@ qdot_precise_pair_free(qdot_precise_pair *pair)
     qdot_free(pair);
 }
 
-/* --- what was done ------------------------------------------------------------------- */
+/* --- results of the pair ------------------------------------------------------------- */
 
 const qdot_ode_result *
 qdot_precise_pair_result(const qdot_precise_pair *pair)

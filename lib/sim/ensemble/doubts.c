@@ -1,4 +1,4 @@
-/* doubts.c -- tells whether the steps of one ensemble member must be repeated as a single run. */
+/* doubts.c -- decides whether an ensemble member must be repeated as a single run, by inspecting its steps. */
 #include "sim/ensemble/doubts.h"
 
 #include "base/memory.h"

@@ -102,12 +102,12 @@ const qdot_plan *qdot_ensemble_plan(const qdot_ensemble *e);
 size_t qdot_ensemble_points(const qdot_ensemble *e, size_t pass, size_t member);
 void qdot_ensemble_point(const qdot_ensemble *e, size_t pass, size_t member, size_t i, double *t,
                          double *whole);
-/* The order and the tolerance of a pass; the time limits and the requested tolerance. */
+/* The order of a pass; _tolerance: its tolerance; _limits: the time limits and the requested tolerance. */
 int qdot_ensemble_order(const qdot_ensemble *e, size_t pass);
 double qdot_ensemble_tolerance(const qdot_ensemble *e, size_t pass);
 void qdot_ensemble_limits(const qdot_ensemble *e, double *t0, double *t1, double *tol);
 
-/* Whether the equations depend on varied parameter k. */
+/* Whether the equations depend on varied parameter number k. */
 bool qdot_ensemble_reads(const qdot_ensemble *e, size_t k);
 
 #endif

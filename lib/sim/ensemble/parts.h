@@ -46,7 +46,7 @@ qdot_ensemble_equations(const qdot_ensemble *e)
     return e->plan->reduced ? e->plan->reduced : e->plan;
 }
 
-/* The size of a state with the varied parameters; the number of conserved momenta. */
+/* The size of a state with the varied parameters; _kept: the number of conserved momenta. */
 static inline size_t
 qdot_ensemble_width(const qdot_ensemble *e)
 {

@@ -22,7 +22,7 @@ typedef struct {
     const qdot_expr *varied;
 } qdot_ensemble_path_of;
 
-/* A run without points yet; release with qdot_run_free. Errors: as qdot_plan_new, QDOT_ENOMEM. */
+/* Make a run without points; release it with qdot_run_free. Errors: as qdot_plan_new, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_path_new(const qdot_ensemble_path_of *of, qdot_run **run);
 
 /* After qdot_ensemble_run with `keep` of qdot_ensemble_watching and errors, by two companions: make

@@ -50,7 +50,7 @@ qdot_ensemble_free(qdot_ensemble *e)
     qdot_free(e);
 }
 
-/* --- the scene ---------------------------------------------------------------------- */
+/* --- making the ensemble ------------------------------------------------------------ */
 
 static qdot_status
 ensemble_check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
@@ -144,7 +144,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     return QDOT_OK;
 }
 
-/* --- runs --------------------------------------------------------------------------- */
+/* --- running one pass --------------------------------------------------------------- */
 
 /* Write a state y [n] and parameters [varied] to `to`; for companion 1 or 2 slightly shifted. */
 static void
@@ -207,7 +207,7 @@ pass_run(void *user)
     return NULL;
 }
 
-/* The order and the tolerance of a pass. */
+/* Set the order and the tolerance of a pass. */
 static void
 pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
@@ -257,7 +257,7 @@ members_enter_velocities(const qdot_ensemble *e, qdot_ensemble_pass *p)
     }
 }
 
-/* Replace the momenta by velocities again. */
+/* Convert the momenta back to velocities. */
 static void
 come_back(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
@@ -280,7 +280,7 @@ come_back(const qdot_ensemble *e, qdot_ensemble_pass *p)
     }
 }
 
-/* --- constraints -------------------------------------------------------------------- */
+/* --- starts that satisfy the constraints -------------------------------------------- */
 
 /* Whether a member may start at y, which is brought to its constraints; as of a single run, whose
  * states are `whole` [2 (n + varied)]. */
@@ -353,7 +353,7 @@ start_passes(qdot_ensemble *e, size_t passes)
     return status;
 }
 
-/* --- all passes --------------------------------------------------------------------------- */
+/* --- running all passes ------------------------------------------------------------------- */
 
 /* The first pass here; its companions beside it, or after it where somebody looks: beside no member
  * that was left. */
@@ -388,7 +388,7 @@ arrived(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
            (companions->t1[m] != e->t0 || e->t1 == e->t0);
 }
 
-/* The error of member m's end state, estimated from its companions. */
+/* Estimate the error of member m's end state from its companions. */
 static double
 end_error(const qdot_ensemble *e, size_t m)
 {

@@ -1,4 +1,4 @@
-/* seen.c -- events and intermediate states of ensemble members. */
+/* seen.c -- returns the events and intermediate states of ensemble members, with their errors. */
 #include <math.h>
 #include <string.h>
 

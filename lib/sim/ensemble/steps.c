@@ -12,7 +12,7 @@
 
 enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
 
-/* A vector lane: its member, what has been seen of it, and its present step as a system of its own. */
+/* A vector lane: its member, the results observed so far, and its present step as a system of equations. */
 typedef struct {
     size_t member;
     bool begun; /* the watch stands at the start of its member */
@@ -47,7 +47,7 @@ struct qdot_ensemble_steps {
     qdot_ensemble_starts *starts; /* [members]; NULL: they are not kept */
 };
 
-/* --- building ------------------------------------------------------------------------- */
+/* --- making the lanes ----------------------------------------------------------------- */
 
 static void
 steps_forget(qdot_ensemble_steps *s)
@@ -179,7 +179,7 @@ qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
     return QDOT_OK;
 }
 
-/* --- a step --------------------------------------------------------------------------- */
+/* --- inspecting a step ---------------------------------------------------------------- */
 
 /* The state at time t by the step's series, even and odd orders apart: components by fours, none of which
  * waits for another. */
@@ -211,7 +211,7 @@ read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, 
     }
 }
 
-/* The state at t within the step of a lane, for the watch. */
+/* Evaluate the state at t within the step of a lane, for the watch. */
 static qdot_status
 read_lane(double t, double *y, void *user)
 {
@@ -283,7 +283,7 @@ lane_search_roots(const qdot_ensemble_steps *s, bool last, lane *a)
     return QDOT_OK;
 }
 
-/* Whether some bound may be reached. */
+/* Whether the step may reach a bound of some event's function. */
 static bool
 is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 {
@@ -432,7 +432,7 @@ qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system)
     s->stride = system->stride;
 }
 
-/* --- what was seen --------------------------------------------------------------------- */
+/* --- results of a member --------------------------------------------------------------- */
 
 size_t
 qdot_ensemble_steps_passed(const qdot_ensemble_steps *s, size_t member)

@@ -51,7 +51,7 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_new(const qdot_ensemble_steps_of
                                                     qdot_ensemble_steps **steps);
 void qdot_ensemble_steps_free(qdot_ensemble_steps *s);
 
-/* Call before a run of `members` members. QDOT_ENOMEM. */
+/* Call before a run of `members` members. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members);
 /* Set the callbacks of a system so that each step is inspected. */
 void qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system);

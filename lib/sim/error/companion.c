@@ -21,14 +21,14 @@
 /* The time at which the companion ends: the end of the run, or the requested end if an event
  * stopped the run. */
 static double
-goal(const qdot_run *run)
+companion_end(const qdot_run *run)
 {
     return run->course.stopped_by != SIZE_MAX
                ? qdot_shake_double(run->t1, run->t1_side)
                : run->course.tr.t[run->course.tr.count - 1];
 }
 
-/* --- comparing ----------------------------------------------------------------------- */
+/* --- comparing run and companion ----------------------------------------------------- */
 
 /* A last piece of the run shorter than this, relative to t, may be caused by rounding of t. */
 static const double no_length = 8 * DBL_EPSILON;
@@ -95,7 +95,7 @@ count(const qdot_course *c, size_t event)
     return n;
 }
 
-/* --- the companion ------------------------------------------------------------------- */
+/* --- making the companion ------------------------------------------------------------ */
 
 /* The fraction of the run's work after which the progress of a companion is judged. */
 static const double of_whole = 0.1;
@@ -132,7 +132,7 @@ project_start(const qdot_run *run, const qdot_ode_system *system, double t0, dou
     return status;
 }
 
-/* Whether the function of an event is 0 at the start of the run, within its rounding error. */
+/* Whether the function of an event is 0 at the start of the run, to within rounding. */
 static qdot_status
 starts_on(const qdot_run *run, const qdot_staged_event *e, double t0, bool *on)
 {
@@ -237,7 +237,7 @@ met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
     return went_alike(&run->course, c);
 }
 
-/* An empty course with the same settings. */
+/* An empty course with the same settings as c. */
 static qdot_course
 course_like(const qdot_course *c)
 {
@@ -278,7 +278,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
                                 .first_share = qdot_companion_first_share(number),
                                 .order_more = qdot_companion_orders(number),
                                 .term_tol = qdot_companion_term_tol(run->report.tol, number),
-                                .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
+                                .t1_low = companion_end(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .alternates = run->turns,
                                 .stiff_work = INFINITY};
@@ -410,7 +410,7 @@ qdot_run_twin(qdot_run *run)
         return QDOT_OK;
     QDOT_TRY(follow(run, 1, &run->twin, &run->has_twin));
     if (run->has_twin && !covers(&run->twin, run->course.tr.t[run->course.tr.count - 1])) {
-        /* the second companion was abandoned: only the first one counts */
+        /* the second companion was abandoned: use only the first one */
         begin_anew(&run->twin);
         run->has_twin = false;
         run->way = QDOT_COMPANION_WAYS;
@@ -418,7 +418,7 @@ qdot_run_twin(qdot_run *run)
     return QDOT_OK;
 }
 
-/* --- the error ----------------------------------------------------------------------- */
+/* --- the error of the run ------------------------------------------------------------ */
 
 /* Record how the pieces of the companion differ from those of the run, as a reason to distrust the run. */
 static qdot_status

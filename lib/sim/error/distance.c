@@ -15,7 +15,7 @@
 /* Angle in radians by which the path must turn before and after t. */
 static const double least_turn = 0.5;
 
-/* A component that moves by fewer tolerances than this seems to turn by rounding only. */
+/* A component that moves by fewer tolerances than this seems to turn because of rounding. */
 static const double tolerances = 1000;
 
 /* A jump in time: the distance to the companions grows by this factor from one point to the next. */
@@ -28,7 +28,7 @@ enum { near_points = 3 };
  * part of the value, the expression may be singular nearby: its error is found from that of the states. */
 static const double poor = 1e3, poor_part = 1e-8;
 
-/* The least error assumed for a companion, as a fraction of the run's. */
+/* The smallest error assumed for a companion, as a fraction of the error of the run. */
 static const double least_share = 1.0 / 32;
 
 struct qdot_distance {
@@ -121,7 +121,7 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
     return status;
 }
 
-/* --- differences --------------------------------------------------------------------- */
+/* --- differences at one time --------------------------------------------------------- */
 
 /* At t in a piece: the distance of `values` from the middle of the companions' into out [m], what these
  * may be off by themselves into own [m]. NaN where one has no values. */
@@ -150,7 +150,7 @@ distance_compare(qdot_distance *d, size_t piece, double t, const double *values,
     return QDOT_OK;
 }
 
-/* The difference of run and companions at stored point k; 0 if unknown. */
+/* Find the difference of run and companions at stored point k; 0 if unknown. */
 static qdot_status
 at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 {
@@ -173,11 +173,11 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
     return QDOT_OK;
 }
 
-/* --- windows ------------------------------------------------------------------------- */
+/* --- windows of time around a point -------------------------------------------------- */
 
-/* The angle by which the path turns at point k, between the chords before and after it. */
+/* The angle at point k between the chords of the path before and after it. */
 static double
-turn(const qdot_distance *d, size_t k)
+angle_of_path(const qdot_distance *d, size_t k)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     const double *y = tr->y + k * tr->n;
@@ -255,13 +255,13 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
             return QDOT_OK;
         }
         if (k > first && k < last)
-            turned += turn(d, k);
+            turned += angle_of_path(d, k);
         k = way > 0 ? k + 1 : k - 1;
     }
     return QDOT_OK;
 }
 
-/* The difference of run and companions near t, a time after point k. */
+/* Find the difference of run and companions near t, a time after point k. */
 static qdot_status
 look_around(qdot_distance *d, size_t piece, size_t k, double *own)
 {

@@ -68,7 +68,7 @@ is_seen(look *l, double t, double least, bool *seen)
     return qdot_reader_has_nothing(status) ? QDOT_OK : status;
 }
 
-/* l->size, from some times along the run. */
+/* Find l->size, the largest |g|, from some times along the run. */
 static qdot_status
 find_size(look *l)
 {
@@ -108,7 +108,7 @@ least_seen(const look *l, size_t k)
     return is_met(l, k - 1, near) && is_met(l, k, near) ? 0 : l->tol * l->size;
 }
 
-/* The last of eight times between occurrences k - 1 and k at which g clearly differs from 0; NaN: none. */
+/* Find the last of eight times between occurrences k - 1 and k at which g clearly differs from 0; NaN: none. */
 static qdot_status
 last_seen(look *l, size_t k, double *t)
 {

@@ -5,7 +5,7 @@
 
 #include "ode/scale.h"
 
-/* A singularity ahead explains the failure if it is nearer than this fraction of the run. */
+/* A singularity ahead explains a failure if it is nearer than this fraction of the run's duration. */
 static const double nothing = 1e-6;
 
 qdot_status

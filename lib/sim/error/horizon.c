@@ -11,7 +11,7 @@
 /* The error at the end of a run, relative to the variation of the state, from which the horizon is searched. */
 static const double worth_looking = 0.02;
 
-/* A motion smaller than this many tolerances is rounding. */
+/* A motion smaller than this many tolerances counts as rounding. */
 static const double tolerances = 100;
 
 /* The least fraction of the run beyond a horizon. */
@@ -36,9 +36,9 @@ typedef struct {
     double threshold;
 } search;
 
-/* --- variation ----------------------------------------------------------------------- */
+/* --- variation of the state ---------------------------------------------------------- */
 
-/* The least and the largest value of component i, at every `stride`-th point. */
+/* Find the least and the largest value of component i, at every `stride`-th point. */
 static void
 component_range(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
 {
@@ -84,7 +84,7 @@ qdot_horizon_variation(const qdot_trajectory *tr)
     return variation(NULL, tr, NULL, 1);
 }
 
-/* --- distances ----------------------------------------------------------------------- */
+/* --- distances of run and companion -------------------------------------------------- */
 
 /* The number of initial pieces in which both trajectories have the same modes. */
 static size_t
@@ -185,9 +185,10 @@ look_between(search *s, size_t k)
     return QDOT_OK;
 }
 
-/* --- the horizon --------------------------------------------------------------------- */
+/* --- finding the horizon ------------------------------------------------------------- */
 
-/* The first point above the threshold after which at least half of the time is above; SIZE_MAX: none. */
+/* The first point above the threshold after which d is above it for at least half of the time;
+ * SIZE_MAX: none. */
 static size_t
 first_lost(const search *s)
 {
@@ -237,7 +238,7 @@ crossing(const search *s, size_t k)
     return t[k - 1] + fmin(1, low / high) * (t[k] - t[k - 1]);
 }
 
-/* Find the time at which this companion has lost the run, if it is earlier than the horizon found so far. */
+/* Find the time from which on this companion no longer follows the run, if earlier than the horizon so far. */
 static qdot_status
 horizon_find(qdot_run *run, search *s)
 {
@@ -278,7 +279,7 @@ horizon_find(qdot_run *run, search *s)
 
 /* The number of points that the remaining work budget allows to compare. */
 static size_t
-affordable(const qdot_run *run)
+affordable_points(const qdot_run *run)
 {
     const double left = qdot_companion_left(run->meter.work, run->report.estimate_work);
 
@@ -312,10 +313,10 @@ qdot_horizon_find(qdot_run *run)
     if (report->scaled_error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
         || varies_by_more(run->stage.scales, tr, report->scaled_error / worth_looking))
         return QDOT_OK;
-    /* use both companions: one may stay near the run for a while by chance */
+    /* use both companions: one of them may stay near the run for a while by chance */
     if (run->way != QDOT_COMPANION_WAYS)
         QDOT_TRY(qdot_run_twin(run));
-    most = affordable(run);
+    most = affordable_points(run);
     if (run->has_companion)
         QDOT_TRY(find_by(run, &run->companion, most));
     if (run->has_twin)
@@ -329,7 +330,7 @@ qdot_horizon_passed(const qdot_run *run, double t)
     return qdot_run_report_is_beyond(&run->report, t);
 }
 
-/* --- expressions beyond it ----------------------------------------------------------- */
+/* --- expressions beyond the horizon -------------------------------------------------- */
 
 static qdot_status
 companions_compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)

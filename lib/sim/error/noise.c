@@ -1,4 +1,4 @@
-/* noise.c -- third differences along a line of states. */
+/* noise.c -- estimates rounding noise from third differences along a short line of states. */
 #include "sim/error/noise.h"
 
 #include <float.h>
@@ -17,9 +17,9 @@ static const double spacing = 0x1p-38;
 /* (ORDER!)^2 / (2 ORDER)!: converts the variance of a difference of that order to the variance of one value. */
 static const double factor = 1.0 / 20;
 
-/* Pseudo-random signs, one for each component. */
+/* A pseudo-random sign, +1 or -1, for component i. */
 static double
-side(size_t i)
+pseudo_random_sign(size_t i)
 {
     return (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 ? 1 : -1;
 }
@@ -50,11 +50,11 @@ move_along(qdot_reader *r, const double *y, int s)
         const double *from = y + (in - r->in);
 
         for (size_t i = 0; i < 2 * r->courses[k].n; i++, count++)
-            in[i] = from[i] + s * spacing * side(count) * from[i];
+            in[i] = from[i] + s * spacing * pseudo_random_sign(count) * from[i];
     }
 }
 
-/* Noise [m], and the slopes [m] along the line, dg/dh, or NULL. */
+/* Estimate noise [m], and slopes dg/dh [m] along the line (NULL: not wanted). */
 static qdot_status
 look_along(qdot_reader *r, const size_t *pieces, double t, double *noise, double *slopes)
 {
@@ -83,7 +83,7 @@ qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
     return look_along(r, pieces, t, noise, NULL);
 }
 
-/* Roundings [m] at t; noise [2 m] scratch. */
+/* Estimate rounding errors [m] at t; noise [2 m] is work space. */
 static qdot_status
 noise_find(qdot_reader *r, double t, double *noise, double *roundings)
 {

@@ -15,7 +15,8 @@
 
 #include "sim/course/reader.h"
 
-/* The rounding noise [m] of the reader's expressions at t, in the given pieces. Errors: as qdot_reader_read. */
+/* Find the rounding noise [m] of the reader's expressions at t, in the given pieces. Errors: as
+ * qdot_reader_read. */
 QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, const size_t *pieces, double t,
                                           double *noise);
 

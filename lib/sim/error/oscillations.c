@@ -12,10 +12,10 @@
 
 static const double period = 6.283185307179586;
 
-/* The points that are compared: the first ones, and those about the end of the first step that is too long. */
+/* The numbers of points compared: at first, and before and after the end of the first step that is too long. */
 enum { early = 2, before = 2, behind = 2 };
 
-/* If the fast mode was resolved for more steps than this, the companions include its error. */
+/* If the fast mode was resolved for more steps than this, its error is in the companions. */
 enum { soon = 50 };
 
 /* Velocities above this many tolerances appear in the error estimate of a step. */
@@ -96,7 +96,7 @@ find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *t
     return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
 }
 
-/* The amplitude A at point j of the course, the fastest mode and the least damping there. */
+/* Find the amplitude A at point j of the course, the fastest mode and the least damping there. */
 static qdot_status
 oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest, double *damping)
 {

@@ -25,7 +25,7 @@
 
 typedef struct qdot_oscillations qdot_oscillations;
 
-/* *out is NULL where a run has gone over none. Errors: QDOT_ENOMEM. The course is borrowed. */
+/* Make *out, NULL if the run has passed over no oscillation. Errors: QDOT_ENOMEM. The course is borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_oscillations_new(const qdot_course *course,
                                                   qdot_oscillations **out);
 void qdot_oscillations_free(qdot_oscillations *o);

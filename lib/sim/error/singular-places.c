@@ -265,7 +265,8 @@ search_take_place(search *s, double t, double q)
     return least < s->enough ? groups_note(s, at) : QDOT_OK;
 }
 
-/* Into how many intervals to divide the step that ends at stored point k, by the length of its neighbours. */
+/* The number of intervals into which the step that ends at stored point k is divided, by its
+ * neighbours' length. */
 static int
 parts_of(const qdot_trajectory *tr, size_t first, size_t k, size_t end)
 {

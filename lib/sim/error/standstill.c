@@ -1,15 +1,15 @@
-/* standstill.c -- the slopes at the stored points of a run, twice: their sizes, then the least. */
+/* standstill.c -- finds where a run is at rest: rates at its stored points, their sizes and least values. */
 #include "sim/error/standstill.h"
 
 #include <math.h>
 
-/* The motion is at rest if its rates are below this part of their largest values. */
+/* The motion counts as at rest if its rates are below this fraction of their largest values. */
 static const double little = 1e-2;
 
 /* The most points that are inspected. */
 enum { MOST = 4096 };
 
-/* The rates f [n] of the state at stored point k of a run of one piece; false if undefined. */
+/* The rates f [n] of the state at stored point k of a run that has one piece; false if undefined. */
 static bool
 slopes_at(const qdot_run *run, size_t k, double *f)
 {

@@ -33,7 +33,7 @@ close_look(look *l)
     qdot_tape_free(l->of.tape);
 }
 
-/* The function g of an event at t and its error; NaN if unknown. */
+/* Evaluate the function g of an event at t, and its error; NaN if unknown. */
 static qdot_status
 touch_look_at(look *l, double t, double *g, double *error)
 {
@@ -103,7 +103,7 @@ ends_on(const qdot_run *run, size_t event, double t)
     return false;
 }
 
-/* The size of g: its largest |value| at eight times of the run. */
+/* Find the size of g: its largest |value| at eight times of the run. */
 static qdot_status
 find_size(look *l, const qdot_trajectory *tr, double *size)
 {

@@ -1,4 +1,4 @@
-/* bordered.c -- the bordered equations. */
+/* bordered.c -- makes the equations of motion with constraints as one bordered system. */
 #include "sim/form/bordered.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 #include "sim/model/power-quotient.h"
 #include "tape/rounding.h"
 
-/* f, M, A, gamma of a plan; NULL: no memory. */
+/* Write f, M, A and gamma of a plan as a list of expressions; NULL: no memory. */
 static qdot_expr *
 bordered_equations(const qdot_plan *p, size_t *count)
 {

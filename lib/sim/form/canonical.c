@@ -129,7 +129,7 @@ canonical_lower(builder *b)
     return status;
 }
 
-/* The rows of the program: q [n], q' [n], t, p [n]; the rows of q' are those of dH/dp. */
+/* Add the rows of the program: q [n], q' [n], t, p [n]; the rows of q' are those of dH/dp. */
 static qdot_status
 add_rows(qdot_canonical *c, qdot_program_builder *b, qdot_program_row *in, qdot_program_row *out)
 {

@@ -1,4 +1,4 @@
-/* derived.c -- the program of a plan's derived form; plans freed. */
+/* derived.c -- makes the series program of a plan, and frees plans. */
 #include "sim/form/derived.h"
 
 #include "sim/form/canonical.h"

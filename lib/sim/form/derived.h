@@ -11,7 +11,7 @@
 QDOT_MUST_CHECK qdot_status qdot_plan_make_motion(qdot_plan *plan);
 /* Make plan->motion for the members of an ensemble (qdot_motion_of_members). */
 QDOT_MUST_CHECK qdot_status qdot_plan_make_motion_of_members(qdot_plan *plan);
-/* Free plan->bordered and its program; the plan will not use them. */
+/* Free the form plan->bordered and its program; the plan does not use them. */
 void qdot_plan_drop_bordered(qdot_plan *plan);
 
 /* Operations of the equations it integrates, evaluated once: of M and f, or of what the tree

@@ -16,9 +16,9 @@
 /* The most constraints that are eliminated symbolically; more are cheaper in numbers. */
 enum { most_rows = 3 };
 
-/* --- the expressions ---------------------------------------------------------------- */
+/* --- expressions of the elimination ------------------------------------------------- */
 
-/* S = A M^-1 A^T, later its factors (d on the diagonal, L below); the right-hand side b; the diagonal of S. */
+/* S = A M^-1 A^T, later its factors (D on the diagonal, L below); the right-hand side; the diagonal of S. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_constraints *c;
@@ -121,7 +121,7 @@ elimination_factor(elimination *e)
     return true;
 }
 
-/* Solve S lambda = b; b becomes lambda. */
+/* Solve S lambda = b by the factors of S; b becomes lambda. */
 static void
 elimination_solve(elimination *e)
 {
@@ -141,7 +141,7 @@ elimination_solve(elimination *e)
     }
 }
 
-/* f becomes f + A^T lambda */
+/* Add the constraint forces: f becomes f + A^T lambda. */
 static void
 add_reactions(const elimination *e, qdot_expr *f)
 {
@@ -154,7 +154,7 @@ add_reactions(const elimination *e, qdot_expr *f)
     }
 }
 
-/* --- the plan ----------------------------------------------------------------------- */
+/* --- the plan of the eliminated equations ------------------------------------------- */
 
 static bool
 elimination_fits(const qdot_plan *p, double tol)

@@ -40,9 +40,9 @@ struct qdot_ensemble_series {
     qdot_lanes_motion *code;  /* NULL: kernels run */
 };
 
-/* --- one stage ----------------------------------------------------------------------- */
+/* --- one stage of the expansion ------------------------------------------------------ */
 
-/* Whether the block has two unknowns: its matrix is inverted by a formula. */
+/* Whether the block has two unknowns; then its matrix is inverted by a formula. */
 static bool
 is_pair(const solver *s)
 {
@@ -200,7 +200,7 @@ lanes_near(int p, const double *s, const double *least, double *to, void *user)
     qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, p - 2, s, least, to);
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making the series --------------------------------------------------------------- */
 
 static qdot_status
 make_solver(qdot_ensemble_series *e, size_t b)

@@ -1,4 +1,5 @@
-/* expansion.c -- callbacks for the machine code of a program; order p of a state is p - 1 of q''. */
+/* expansion.c -- lets an integrator run the machine code of a program; order p of a state is order
+ * p - 1 of q''. */
 #include "sim/form/expansion.h"
 
 static qdot_status

@@ -30,7 +30,7 @@ qdot_expansion_of(qdot_taylor *taylor, size_t n)
                             .t = qdot_taylor_input(taylor, 2 * n)};
 }
 
-/* The state y [2n] at time t; constants are drawn (series/taylor.h). */
+/* Set the state y [2n] at time t; constants are drawn (series/taylor.h). */
 static inline void
 qdot_expansion_begin(const qdot_expansion *e, double t, const double *y, double unit)
 {

@@ -31,7 +31,7 @@ struct qdot_leading {
     const double *hi, *lo;   /* [n_kept]; borrowed */
 };
 
-/* --- M ------------------------------------------------------------------------------- */
+/* --- the mass matrix ----------------------------------------------------------------- */
 
 /* The block of the plan that is number k among those solved for; the search starts at *b. */
 static const qdot_plan_block *
@@ -91,11 +91,11 @@ factor_residual(qdot_leading *l, const qdot_ode_place *at)
     return leading_factor(l, l->out);
 }
 
-/* --- one order ----------------------------------------------------------------------- */
+/* --- one order of the series --------------------------------------------------------- */
 
-/* Solve for the correction of the accelerations at order k. Returns its size relative to them. */
+/* Solve for the correction of the accelerations at order k. Returns its relative size. */
 static double
-missing(qdot_leading *l, int k)
+correct_accelerations(qdot_leading *l, int k)
 {
     const qdot_motion *m = l->motion;
     double most = 0, size = 0;
@@ -120,9 +120,9 @@ missing(qdot_leading *l, int k)
     return most / size;
 }
 
-/* Take the accelerations of order k in doubles from the coefficients of the velocities. */
+/* Set the accelerations of order k, in doubles, from the coefficients of the velocities. */
 static void
-guess(qdot_leading *l, int k)
+guess_accelerations(qdot_leading *l, int k)
 {
     const qdot_motion *m = l->motion;
 
@@ -154,19 +154,19 @@ leading_begin(const qdot_ode_place *at, double unit, void *user)
     return l->plan->residual ? factor_residual(l, at) : QDOT_OK;
 }
 
-/* Coefficients k of q and v, by order k - 1 of the accelerations. */
+/* Compute coefficients k of q and v from order k - 1 of the accelerations. */
 static qdot_status
 next(int k, void *user)
 {
     qdot_leading *l = user;
     double nothing = 0; /* a sum of zeros, if all is finite */
 
-    guess(l, k - 1);
+    guess_accelerations(l, k - 1);
     qdot_tape_two_stage(l->two, k - 1, l->newest);
     if (k == 1 && !l->plan->residual)
         QDOT_TRY(leading_factor(l, NULL));
     for (int tries = 0; tries < most_corrections && l->motion->solved.n > 0; tries++) {
-        const double share = missing(l, k - 1);
+        const double share = correct_accelerations(l, k - 1);
 
         qdot_tape_two_change(l->two, k - 1, l->by);
         if (!(share > enough))
@@ -182,7 +182,7 @@ next(int k, void *user)
                                     "the first orders of the motion are not finite");
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making the series --------------------------------------------------------------- */
 
 static qdot_status
 leading_make_masses(qdot_leading *l)

@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_leading_new(const qdot_plan *plan,
                                              qdot_leading **out);
 void qdot_leading_free(qdot_leading *l);
 
-/* Set the conserved momenta of a reduced plan, hi + lo [n_kept], borrowed. */
+/* Set the conserved momenta of a reduced plan to hi + lo [n_kept]; borrowed. */
 void qdot_leading_keep(qdot_leading *l, const double *hi, const double *lo);
 
 /* The callbacks for `leading` of qdot_ode_system; borrowed. */

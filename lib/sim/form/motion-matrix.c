@@ -22,7 +22,7 @@ matrix_factor(qdot_motion_matrix *K)
     return QDOT_OK;
 }
 
-/* K of a residual, at y. */
+/* Evaluate the matrix K of a d'Alembert residual at the state y. */
 static void
 evaluate_masses(qdot_motion_matrix *K, double t, const double *y)
 {
@@ -128,7 +128,7 @@ qdot_motion_matrix_factored(const qdot_motion_matrix *K)
     return K->saddle ? K->saddle->matrix.factored : K->solvers.factored;
 }
 
-/* --- building -------------------------------------------------------------------------- */
+/* --- making the matrix ----------------------------------------------------------------- */
 
 void
 qdot_motion_matrix_clear(qdot_motion_matrix *K)

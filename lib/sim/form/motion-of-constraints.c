@@ -1,4 +1,4 @@
-/* motion-of-constraints.c -- program rows of M q'' + A^T mu = f together with the constraints. */
+/* motion-of-constraints.c -- writes M q'' + A^T mu = f and the constraints as rows of a series program. */
 #include "sim/form/motion-of-constraints.h"
 
 #include "base/memory.h"
@@ -22,7 +22,7 @@ operation(const builder *b, qdot_op op, qdot_program_row x, qdot_program_row y,
     return qdot_program_operation(b->program, op, x, y, z);
 }
 
-/* The row sum + factor * x. */
+/* Add the row of sum + factor * x. */
 static qdot_program_row
 damp(const builder *b, double factor, qdot_program_row x, qdot_program_row sum)
 {

@@ -1,11 +1,11 @@
-/* motion-of-equations.c -- program rows of M q'' = f, optionally bordered by constraints. */
+/* motion-of-equations.c -- writes M q'' = f, perhaps bordered by constraints, as rows of a series program. */
 #include "sim/form/motion-of-equations.h"
 
 #include "base/memory.h"
 #include "expr/constant.h"
 #include "sim/model/constraints.h"
 
-/* Unknowns in order: q'' of the coordinates, then the multipliers of the constraints. */
+/* The unknowns in their order: q'' of the coordinates, then the multipliers of the constraints. */
 typedef struct {
     const qdot_plan *plan;
     const qdot_tape *tape; /* of it, or with the rest of constraints for machine code */
@@ -54,7 +54,7 @@ solve_for(builder *b, size_t i)
     return qdot_motion_solve(b->motion, u, line->E);
 }
 
-/* The row of a constant entry of M; *row is QDOT_NO_ROW if the entry is 0. */
+/* Find the row of a constant entry of M; *row is QDOT_NO_ROW if the entry is 0. */
 static qdot_status
 number(builder *b, qdot_expr e, qdot_program_row *row)
 {

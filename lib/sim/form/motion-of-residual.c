@@ -1,4 +1,5 @@
-/* motion-of-residual.c -- program rows of d'Alembert's residual along its tree of functions. */
+/* motion-of-residual.c -- writes d'Alembert's residual, along its tree of functions, as rows of a
+ * series program. */
 #include "sim/form/motion-of-residual.h"
 
 #include "base/memory.h"
@@ -29,7 +30,7 @@ add_product(builder *b, qdot_program_row *sum, qdot_program_row x, qdot_program_
                                   x, y, *sum == QDOT_NO_ROW ? y : *sum);
 }
 
-/* Down the tree and up again. */
+/* Add the rows of the tree: functions from the root down, forces from the leaves up. */
 static void
 add_tree(builder *b)
 {

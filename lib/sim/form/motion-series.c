@@ -11,7 +11,7 @@
 
 enum { most_order = 47, highest = most_order - 3 };
 
-/* Unknowns of a larger block are not solved for by machine code, number by number. */
+/* For blocks with more unknowns than this no machine code is written. */
 enum { most_coded = 6 };
 
 struct qdot_motion_series {
@@ -27,7 +27,7 @@ struct qdot_motion_series {
     double unit;
 };
 
-/* --- stages ---------------------------------------------------------------------------- */
+/* --- one stage of the expansion -------------------------------------------------------- */
 
 static qdot_status
 stage(qdot_motion_series *s, int k)
@@ -45,7 +45,7 @@ stage(qdot_motion_series *s, int k)
     return QDOT_OK;
 }
 
-/* Whether nothing is solved for: the program gives the whole expansion. */
+/* Whether the program already computes all accelerations, so that no linear system is solved. */
 static bool
 is_given(const qdot_motion_series *s)
 {
@@ -96,7 +96,7 @@ motion_series_begin(double t, const double *y, double unit, void *user)
     return status;
 }
 
-/* --- orders ---------------------------------------------------------------------------- */
+/* --- orders of the expansion ----------------------------------------------------------- */
 
 static bool
 is_code_of_lanes(int p, void *user)
@@ -177,7 +177,7 @@ write_lanes(int p, int most, void *user)
     return qdot_lanes_motion_new(&rows, s->motion, p - 1, QDOT_BLOCKS_SOLVED, &s->code);
 }
 
-/* No vector code is kept from earlier runs. */
+/* Use no vector code: no such code of earlier runs is stored. */
 static bool
 take_lanes(int p, int most, void *user)
 {
@@ -187,7 +187,7 @@ take_lanes(int p, int most, void *user)
     return false;
 }
 
-/* --- building -------------------------------------------------------------------------- */
+/* --- making the series ----------------------------------------------------------------- */
 
 /* Whether all blocks are definite and have at most `most` unknowns. */
 static bool

@@ -50,7 +50,7 @@ qdot_work qdot_motion_series_work_of_residual(const qdot_plan *plan, const qdot_
 /* The counts of operations in an expansion with constraints. */
 qdot_work qdot_motion_series_work_of_constraints(const qdot_motion_series *series);
 
-/* How many times K was factored; bytes of machine code, 0 if there is none, and *why says why. */
+/* The number of times K was factored; _code: bytes of machine code, 0 if there is none, and *why says why. */
 size_t qdot_motion_series_factored(const qdot_motion_series *series);
 size_t qdot_motion_series_code(const qdot_motion_series *series, const char **why);
 

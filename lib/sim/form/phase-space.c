@@ -1,4 +1,4 @@
-/* phase-space.c -- momenta and their rates as tapes; q' from p by a factored M. */
+/* phase-space.c -- canonical momenta and their rates as tapes; q' from p by the factors of M. */
 #include "sim/form/phase-space.h"
 
 #include <string.h>
@@ -29,9 +29,10 @@ qdot_phase_space_free(qdot_phase_space *s)
     qdot_free(s);
 }
 
-/* --- expressions -------------------------------------------------------------------- */
+/* --- making the expressions --------------------------------------------------------- */
 
-/* The momenta p [n] with the plan's parameter values; switching functions stay as they are in every mode. */
+/* Write the momenta p [n] with the plan's parameter values; switching functions stay as they are in
+ * every mode. */
 static qdot_status
 momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
 {
@@ -46,7 +47,7 @@ momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
     return qdot_pool_check(plan->pool);
 }
 
-/* The rate of p except for accelerations: sum_j dp/dq_j q_j' + dp/dt. */
+/* The rate of p without accelerations: sum_j dp/dq_j q_j' + dp/dt. */
 static qdot_expr
 transported(const qdot_plan *plan, qdot_expr p)
 {
@@ -127,7 +128,7 @@ qdot_phase_space_new(qdot_scene *scene, const qdot_plan *plan, qdot_phase_space 
     return status;
 }
 
-/* --- numbers ------------------------------------------------------------------------ */
+/* --- evaluating momenta and forces -------------------------------------------------- */
 
 static void
 phase_evaluate(qdot_phase *x, const qdot_tape *tape, double t, const double *q, const double *v,

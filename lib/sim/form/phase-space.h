@@ -34,7 +34,7 @@ void qdot_phase_space_free(qdot_phase_space *space);
 typedef struct qdot_phase qdot_phase;
 QDOT_MUST_CHECK qdot_status qdot_phase_new(const qdot_phase_space *space, qdot_phase **phase);
 void qdot_phase_free(qdot_phase *phase);
-/* The callbacks for `ode`; valid while the phase lives. */
+/* The callbacks for `ode`; valid as long as the phase exists. */
 const qdot_ode_phase *qdot_phase_get(const qdot_phase *phase);
 
 #endif

@@ -1,4 +1,4 @@
-/* precise-bind.c -- expands the motion in MPFR, order by order. */
+/* precise-bind.c -- expands the motion in MPFR numbers, order by order. */
 #include "sim/form/precise-bind.h"
 
 #include <math.h>
@@ -46,9 +46,9 @@ struct qdot_precise_bind {
     size_t factored;
 };
 
-/* --- with constraints ---------------------------------------------------------------- */
+/* --- constraints in MPFR ------------------------------------------------------------- */
 
-/* Entry k of the constraint matrix A, an output of the plan's tape. */
+/* Entry k of the constraint matrix A, read from an output of the plan's tape. */
 static const mpfr_t *
 slope(const qdot_precise_bind *e, size_t k)
 {
@@ -121,7 +121,7 @@ find_left(qdot_precise_bind *e, const mpfr_t *y)
 
             if (c->rows[k].kind > (order ? QDOT_VELOCITY : QDOT_HOLONOMIC))
                 continue;
-            /* a NaN is rejected, too */
+            /* this test also rejects NaN */
             if (!(qdot_real_log2(qdot_precise_output(e->held[order], out++)[0]) - terms
                   <= allowed))
                 return qdot_fail(QDOT_EDOMAIN, "constraint %s does not hold beyond it",
@@ -144,7 +144,7 @@ make_held(qdot_precise_bind *e)
     return QDOT_OK;
 }
 
-/* --- the accelerations --------------------------------------------------------------- */
+/* --- accelerations order by order ---------------------------------------------------- */
 
 /* Read K of a block from its entries, or column by column from the program. */
 static void
@@ -276,7 +276,7 @@ precise_extend(int p, void *user)
     return QDOT_OK;
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making the bind ----------------------------------------------------------------- */
 
 static qdot_status
 make_solvers(qdot_precise_bind *e)

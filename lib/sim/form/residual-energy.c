@@ -9,7 +9,7 @@
 #include "mech/dynamics/dalembert.h"
 #include "sim/model/absent.h"
 
-/* Sum each function, or its rate, with that of its parent, from the root down. */
+/* Add to each function, or to its rate, that of its parent, from the root down. */
 static void
 sum_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
 {
@@ -22,7 +22,7 @@ sum_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
     }
 }
 
-/* The energy T + V from its terms; x [functions + 2n] is work space. */
+/* Add up the energy T + V from its terms; x [functions + 2n] is work space. */
 static qdot_expr
 add_up(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms,
        qdot_expr *x)

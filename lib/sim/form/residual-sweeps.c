@@ -1,4 +1,5 @@
-/* residual-sweeps.c -- a program's lanes laid out by nodes, and an order of the residual. */
+/* residual-sweeps.c -- computes one order of a residual along its tree, with a program's lanes
+ * sorted by nodes. */
 #include "sim/form/residual-sweeps.h"
 
 #include <string.h>
@@ -27,7 +28,7 @@ struct qdot_residual_sweeps {
     double *r, *q;         /* [c x slots] */
 };
 
-/* --- building ----------------------------------------------------------------------- */
+/* --- sorting lanes by nodes --------------------------------------------------------- */
 
 typedef struct {
     qdot_residual_sweeps *s;
@@ -59,7 +60,7 @@ align(const builder *b, const uint32_t *from, size_t step, size_t *to)
     *to = SIZE_MAX;
     if (!some)
         return QDOT_OK;
-    /* an applied force that belongs to no node may use the remaining slots */
+    /* let applied forces that belong to no node use the remaining slots */
     for (size_t k = s->nodes; k < s->slots; k++)
         if (b->at[k - 1] != SIZE_MAX)
             b->at[k] = b->at[k - 1] + 1;
@@ -200,9 +201,9 @@ qdot_residual_sweeps_free(qdot_residual_sweeps *s)
     qdot_free(s);
 }
 
-/* --- an order ----------------------------------------------------------------------- */
+/* --- computing one order ------------------------------------------------------------ */
 
-/* Pointers at order k of the lanes at [count]. */
+/* Set pointers to order k of the lanes at [count]. */
 static void
 point(const qdot_residual_sweeps *s, int k, size_t count, const size_t *at,
       const double **to)
@@ -229,7 +230,8 @@ qdot_residual_sweeps_begin(qdot_residual_sweeps *s, const qdot_taylor *places,
     return qdot_articulated_factor(s->system, S, lost, &node, &unknown);
 }
 
-/* r = applied force minus the convolution of slopes (orders 1 ... k) with forces (orders k - 1 ... 0). */
+/* Compute r: the applied force minus the convolution of slopes (orders 1 ... k) with forces (orders
+ * k - 1 ... 0). */
 static void
 right_side(qdot_residual_sweeps *s, int k, double scale, const double *more)
 {

@@ -29,7 +29,7 @@ QDOT_MUST_CHECK qdot_status qdot_residual_tree_new(const qdot_residual *r, size_
                                                    qdot_residual_tree **tree);
 void qdot_residual_tree_free(qdot_residual_tree *tree);
 
-/* The linear system along the tree, with weights w [n_weights]. Errors: QDOT_ENOMEM. */
+/* Make the linear system along the tree, with weights w [n_weights]. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_residual_tree_system(const qdot_residual_tree *tree,
                                                       const qdot_residual *r,
                                                       const double *w,

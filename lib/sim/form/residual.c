@@ -16,7 +16,7 @@
 #include "tape/keymap.h"
 #include "tape/rounding.h"
 
-/* The parent of a function is searched among this many functions before it. */
+/* The numbers of earlier functions among which the parent of a function is searched. */
 enum { near = 8, looked_at = 64 };
 
 typedef struct {
@@ -49,7 +49,7 @@ qdot_residual_free(qdot_residual *r)
     qdot_free(r);
 }
 
-/* The index of function e in the list; it is appended if new. */
+/* Find the index of function e in the list; e is appended if it is new. */
 static qdot_status
 function_of(builder *b, qdot_expr e, uint32_t *f)
 {
@@ -120,7 +120,7 @@ factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i)
     return qdot_expr_arg(pool, e, 2 * i + 2);
 }
 
-/* Note the positions of the terms of a sum. */
+/* Record the positions of the terms of a sum. */
 static qdot_status
 note_places(builder *b, qdot_expr e)
 {
@@ -164,7 +164,7 @@ push_term(builder *b, qdot_expr term, qdot_expr factor)
     return qdot_vec_push(&b->terms, qdot_mul(b->plan->pool, factor, term));
 }
 
-/* The difference e - g of two sums in canonical order: *d gets the terms that they do not share. */
+/* Find the difference e - g of two sums in canonical order: *d gets the terms that they do not share. */
 static qdot_status
 difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
 {
@@ -392,7 +392,7 @@ qdot_residual_programs(qdot_residual *r)
                      : QDOT_OK;
 }
 
-/* --- in numbers ------------------------------------------------------------------------ */
+/* --- evaluation of the tapes ----------------------------------------------------------- */
 
 void
 qdot_residual_forces(const qdot_residual *r, const double *weight, double *x, double *F)

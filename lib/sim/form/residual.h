@@ -48,7 +48,7 @@ struct qdot_residual {
     qdot_expr *applied; /* [n] Q_i, the values put in */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
-    /* Tapes of q, q', t: */
+    /* Tapes with the inputs q, q' and t: */
     qdot_tape *places; /* d_f in their order, slopes, Q_i without velocities */
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
@@ -57,7 +57,8 @@ struct qdot_residual {
     qdot_motion motion; /* the program of the motion (motion-of-residual.h), filled by the plan, if it
                            has masses */
 
-    /* Made on demand: the energy h as an expression, and its tape of q, q', t (sim/form/residual-energy.h). */
+    /* The energy h as an expression, and its tape of q, q', t; made when needed
+     * (sim/form/residual-energy.h). */
     qdot_expr h;
     qdot_tape *energy;
     bool *absent; /* [n] coordinates that h may be the same at any value of: so a few places say */

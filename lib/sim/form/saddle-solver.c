@@ -16,7 +16,7 @@ static const double nearly = 0.3;
  * what Newton's method leaves there, and the highest of the orders it looks at. */
 static const double settled = 1e-6, shown = 0.5;
 
-/* The entries of the motion are those of M, followed by those of A. */
+/* Prepare the solver; the entries of the motion are those of M, followed by those of A. */
 qdot_status
 qdot_saddle_solver_init(qdot_saddle_solver *s, const qdot_plan *plan, const qdot_taylor *series)
 {

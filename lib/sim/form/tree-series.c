@@ -14,7 +14,7 @@
 
 enum { most_order = 44, lanes = 8 };
 
-/* M may be singular if a pivot, relative to its mass, is below this: four digits are lost. */
+/* M counts as singular if a pivot, relative to its mass, is below this: four digits are then lost. */
 static const double least_pivot = 1e-4;
 
 struct qdot_tree_series {
@@ -51,7 +51,7 @@ evaluate_forces(qdot_tree_series *s, int k)
         s->R[i] = s->applied[i] ? s->force_scale * s->applied[i][k] : 0;
 }
 
-/* Coefficients to m of q, to m - 1 of v. */
+/* Store the coefficients of q up to order m, and of v up to order m - 1. */
 static void
 fill_rows(const qdot_tree_series *s, int m)
 {
@@ -59,7 +59,7 @@ fill_rows(const qdot_tree_series *s, int m)
                               s->places.stride);
 }
 
-/* Coefficients m >= 2 of q. */
+/* Compute coefficients m >= 2 of q. */
 static void
 order(qdot_tree_series *s, int m)
 {
@@ -88,7 +88,7 @@ tree_factor(qdot_tree_series *s)
                                     : status;
 }
 
-/* Orders 0 and 1, and M eliminated. */
+/* Set orders 0 and 1 of the series, and eliminate M along the tree. */
 static qdot_status
 tree_eliminate(qdot_tree_series *s, const double *y)
 {
@@ -150,7 +150,7 @@ tree_near(int p, double step, double least, void *user)
     return s->forces.taylor ? qdot_taylor_near(s->forces.taylor, p - 2, step, least) : step;
 }
 
-/* --- building --------------------------------------------------------------------------- */
+/* --- making the series ------------------------------------------------------------------ */
 
 static qdot_status
 make_tapes(qdot_tree_series *s, bool shaken)

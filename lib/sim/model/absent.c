@@ -1,4 +1,4 @@
-/* absent.c -- evaluates a function with each coordinate moved. */
+/* absent.c -- tests which coordinates a function depends on, by evaluating it with each one moved. */
 #include "sim/model/absent.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@
 /* A relative change above this shows that the function depends on the coordinate. */
 static const double noise = 1e-11;
 
-/* Irregular sample values in (0.3, 1.7), an interval that lies in most domains. */
+/* An irregular sample value in (0.3, 1.7), an interval that lies in most domains. */
 static double
 place(size_t i)
 {
     return 0.3 + 1.4 * fmod(0.5545497 * (double)(i + 1), 1);
 }
 
-/* h with coordinate i moved, and with none for i = n, in lanes of eight i; h [n + 1]. */
+/* Evaluate h with coordinate i moved, for every i, and with none moved (i = n), eight at a time; h [n + 1]. */
 static void
 move_each(const qdot_tape *tape, size_t n, size_t round, double *h, double *in, double *work)
 {

@@ -1,4 +1,5 @@
-/* constrained-implicit.c -- the equations under constraints for implicit methods: nothing solved. */
+/* constrained-implicit.c -- the equations under constraints for implicit methods: residuals and
+ * their derivatives. */
 #include <string.h>
 
 #include "sim/model/constrained-parts.h"

@@ -5,7 +5,7 @@
 #include "sim/model/constrained.h"
 #include "tape/derivative.h"
 
-/* Row `row` of the gains += c of row `from` of the slopes. */
+/* Add c times row `from` of the derivatives to row `row` of the gains. */
 static void
 gain(qdot_constrained *h, size_t row, double c, size_t from)
 {
@@ -15,7 +15,7 @@ gain(qdot_constrained *h, size_t row, double c, size_t from)
         h->gains[row * columns + j] += c * h->slopes[from * columns + j];
 }
 
-/* The derivatives of the equations at constant q'' and lambda. */
+/* Find the derivatives of the equations at constant q'' and lambda. */
 static void
 find_gains(qdot_constrained *h)
 {
@@ -42,7 +42,7 @@ find_gains(qdot_constrained *h)
         gain(h, n + k, 1, from++);
 }
 
-/* The contribution of Baumgarte's damping, see damp. */
+/* Find the contribution of Baumgarte's damping to the derivatives (see damp). */
 static void
 find_damped_gains(qdot_constrained *h)
 {

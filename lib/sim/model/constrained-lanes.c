@@ -1,4 +1,4 @@
-/* constrained-lanes.c -- Newton's method on positions, then on velocities, in lanes. */
+/* constrained-lanes.c -- projects states onto the constraints in vector lanes: positions, then velocities. */
 #include "sim/model/constrained-lanes.h"
 
 #include <float.h>
@@ -47,7 +47,7 @@ qdot_constrained_lanes_free(qdot_constrained_lanes *h)
     qdot_free(h);
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making the projection ----------------------------------------------------------- */
 
 static qdot_status
 make_level(qdot_constrained_lanes *h, level *l, const qdot_tape *tape, qdot_constraint_kind kind)
@@ -116,7 +116,7 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
     return QDOT_OK;
 }
 
-/* --- one of the levels --------------------------------------------------------------- */
+/* --- one level: positions, or velocities --------------------------------------------- */
 
 /* The variables that a projection moves (q or q'), their low parts, and their position in the tapes' inputs. */
 typedef struct {
@@ -147,7 +147,7 @@ lanes_factor_saddle(qdot_constrained_lanes *h, const level *l)
     h->kernels->factor(size, h->n, h->K);
 }
 
-/* The rounding error of the rows caused by that of x; components below `least` count as `least`. */
+/* Find the rounding error of the rows caused by that of x; components below `least` count as `least`. */
 static void
 residuals_find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
 {
@@ -209,7 +209,7 @@ newton_judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
 
         if (!p->open[l])
             continue;
-        /* when the residual shrinks no more, what is left is rounding */
+        /* a residual that no longer shrinks consists of rounding errors */
         if (now <= 1 || (k > 0 && !(now < 0.5 * p->before[l]) && now < 1e4))
             p->open[l] = false;
         else if (k == most_iterations || isnan(now) || (k > 2 && !(now < p->before[l])))
@@ -227,7 +227,7 @@ newton_judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
     return some;
 }
 
-/* hi + lo += x (num/sum.h) */
+/* Add x to hi + lo (num/sum.h). */
 static inline void
 two_sum_advance(double *hi, double *lo, double x)
 {
@@ -259,7 +259,8 @@ newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
     }
 }
 
-/* Newton's method in vector lanes on the rows of one level. *factored: K is factored for these rows. */
+/* Project by Newton's method in vector lanes onto the rows of one level. *factored: K is factored
+ * for these rows. */
 static void
 newton_hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
 {

@@ -16,7 +16,8 @@
 
 typedef struct qdot_constrained_lanes qdot_constrained_lanes; /* one a thread */
 
-/* For a plan with constraints, borrowed; shaken as for qdot_bind_new. Errors: QDOT_ENOMEM. */
+/* Prepare the projection for a plan with constraints, borrowed; shaken as for qdot_bind_new.
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken,
                                                        qdot_constrained_lanes **lanes);
 void qdot_constrained_lanes_free(qdot_constrained_lanes *lanes);

@@ -4,7 +4,7 @@
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 
-/* The length of a constraint's name; if `label`, without its component number. */
+/* The length of a constraint's name; if `label`, without the number of its component. */
 static size_t
 length_of_name(const char *name, bool label)
 {
@@ -59,7 +59,7 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
     }
 }
 
-/* Append the names of dependent constraints; returns the verb for that number of names. */
+/* Append the names of dependent constraints; returns `is` or `are`, by their number. */
 static const char *
 name_dependent(const qdot_constraints *c, const bool *rows, qdot_text *names)
 {

@@ -46,7 +46,7 @@ void qdot_constrained_load(qdot_constrained *h, double t, const double *y);
 void qdot_constrained_positions(qdot_constrained *h);
 void qdot_constrained_velocities(qdot_constrained *h);
 
-/* Add the damping of Baumgarte's treatment to gamma [m]; f and w are evaluated. */
+/* Add the damping of Baumgarte's treatment to gamma [m]; f and w must be evaluated. */
 void qdot_constrained_damp(const qdot_constrained *h, double *gamma);
 
 /* After qdot_constrained_solve into h->a: the slopes of f - M q'' + A^T lambda and gamma - A q'', with
@@ -63,7 +63,7 @@ void qdot_constrained_raise_bounds(const qdot_constrained_level *level, const do
 /* Evaluate and factor M and A at the loaded state. Errors: as qdot_constrained_factor. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_factor_metric(qdot_constrained *h,
                                                            qdot_constrained_level *level);
-/* If the level was never factored: qdot_constrained_look_beside at the loaded state. */
+/* Call qdot_constrained_look_beside at the loaded state if the level was never factored. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_look_first(const qdot_constrained *h,
                                                         qdot_constrained_level *level);
 /* Factor a system of the rows `row` [s->m] (NULL: all); failures name constraints or coordinates.

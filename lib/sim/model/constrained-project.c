@@ -62,7 +62,7 @@ typedef struct {
     double rate; /* INFINITY: not known */
 } convergence;
 
-/* Add the effect of the carry, by A, if A is evaluated. */
+/* Add the effect of the low part of the state on the residuals, by A, if A is evaluated. */
 static void
 add_carry(const part *p)
 {
@@ -89,7 +89,7 @@ part_excess(const part *p)
     return most;
 }
 
-/* Evaluate the residuals at the loaded state; returns the largest, relative to its bound. */
+/* Evaluate the residuals at the loaded state; returns the largest one, relative to its bound. */
 static double
 part_look(qdot_constrained *h, const part *p)
 {
@@ -98,7 +98,7 @@ part_look(qdot_constrained *h, const part *p)
     return part_excess(p);
 }
 
-/* hi + lo += x in two doubles (as qdot_sum_advance, whose header has the same name as one of expr/). */
+/* Add x to hi + lo in two doubles (as qdot_sum_advance, whose header has the same name as one of expr/). */
 static inline void
 carry_advance(double *hi, double *lo, double x)
 {
@@ -207,7 +207,7 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
             c->rate = now / before;
         if (now <= 1)
             return QDOT_OK;
-        /* when the residual shrinks no more, what is left is rounding */
+        /* a residual that no longer shrinks consists of rounding errors */
         if (bounded && !(now < 0.5 * before) && now < 1e4)
             return QDOT_OK;
         if (k == most_iterations || isnan(now) || (k > 2 && !(now < before)))

@@ -77,9 +77,9 @@ size_near(const qdot_constrained *h, const part *p, size_t k)
     return slope * value;
 }
 
-/* The largest ratio of a residual to its rounding error, and the row in which it occurs. */
+/* Find the largest ratio of a residual to its rounding error, and the row in which it occurs. */
 static double
-excess(const qdot_constrained *h, const part *p, size_t *worst)
+worst_residual(const qdot_constrained *h, const part *p, size_t *worst)
 {
     double most = 0;
 
@@ -148,9 +148,9 @@ is_rounding(qdot_constrained *h, const part *p, const place *at, bool *is)
     return QDOT_OK;
 }
 
-/* Newton's method to the nearest state on the constraints, in the metric of M. */
+/* Move the state by Newton's method to the nearest one on the constraints, in the metric of M. */
 static qdot_status
-bring(qdot_constrained *h, part *p, const place *at)
+project_state(qdot_constrained *h, part *p, const place *at)
 {
     const size_t n = h->plan->n;
     double before = INFINITY;
@@ -163,7 +163,7 @@ bring(qdot_constrained *h, part *p, const place *at)
         qdot_constrained_load(h, at->t, at->y);
         p->find(h);
         fill(h, p);
-        now = excess(h, p, &worst);
+        now = worst_residual(h, p, &worst);
         if (now <= 1 || (now < 1e3 && !(now < 0.5 * before)))
             return QDOT_OK;
         if (!isfinite(now) || (k > 5 && !(now < before)))
@@ -184,7 +184,7 @@ bring(qdot_constrained *h, part *p, const place *at)
     return rounding ? QDOT_OK : refuse(h, worst, at->who);
 }
 
-/* The residuals of the level's rows in two doubles, as the right-hand side of the system. */
+/* Evaluate the residuals of the level in two doubles; they become the right-hand side of the linear system. */
 static qdot_status
 measure_in_two(const qdot_constrained *h, part *p, const place *at)
 {
@@ -242,7 +242,7 @@ put(qdot_constrained *h, part *p, const place *at)
     status = qdot_saddle_init(&p->saddle, h->plan->n, p->level->m + count,
                               h->plan->indefinite);
     if (status == QDOT_OK)
-        status = bring(h, p, at);
+        status = project_state(h, p, at);
     if (status == QDOT_OK && p->low)
         status = bring_in_two(h, p, at);
     qdot_saddle_clear(&p->saddle);

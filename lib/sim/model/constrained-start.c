@@ -1,4 +1,5 @@
-/* constrained-start.c -- whether a run may start at a state. */
+/* constrained-start.c -- decides whether a run may start at a state, and moves the start onto the
+ * constraints. */
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +30,7 @@ typedef struct {
     qdot_row_space rows;
 } place;
 
-/* A at p->y: the holonomic rows, or all rows. */
+/* Evaluate A at p->y: the holonomic rows, or all rows. */
 static void
 take_slopes(place *p, bool all)
 {
@@ -139,7 +140,7 @@ start_refuse(place *p, const double *y, size_t row)
     return QDOT_ESINGULAR;
 }
 
-/* --- conditions that only constraints together make ------------------------------------ */
+/* --- hidden conditions: constraints that follow only from several others together ------ */
 
 /* x = t and x' = y have one direction, and the second is no repetition: y = 1. One alone that stands
  * in for nothing has none. */
@@ -306,7 +307,7 @@ check_place(qdot_constrained *h, double t, const double *y)
     return status;
 }
 
-/* --- the start ---------------------------------------------------------------------- */
+/* --- checking a start --------------------------------------------------------------- */
 
 static qdot_status
 broken(const qdot_constrained *h, size_t row, double residual, const char *what)

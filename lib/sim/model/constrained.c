@@ -42,7 +42,7 @@ qdot_constrained_free(qdot_constrained *h)
     qdot_free(h);
 }
 
-/* --- evaluation --------------------------------------------------------------------- */
+/* --- evaluating the equations ------------------------------------------------------- */
 
 void
 qdot_constrained_load(qdot_constrained *h, double t, const double *y)
@@ -51,7 +51,7 @@ qdot_constrained_load(qdot_constrained *h, double t, const double *y)
     h->in[2 * h->plan->n] = t;
 }
 
-/* Residuals of position constraints at the loaded state, by row; 0 for other rows. */
+/* Find residuals of position constraints at the loaded state, by row; other rows get 0. */
 void
 qdot_constrained_positions(qdot_constrained *h)
 {
@@ -421,7 +421,7 @@ qdot_constrained_factored(const qdot_constrained *h)
            h->levels[2].saddle.factored;
 }
 
-/* --- building ----------------------------------------------------------------------- */
+/* --- making the evaluator ----------------------------------------------------------- */
 
 static qdot_status
 find_pattern(const qdot_constraints *c, level *l)

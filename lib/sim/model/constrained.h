@@ -167,7 +167,7 @@ size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
 const qdot_constraints *qdot_constrained_of(const qdot_constrained *constrained);
 /* The number of independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);
-/* How often a matrix was factored. */
+/* The number of times that a matrix was factored. */
 size_t qdot_constrained_factored(const qdot_constrained *constrained);
 
 #endif

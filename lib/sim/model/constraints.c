@@ -45,9 +45,9 @@ qdot_constraints_free(qdot_constraints *c)
     qdot_free(c);
 }
 
-/* --- one row ------------------------------------------------------------------------ */
+/* --- equations of one constraint ---------------------------------------------------- */
 
-/* Coordinate i differentiated as often as the kind says. */
+/* The symbol of coordinate i, its velocity or its acceleration, as the kind of the constraint says. */
 static qdot_expr
 constraint_jet(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
 {
@@ -169,7 +169,7 @@ read_rows(builder *b, qdot_scene *scene)
     return QDOT_OK;
 }
 
-/* The equations of coordinates without mass. */
+/* Add the equations of coordinates without mass. */
 static qdot_status
 read_massless(builder *b)
 {
@@ -225,7 +225,7 @@ read_masses(builder *b)
     return QDOT_OK;
 }
 
-/* --- tapes -------------------------------------------------------------------------- */
+/* --- lowering to tapes -------------------------------------------------------------- */
 
 static qdot_status
 push_all(expressions *to, size_t n, const qdot_expr *from)

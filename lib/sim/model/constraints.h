@@ -44,7 +44,7 @@ struct qdot_constraints {
     qdot_expr *A;      /* [n_slopes] the entries as expressions */
     qdot_expr *gamma;  /* [m] */
 
-    /* From q [n], q' [n], t, n the plan's. Residuals: */
+    /* Tapes with the inputs q [n], q' [n] and t, where n is that of the plan. Residuals: */
     qdot_tape *positions;  /* f of the holonomic rows, in their order */
     qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
                               order of all rows without those on accelerations */

@@ -18,7 +18,7 @@ qdot_domains_clear(qdot_domains *d)
     *d = (qdot_domains){0};
 }
 
-/* "0 < theta <= pi" */
+/* Describe a domain, as in "0 < theta <= pi". */
 static qdot_status
 domain_describe(const qdot_plan *p, const qdot_symbol *s, const char *name, char **text)
 {

@@ -61,9 +61,9 @@ qdot_plan_of_part(const qdot_plan *of, size_t n, size_t more, qdot_plan **plan)
     return r->inputs && r->names && r->M && r->f ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* --- structure ---------------------------------------------------------------------- */
+/* --- blocks of the mass matrix ------------------------------------------------------ */
 
-/* The blocks among the coordinates index [n]. */
+/* Find the blocks among the coordinates index [n]. */
 static qdot_status
 find_blocks(qdot_plan *p, size_t n, const size_t *index)
 {
@@ -149,7 +149,7 @@ qdot_plan_structure(qdot_plan *p, const bool *in)
     return QDOT_OK;
 }
 
-/* --- tapes -------------------------------------------------------------------------- */
+/* --- lowering to tapes -------------------------------------------------------------- */
 
 typedef qdot_vec(qdot_expr) expressions;
 

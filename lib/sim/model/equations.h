@@ -47,7 +47,7 @@ typedef enum {
     QDOT_FORM_BORDERED     /* multipliers solved for by machine code: plan->bordered */
 } qdot_form;
 
-/* All decisions about a run: made by sim/plan, constant from then on, read everywhere else. */
+/* All decisions about a run: made in sim/plan, then constant, and read everywhere else. */
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
     unsigned uses;   /* users besides the first (sim/plan/kept.h) */
@@ -87,7 +87,7 @@ struct qdot_plan {
     qdot_plan *eliminated; /* their q'' without multipliers (sim/form/eliminated.h); or NULL */
     qdot_tape *bordered; /* or as `tape`, for machine code (sim/form/bordered.h); or NULL */
 
-    /* Values of the request, for expressions read later; owned copies. */
+    /* The values given in the request, for expressions that are read later; owned copies. */
     size_t n_values;
     qdot_expr *symbols, *values;
 
@@ -136,7 +136,7 @@ struct qdot_plan {
     bool by_start;     /* whether a reduced plan exists depends on the start and the tolerance */
     qdot_tape *momenta; /* from q, q', t: [n_kept] */
 
-    /* Only while the plan is made: the mode in which switches are frozen; else NULL. */
+    /* The mode in which switches are frozen while the plan is made; NULL later. */
     const struct qdot_switches *mode;
     const long *side;
     /* [surfaces] of that mode: the shares of the surfaces along which the motion slides, functions
@@ -167,7 +167,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size
 /* Lower p->tape anew for series in lanes (qdot_tape_new_for_series). */
 QDOT_MUST_CHECK qdot_status qdot_plan_lower_for_series(qdot_plan *plan);
 
-/* The number of inputs: 3n + 1 + m + n_sides. */
+/* The number of inputs of the plan's tapes: 3n + 1 + m + n_sides. */
 size_t qdot_plan_inputs(const qdot_plan *plan);
 
 /* The value of the constant e with parameter values (expr/constant.h): the nearest double, the

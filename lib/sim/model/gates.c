@@ -68,7 +68,7 @@ qdot_gates_upright(qdot_pool *pool, qdot_expr u, bool *turned)
     return *turned ? qdot_neg(pool, u) : u;
 }
 
-/* --- finding them -------------------------------------------------------------------- */
+/* --- finding gates, the switching functions ------------------------------------------ */
 
 typedef struct {
     qdot_pool *pool;
@@ -187,7 +187,7 @@ qdot_gates_find(qdot_pool *pool, size_t m, const qdot_surface *at, size_t n, con
     return status;
 }
 
-/* --- which are open ------------------------------------------------------------------ */
+/* --- finding which gates are open: which of them matter ------------------------------ */
 
 int
 qdot_gates_sign(const qdot_gate_pair *pair, const long *side, const long *corner,

@@ -43,7 +43,7 @@ typedef struct {
     size_t pair;  /* of its pairs */
 } qdot_gate;
 
-/* The switching functions of equations. Start from {0}. */
+/* The switching functions in the equations. Start from {0}. */
 typedef struct {
     size_t surfaces;
     qdot_vec(qdot_gate) gates; /* those of children first */
@@ -58,7 +58,7 @@ typedef struct {
 bool qdot_gates_is_switch(const qdot_pool *pool, qdot_expr e);
 /* Whether an expression contains anything that changes along a run. */
 bool qdot_gates_moves(const qdot_pool *pool, qdot_expr e);
-/* u or -u, whichever prints without a leading minus; *turned: it is -u. */
+/* Write u or -u, whichever prints without a leading minus; *turned: it is -u. */
 qdot_expr qdot_gates_upright(qdot_pool *pool, qdot_expr u, bool *turned);
 
 /* Find the gates of e [n], whose surfaces are at [m]. `deciding`: also of what these decide by, which is
@@ -67,7 +67,7 @@ QDOT_MUST_CHECK qdot_status qdot_gates_find(qdot_pool *pool, size_t m, const qdo
                                             const qdot_expr *e, bool deciding, qdot_gates *gates);
 void qdot_gates_clear(qdot_gates *gates);
 
-/* Bits: a condition may be false, may be true; a gate is open. */
+/* Bits of a gate's state: its condition may be false, may be true; the gate is open. */
 enum { QDOT_GATE_FALSE = 1, QDOT_GATE_TRUE = 2, QDOT_GATE_OPEN = 4 };
 
 /* The sign of a pair by the sides; *known: there is one. Where the motion slides it is that of corner

@@ -11,10 +11,10 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* The least time that a motion spends in a layer, relative to the largest |t|: 1024 doubles of it. */
+/* The shortest time that a motion spends in a layer, relative to the largest |t|: 1024 spacings of doubles. */
 static const double passage = 0x1p-42;
 
-/* Width of a layer in units of a step's error; the share of the tolerance that it may leave out. */
+/* The width of a layer in units of a step's error; the fraction of the tolerance that a layer may leave out. */
 static const double beyond_steps = 16, share = 0.01;
 
 /* Whether `base` is 0 where u is 0: u, -u, |u|, or the larger or smaller of u and 0; *only: the sign of u
@@ -103,7 +103,8 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
            == 0;
 }
 
-/* The least width of a layer, in units of U. */
+/* The least width of a layer, in units of U, that exceeds the errors of a method by series; 0 if it
+ * needs none. */
 static double
 beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {

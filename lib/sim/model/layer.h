@@ -39,7 +39,7 @@ QDOT_MUST_CHECK qdot_status qdot_layers_find(qdot_pool *pool, size_t m, qdot_sur
 void qdot_layers_measure(const qdot_pool *pool, size_t m, qdot_surface *surfaces, const double *speed,
                          double latest, double tol);
 
-/* The layer of a surface as an exact number. */
+/* The half width of the layer of a surface, as an exact number. */
 qdot_expr qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface);
 
 /* The share of a motion held in a layer; the motion leaves the layer when it passes -1 or 1. */

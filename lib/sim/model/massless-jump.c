@@ -60,7 +60,7 @@ write_linear(const jump *j, size_t n)
     return qdot_pool_check(j->pool);
 }
 
-/* The first n unknowns from as many equations. */
+/* Solve the first n equations for the first n unknowns. */
 static qdot_status
 solve_for(const jump *j, size_t n)
 {
@@ -95,7 +95,7 @@ add_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
     return n + 1;
 }
 
-/* Replace q, q' by the values that the event's `then` gives them. */
+/* Replace q and q' by the values that the event's `then` sets. */
 static void
 put_event(jump *j)
 {

@@ -35,9 +35,9 @@ qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i)
     return !has_mass(p, i) && !is_held(scene, p, i);
 }
 
-/* How many of the n symbols from input `first` on occur in f_i: those of massless coordinates, or all. */
+/* How many of the n symbols from input `first` on occur in f_i: of massless coordinates only, or of all. */
 static size_t
-held(const qdot_plan *p, size_t i, size_t first, bool massless)
+count_massless_in(const qdot_plan *p, size_t i, size_t first, bool massless)
 {
     size_t count = 0;
 
@@ -50,16 +50,16 @@ held(const qdot_plan *p, size_t i, size_t first, bool massless)
 qdot_constraint_kind
 qdot_massless_kind(const qdot_plan *p, size_t i)
 {
-    return held(p, i, p->n, true) > 0 ? QDOT_VELOCITY : QDOT_HOLONOMIC;
+    return count_massless_in(p, i, p->n, true) > 0 ? QDOT_VELOCITY : QDOT_HOLONOMIC;
 }
 
-/* Fail if f_i determines nothing of the massless coordinates. */
+/* Fail if the equation f_i determines no massless coordinate. */
 static qdot_status
 check(const qdot_plan *p, size_t i)
 {
-    const bool velocities = held(p, i, p->n, false) > 0;
+    const bool velocities = count_massless_in(p, i, p->n, false) > 0;
 
-    if (held(p, i, p->n, true) > 0 || (!velocities && held(p, i, 0, true) > 0))
+    if (count_massless_in(p, i, p->n, true) > 0 || (!velocities && count_massless_in(p, i, 0, true) > 0))
         return QDOT_OK;
     (void)qdot_fail(QDOT_ESINGULAR,
                     "the mass matrix is singular: no mass moves with %s%s", p->names[i],
@@ -102,7 +102,7 @@ qdot_massless_switch(const qdot_plan *p, const qdot_switches *s)
     return false;
 }
 
-/* Whether e, with parameter values, contains the time derivative of that order of a massless coordinate. */
+/* Whether e, with parameter values, contains this time derivative of a massless coordinate. */
 static bool
 holds_any(qdot_scene *scene, qdot_expr e, const bool *massless, uint32_t order)
 {

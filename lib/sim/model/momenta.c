@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "series/precise.h"
 
-/* The precision of a momentum in MPFR: two doubles, plus the digits that its terms may cancel. */
+/* The precision of momenta in MPFR: two doubles, plus the digits that their terms may cancel. */
 enum { bits = 256 };
 
 struct qdot_momenta {
@@ -48,7 +48,7 @@ momenta_enter(double t, const double *y, const double *carry, void *user)
             return qdot_fail(QDOT_EDOMAIN, "the momentum of %s is undefined",
                              m->plan->names[m->plan->kept[k]]);
     }
-    /* compute the low part last, as outputs may share registers with inputs */
+    /* compute the low part last: outputs may share registers with inputs */
     for (size_t k = 0; k < m->plan->n_kept; k++) {
         mpfr_t rest;
 

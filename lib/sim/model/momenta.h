@@ -28,7 +28,7 @@ QDOT_MUST_CHECK qdot_status qdot_momenta_tape_init(qdot_momenta_tape *e,
                                                    const qdot_tape *tape);
 void qdot_momenta_tape_clear(qdot_momenta_tape *e);
 
-/* The velocities [n_kept], borrowed, that follow from momenta p [n_kept] at (t, y [2n]). */
+/* Compute the velocities [n_kept], borrowed, that follow from momenta p [n_kept] at (t, y [2n]). */
 const double *qdot_momenta_rates(qdot_momenta_tape *e, double t, const double *y,
                                  const double *p);
 

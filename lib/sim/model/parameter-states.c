@@ -12,7 +12,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 
-/* --- the request ---------------------------------------------------------------------- */
+/* --- parameters as coordinates of the request ----------------------------------------- */
 
 typedef qdot_vec(qdot_expr) expressions;
 
@@ -33,7 +33,7 @@ parameters_find(const qdot_scene *scene, expressions *found)
     return QDOT_OK;
 }
 
-/* The value of a parameter in the request; an error if it has none. */
+/* Find the value of a parameter in the request; an error if it has none. */
 static qdot_status
 parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter,
                 qdot_expr *value)
@@ -184,7 +184,7 @@ qdot_parameter_states_occur(const qdot_plan *p, qdot_expr e, bool *some, bool *m
     return QDOT_OK;
 }
 
-/* --- what is declared ------------------------------------------------------------------- */
+/* --- declared conditions on parameters -------------------------------------------------- */
 
 void
 qdot_parameter_conditions_clear(qdot_parameter_conditions *c)
@@ -309,7 +309,7 @@ qdot_parameter_conditions_find(const qdot_plan *plan, const qdot_scene *scene,
     return status;
 }
 
-/* An equality may be violated by this relative amount, because of rounding. */
+/* The relative difference by which rounding may violate an equality. */
 static const double equal = 1e-12;
 
 static bool

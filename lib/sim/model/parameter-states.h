@@ -68,7 +68,7 @@ QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_find(const qdot_plan *plan
                                                            qdot_parameter_conditions *c);
 void qdot_parameter_conditions_clear(qdot_parameter_conditions *c);
 
-/* QDOT_EDOMAIN names the first condition that is violated at t and y [2n], after `event`. */
+/* Check the conditions at t and y [2n], after `event`; QDOT_EDOMAIN names the first that is violated. */
 QDOT_MUST_CHECK qdot_status qdot_parameter_conditions_check(
     const qdot_parameter_conditions *c, const char *event, double t, const double *y, size_t n);
 

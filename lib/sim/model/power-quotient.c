@@ -1,4 +1,4 @@
-/* power-quotient.c -- rewrites the factors of every product. */
+/* power-quotient.c -- divides sums c + k b^p in products by b^p, so that only powers of one sign remain. */
 #include "sim/model/power-quotient.h"
 
 #include "expr/build.h"

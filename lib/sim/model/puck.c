@@ -1,4 +1,4 @@
-/* puck.c -- finds directions of velocities in the equations, and their mean at rest. */
+/* puck.c -- finds discs that slide on rough planes: directions w/|w| of velocities, and their mean at rest. */
 #include "sim/model/puck.h"
 
 #include <stdio.h>
@@ -14,9 +14,9 @@
 #include "normal/solve/linear.h"
 #include "sim/model/substitute.h"
 
-/* --- finding ------------------------------------------------------------------------- */
+/* --- finding directions of velocities ------------------------------------------------ */
 
-/* Twice the exponent of factor i of a product; false if it is no integer. */
+/* Find twice the exponent of factor i of a product; false if that is no integer. */
 static bool
 twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
 {
@@ -39,7 +39,7 @@ half_slope(qdot_pool *pool, qdot_expr e, qdot_expr v)
     return qdot_mul(pool, QDOT_HALF, qdot_diff(pool, e, v));
 }
 
-/* e with the velocities that constraints relate expressed by the other velocities. */
+/* The expression e with velocities that constraints relate to others replaced by these. */
 static qdot_expr
 untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
 {
@@ -50,7 +50,7 @@ untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
 
 /* Solve the constraint f = 0 for a velocity of w: the last one whose coefficient is a number. */
 static qdot_status
-tie(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
+tie_velocity(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
 {
     qdot_pool *pool = scene->pool;
     const size_t k = puck->n_tied;
@@ -89,7 +89,7 @@ find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *p
         if (from->kind == QDOT_HOLONOMIC && f != QDOT_NIL)
             f = qdot_ddt(pool, f);
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(tie(scene, untie(pool, puck, f), puck));
+        QDOT_TRY(tie_velocity(scene, untie(pool, puck, f), puck));
     }
     return qdot_pool_check(pool);
 }
@@ -242,9 +242,9 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
-/* --- near rest ----------------------------------------------------------------------- */
+/* --- expressions near rest ----------------------------------------------------------- */
 
-/* How powers of |w| are written, except for even positive ones. */
+/* The forms in which powers of |w| are written, except for even positive ones. */
 typedef struct {
     const qdot_puck *puck;
     enum {
@@ -301,7 +301,7 @@ contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
     return e != QDOT_NIL && qdot_expr_contains(pool, e, x);
 }
 
-/* sum B_j s_j of the coefficient C of 1/|w|. */
+/* The mean at rest, sum B_j s_j, of C/|w|, where C is the coefficient of 1/|w|. */
 static qdot_expr
 mean(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 {
@@ -314,7 +314,7 @@ mean(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
     return sum;
 }
 
-/* C at w = 0. */
+/* The coefficient C of 1/|w|, evaluated at w = 0. */
 static qdot_expr
 at_rest(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
 {
@@ -385,7 +385,7 @@ qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square)
     return sum;
 }
 
-/* Whether e holds a negative power of x. */
+/* Whether e contains a negative power of x. */
 static bool
 divides(const qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_status *status)
 {

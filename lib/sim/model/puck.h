@@ -33,7 +33,7 @@
 #include "sim/model/equations.h"
 #include "sim/model/switch.h"
 
-/* Binary exponent of the largest s G s - 1 at which a disc creeps. */
+/* The binary exponent of the largest value of s G s - 1 at which a disc creeps. */
 enum { QDOT_PUCK_CREEP_EXPONENT = -12 };
 
 /* Append the pucks in M q'' = f of the switches, and their surfaces. Errors: those of the pool,
@@ -64,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_puck_hold(qdot_pool *pool, const qdot_puck *puc
                                            const qdot_facts *facts, size_t n,
                                            qdot_expr *e);
 
-/* s G s of shares [k]. */
+/* The square sum_ij s_i G_ij s_j of the shares s [k], where G is the puck's metric. */
 qdot_expr qdot_puck_square(qdot_pool *pool, const qdot_puck *puck,
                            const qdot_expr *share);
 

@@ -1,4 +1,4 @@
-/* quotient.c -- common factors by their exponents, term by term. */
+/* quotient.c -- divides a force by a mass, cancelling common factors term by term. */
 #include "sim/model/quotient.h"
 
 #include "expr/build.h"

@@ -8,7 +8,7 @@
 
 #include "expr/id.h"
 
-/* f/M so. Nil: the pool keeps the failure. */
+/* The quotient f/M, with common factors cancelled. Nil: the pool keeps the failure. */
 qdot_expr qdot_quotient(qdot_pool *pool, qdot_expr f, qdot_expr M);
 
 #endif

@@ -1,4 +1,4 @@
-/* rates.c -- first and second rates of sums, products, powers, sines. */
+/* rates.c -- first and second time derivatives of expressions along a motion. */
 #include "sim/model/rates.h"
 
 #include "base/memory.h"
@@ -88,7 +88,7 @@ of_product_of(qdot_pool *pool, rates a, rates b)
     return rates_hold(pool, r);
 }
 
-/* P = b^r; P'' = (r b'' P + (r - 1) b' P')/b. Of a root P itself is divided by. */
+/* The rates of P = b^r: P'' = (r b'' P + (r - 1) b' P')/b; a root P is itself used as a divisor. */
 static rates
 of_power(differentiation *d, rates b, qdot_expr r)
 {
@@ -139,7 +139,7 @@ of_product(differentiation *d, qdot_expr e, rates *to)
     return true;
 }
 
-/* f(u)'' = f_u u'' - f u'^2 of sine and cosine. */
+/* The rates of sine and cosine: f(u)'' = f_u u'' - f u'^2. */
 static bool
 of_function(const differentiation *d, qdot_expr e, rates *to)
 {

@@ -1,4 +1,4 @@
-/* repeated-zeros.c -- zeros of mod, floor, tan and atan2 less a number. */
+/* repeated-zeros.c -- the zeros of mod, floor, tan and atan2 minus a number, as zeros of smooth functions. */
 #include "sim/model/repeated-zeros.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
     return status;
 }
 
-/* Write g = c f + k' with numbers c and k': returns c and k = -k'/c; c is nil if g has another form. */
+/* Write g = c f + k' with numbers c and k'; returns c, and k = -k'/c. c is nil if g has another form. */
 static qdot_status
 split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
 {

@@ -17,7 +17,8 @@
  * poles; others as they are. A number far from 1, in all terms, is divided out. Nil absorbs. */
 qdot_expr qdot_simple_zeros(qdot_pool *pool, qdot_expr g);
 
-/* u, if g is c u^2, or |u|, or a product of such factors, so that g never changes its sign; otherwise nil. */
+/* The function u if g is c u^2, |u|, or a product of such factors, so that g never changes its
+ * sign; otherwise nil. */
 qdot_expr qdot_touching_zeros(qdot_pool *pool, qdot_expr g);
 
 #endif

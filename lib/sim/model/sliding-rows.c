@@ -10,7 +10,7 @@
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
-/* Sweeps over the rows [Kaczmarz 1937]; one is enough for linear rows that share no coordinate. */
+/* The most passes over the rows [Kaczmarz 1937]; one is enough for linear rows that share no coordinate. */
 enum { MOST_SWEEPS = 100 };
 
 void
@@ -22,7 +22,7 @@ qdot_sliding_rows_clear(qdot_sliding_rows *rows)
     *rows = (qdot_sliding_rows){0};
 }
 
-/* Append a row to out [rows x (1 + n)]: its value and its slopes. */
+/* Append a row to out [rows x (1 + n)]: the function's value, and its derivatives. */
 static void
 add_row(const qdot_plan *p, qdot_sliding_rows *rows, int order, qdot_expr h, qdot_expr *values,
         qdot_expr *slopes)

@@ -1,4 +1,5 @@
-/* sliding.c -- q'', multipliers and shares solved for together; states brought back to u = 0. */
+/* sliding.c -- motion along surfaces: solves for q'', multipliers and shares together; keeps states
+ * at u = 0. */
 #include "sim/model/sliding.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@
 #include "sim/model/puck.h"
 #include "sim/model/switch.h"
 
-/* Up to this many coordinates M^-1 f is formed symbolically. */
+/* With more coordinates than this, M^-1 f is not formed symbolically. */
 enum { MOST_SOLVED = 3 };
 
 bool
@@ -43,7 +44,7 @@ typedef struct {
     qdot_expr *A, *b, *x;
     bool *massless; /* [n] */
     bool some_massless;
-    /* Shares that follow from equations of massless coordinates: their surfaces, symbols and values. */
+    /* Shares that are known from equations of massless coordinates: their surfaces, symbols and values. */
     size_t n_settled, *settled;
     qdot_expr *symbols, *values;
 } sliding;
@@ -56,7 +57,7 @@ share_symbol(const sliding *s, size_t j)
     return u->puck ? u->puck->share[u->c] : s->p->mode->surfaces.at[u->surface].side;
 }
 
-/* The address in p->share of component c of a disc's share. */
+/* The address of the share of component c of a disc, in p->share. */
 static qdot_expr *
 place_of(const qdot_plan *p, const qdot_puck *puck, size_t c)
 {
@@ -81,7 +82,7 @@ cannot(const char *why)
     return qdot_fail(QDOT_EFAILED, "%s", why);
 }
 
-/* df/dt along the motion; parameters that events set have rate 0. */
+/* The time derivative df/dt along the motion; parameters that events set have rate 0. */
 static qdot_expr
 rate(const qdot_plan *p, qdot_expr f)
 {
@@ -99,7 +100,7 @@ holds(const qdot_plan *p, qdot_expr e, uint32_t what)
     return e != QDOT_NIL && (qdot_expr_node(p->pool, e)->holds & what) != 0;
 }
 
-/* Fill row r of the system: f, differentiated `times` by t, is 0. */
+/* Fill row r of the system with the equation that f, differentiated `times` by t, is 0. */
 static qdot_status
 fill_row(sliding *s, size_t r, qdot_expr f, int times)
 {
@@ -133,7 +134,8 @@ holds_rates(const sliding *s, qdot_expr f)
     return false;
 }
 
-/* M q'' - sum B s = f0; an equation of a massless coordinate is differentiated until it contains q''. */
+/* Fill the rows M q'' - sum B s = f0; an equation of a massless coordinate is differentiated until
+ * it contains q''. */
 static qdot_status
 fill_forces(sliding *s)
 {
@@ -311,7 +313,7 @@ put_in(sliding *s, bool all)
     return qdot_pool_check(p->pool);
 }
 
-/* Solve the system for its present unknowns; it also determines the shares of creeping discs. */
+/* Solve the system for the unknowns it now has; it also determines the shares of creeping discs. */
 static qdot_status
 solve(sliding *s)
 {
@@ -421,7 +423,7 @@ find_massless(sliding *s)
     return QDOT_OK;
 }
 
-/* Insert the shares found last into the values of those settled before. */
+/* Insert the shares found last into the values of those found before. */
 static qdot_status
 keep_settled(sliding *s)
 {

@@ -33,7 +33,7 @@ coordinate_stays(const set *z, size_t i)
     return on(z, z->plan->f[i]) == QDOT_ZERO;
 }
 
-/* Whether M is independent of coordinates while those of the set are 0. */
+/* Whether M does not depend on coordinates as long as those of the set are 0. */
 static bool
 is_regular(const set *z)
 {

@@ -1,4 +1,4 @@
-/* substitute.c -- functions first, until none is left; then symbols. */
+/* substitute.c -- substitutes values: first for functions, until none is left, then for symbols. */
 #include "sim/model/substitute.h"
 
 #include "base/memory.h"
@@ -26,7 +26,7 @@ function_value(qdot_pool *pool, const table *t, qdot_expr node)
     return QDOT_NIL;
 }
 
-/* D^orders value at the arguments of the application. */
+/* The derivative of the given orders of a function's value, at the arguments of the application. */
 static qdot_expr
 apply_derivative(qdot_pool *pool, qdot_expr node, void *user)
 {

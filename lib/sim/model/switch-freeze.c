@@ -19,7 +19,7 @@ typedef struct {
     qdot_expr *to; /* [gates] */
 } freezer;
 
-/* Argument k of a gate, frozen. */
+/* Argument k of a gate, with its switches frozen. */
 static qdot_expr
 argument(const freezer *f, const qdot_gate *gate, uint32_t k)
 {
@@ -34,14 +34,14 @@ side_at(const freezer *f, size_t surface)
     return f->side[surface] == QDOT_SIDE_SLIDES ? f->corner[surface] : f->side[surface];
 }
 
-/* Whether u is held at 0. */
+/* Whether the surface is one along which the motion slides, so that u is 0. */
 static bool
 surface_is_held(const freezer *f, const qdot_gate_pair *pair)
 {
     return pair->surface != SIZE_MAX && f->side && f->side[pair->surface] == QDOT_SIDE_SLIDES;
 }
 
-/* The side of u as a number, or its symbol; for a constant u its sign or floor. */
+/* The side of u as a number or a symbol; for a constant u, its sign or floor. */
 static qdot_expr
 side_of(const freezer *f, const qdot_gate_pair *pair, bool steps)
 {
@@ -129,7 +129,7 @@ freeze_relation(const freezer *f, const qdot_gate *gate)
     return qdot_rel(pool, gate->op, side_of(f, &f->gates.pairs.at[gate->pair], false), QDOT_ZERO);
 }
 
-/* The argument that min or max selects, the first one among equals. */
+/* The argument that min or max selects on these sides, the first one among equals. */
 static qdot_expr
 freeze_extreme(const freezer *f, const qdot_gate *gate)
 {
@@ -174,7 +174,7 @@ freeze_value(const freezer *f, const qdot_gate *gate)
     }
 }
 
-/* Whether a switch keeps its form, because one of its surfaces has no side in this mode. */
+/* Whether a switch is left unchanged, because one of its surfaces has no side in this mode. */
 static bool
 stays(const freezer *f, const qdot_gate *gate)
 {
@@ -236,7 +236,7 @@ freeze_corner(freezer *f, size_t n, const qdot_expr *e, qdot_expr *frozen)
     return qdot_pool_check(f->s->pool);
 }
 
-/* (1 + share)/2 a + (1 - share)/2 b. */
+/* The weighted mean (1 + share)/2 a + (1 - share)/2 b. */
 static qdot_expr
 mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
 {

@@ -50,7 +50,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     for (size_t i = 0; i < s->surfaces.n; i++)
         if (s->surfaces.at[i].u == u && s->surfaces.at[i].steps == steps)
             return QDOT_OK;
-    /* a space is in no name of a user */
+    /* use a space, which no name of a user contains */
     snprintf(name, sizeof name, "side %zu", s->surfaces.n + 1);
     side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
     QDOT_TRY(qdot_pool_check(s->pool));

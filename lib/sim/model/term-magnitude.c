@@ -1,4 +1,4 @@
-/* term-magnitude.c -- adds the absolute values of the terms. */
+/* term-magnitude.c -- makes the sum of the absolute values of a sum's terms. */
 #include "sim/model/term-magnitude.h"
 
 #include "expr/build.h"

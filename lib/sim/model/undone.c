@@ -14,7 +14,7 @@
 #include "normal/solve/linear.h"
 #include "sim/model/substitute.h"
 
-/* The unknowns are new symbols, for the values of the targets before the event. */
+/* Symbols for the values of the targets before the event, which are the unknowns. */
 typedef struct {
     qdot_pool *pool;
     size_t n;
@@ -58,7 +58,7 @@ is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *
            && qdot_normal(pool, qdot_sub(pool, qdot_sub(pool, e, *rest), sum), NULL) == QDOT_ZERO;
 }
 
-/* Insert the values before the event that are known already into the other equations. */
+/* Insert the values before the event that are already known into the other equations. */
 static void
 put_known(undoing *x)
 {
@@ -117,7 +117,7 @@ list_open(const undoing *x, size_t *open)
 /* Find a value that no equation of `then` contains from the event's own equation f = 0, if it is
  * linear in that value. */
 static qdot_status
-recall(undoing *x)
+find_forgotten_value(undoing *x)
 {
     for (size_t k = 0; k < x->n && !x->forgot; k++) {
         bool read = x->before[k] != QDOT_NIL || !qdot_expr_contains(x->pool, x->f, x->unknown[k]);
@@ -148,7 +148,7 @@ undone_find(undoing *x, size_t *open, qdot_undone *out)
     bool found = true;
     size_t m;
 
-    QDOT_TRY(recall(x));
+    QDOT_TRY(find_forgotten_value(x));
     while ((m = list_open(x, open)) > 0 && found) {
         QDOT_TRY(undone_solve(x, m, open, &found));
         for (size_t i = 0; i < m && !found; i++)
@@ -165,7 +165,7 @@ undone_find(undoing *x, size_t *open, qdot_undone *out)
     return qdot_pool_check(x->pool);
 }
 
-/* Write f and the values by the unknowns. */
+/* Write the event's function f and its new values in terms of the unknown state before the event. */
 static qdot_status
 begin(undoing *x, qdot_expr f, const qdot_expr *values)
 {

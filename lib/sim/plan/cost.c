@@ -1,4 +1,4 @@
-/* cost.c -- cost models: tables of coefficients, and terms that are not linear. */
+/* cost.c -- models of the computing time of a step, with measured coefficients. */
 #include "sim/plan/cost.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
 
-/* --- the table ----------------------------------------------------------------------- */
+/* --- measured coefficients of cost models -------------------------------------------- */
 
 /* The quantities in which cost models are linear: 1, then fields of a qdot_work. */
 enum {
@@ -26,7 +26,7 @@ typedef struct {
     double pair[FEATURES];  /* c[2] */
 } model;
 
-/* The cost of M q'' = f by kernels, fitted first; only its ratio to the costs of other forms matters. */
+/* The cost of M q'' = f by kernels, which was measured first; costs of other forms are relative to it. */
 static const model explicit_kernels = {
     .start = {[ONE] = 60, [CALLS] = 15, [LENGTH] = 2, [COORDINATES] = 10, [FACTORED] = 5,
               [FACTORED_CUBES] = 0.2},
@@ -49,7 +49,7 @@ static const struct {
     double order, pair, vector;
 } kinds[] = {{1.8, 0.15, 0}, {1, 0.03, 16}, {1, 0.03, 0}};
 
-/* Bordered by constraints, as code: the car axis of bench/constraints. */
+/* The cost of equations bordered by constraints, as code: measured with the car axis of bench/constraints. */
 static const model bordered_code = {
     .start = {[ONE] = 160, [CALLS] = 20, [LENGTH] = 3, [UNKNOWNS] = 20, [CUBES] = 0.5},
     .order = {[ONE] = 3, [LENGTH] = 0.4, [CONVOLUTIONS] = 0.6, [SQUARES] = 1},
@@ -120,11 +120,11 @@ static const struct {
 enum { narrow = 18, narrow_explicit = 10 };
 static const double loops = 3.7, decoded = 3000;
 
-/* The highest order of a series; the tolerance at which forms are compared. */
+/* The highest order of a series; the tolerance at which the forms of equations are compared. */
 enum { most_order = 40 };
 static const double middle_tol = 1e-9;
 
-/* --- models --------------------------------------------------------------------------- */
+/* --- costs of forms of the equations -------------------------------------------------- */
 
 static double
 features_sum(const double *by, const double *features)
@@ -280,7 +280,7 @@ qdot_cost_lanes(const qdot_work *w)
     return c;
 }
 
-/* --- other numbers ------------------------------------------------------------------- */
+/* --- costs with other units ---------------------------------------------------------- */
 
 void
 qdot_cost_precise(const qdot_plan *p, mpfr_prec_t bits, double cost[3])
@@ -317,7 +317,7 @@ qdot_cost_evaluation(const qdot_tape *tape)
     return (double)(qdot_tape_operations(tape) + 15 * qdot_tape_calls(tape));
 }
 
-/* --- comparing ----------------------------------------------------------------------- */
+/* --- comparing costs ----------------------------------------------------------------- */
 
 qdot_ode_cost
 qdot_cost_of_kernels(const qdot_ode_cost *cost)

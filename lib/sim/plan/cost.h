@@ -33,7 +33,7 @@ qdot_ode_cost qdot_cost_bordered(const qdot_work *work, const qdot_ode_cost *oth
 qdot_ode_cost qdot_cost_least(size_t n, double convolutions);
 /* The cost of a motion in vector lanes, for eight members together. */
 qdot_ode_cost qdot_cost_lanes(const qdot_work *work);
-/* The cost of a plan with `digits` at that precision, in MPFR. */
+/* Estimate the cost of a plan with `digits` at that precision, in MPFR. */
 void qdot_cost_precise(const qdot_plan *plan, mpfr_prec_t bits, double cost[3]);
 
 /* The cost of projecting the state after every step with constraints. */

@@ -15,7 +15,7 @@
 #include "sim/model/switch.h"
 #include "sim/plan/cost.h"
 
-/* Hamilton's equations are taken if they need at most this part of the convolutions of other forms. */
+/* Hamilton's equations are used if they need at most this fraction of the convolutions of other forms. */
 static const double canonical_saves = 0.85;
 
 static void
@@ -54,7 +54,7 @@ qdot_plan_measure(qdot_plan *p)
     return QDOT_OK;
 }
 
-/* --- d'Alembert's residual ------------------------------------------------------------ */
+/* --- measuring d'Alembert's residual -------------------------------------------------- */
 
 typedef struct {
     qdot_residual *residual;
@@ -154,7 +154,7 @@ qdot_plan_choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *r
     return status;
 }
 
-/* --- lanes ------------------------------------------------------------------------------ */
+/* --- form for vector lanes -------------------------------------------------------------- */
 
 qdot_status
 qdot_plan_make_lanes(qdot_plan *p)
@@ -170,7 +170,7 @@ qdot_plan_make_lanes(qdot_plan *p)
     return QDOT_OK;
 }
 
-/* --- constraints ---------------------------------------------------------------------- */
+/* --- forms for scenes with constraints ------------------------------------------------ */
 
 /* Measure the cost of the form in which constraints are expanded in series; it is always possible. */
 static qdot_status
@@ -189,7 +189,7 @@ measure_constrained(qdot_plan *p)
     return QDOT_OK;
 }
 
-/* Take the form with multipliers eliminated symbolically if it is cheaper than the best so far. */
+/* Choose the form with multipliers eliminated symbolically if it is cheaper than the best so far. */
 static qdot_status
 offer_eliminated(qdot_plan *p, double tol, double *least)
 {
@@ -262,7 +262,7 @@ qdot_plan_choose_constrained(qdot_plan *p, const qdot_run_request *request)
     return offer_bordered(p, request->tol, &own, &least);
 }
 
-/* --- many digits ----------------------------------------------------------------------- */
+/* --- Hamilton's equations for many digits ---------------------------------------------- */
 
 qdot_status
 qdot_plan_choose_canonical(qdot_plan *p, qdot_scene *scene)

@@ -1,4 +1,4 @@
-/* geometric.c -- looks whether momenta are q' times constants, and forces free of q'. */
+/* geometric.c -- tests whether momenta are constants times q', and forces independent of q'. */
 #include "sim/plan/geometric.h"
 
 #include "expr/constant.h"

@@ -57,7 +57,7 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     *groups = 1;
     for (size_t i = 1; i < n; i++)
         *groups += group[i] == i;
-    /* in most scenes M by itself couples all coordinates, so test it first */
+    /* test M first: in most scenes it already couples all coordinates */
     for (size_t i = 0; i < n && *groups > 1; i++) {
         QDOT_TRY(join_all(p, group, i, p->f[i]));
         for (size_t j = 0; j <= i; j++)

@@ -26,7 +26,7 @@
  * ode/method.h for when each fits. */
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
-/* --- the scene ---------------------------------------------------------------------- */
+/* --- checking the scene, deriving M and f ------------------------------------------- */
 
 qdot_status
 qdot_plan_check(const qdot_scene *scene)
@@ -146,7 +146,7 @@ name_coordinates(qdot_plan *p, qdot_scene *scene, const qdot_run_request *reques
     return qdot_pool_check(p->pool);
 }
 
-/* Derive M and f of the scene with parameter values. */
+/* Derive M and f of the scene, with parameter values inserted. */
 static qdot_status
 plan_derive(qdot_plan *p, qdot_scene *scene)
 {
@@ -179,7 +179,7 @@ plan_derive(qdot_plan *p, qdot_scene *scene)
     return QDOT_OK;
 }
 
-/* --- Taylor series ------------------------------------------------------------------ */
+/* --- Taylor series and constraints -------------------------------------------------- */
 
 /* Refuse Taylor series if the equations switch. */
 static qdot_status
@@ -212,7 +212,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (!hindrance)
         hindrance = qdot_program_hindrance(p->constraints->positions);
     QDOT_TRY(check_series(p, hindrance));
-    /* multistep methods cannot use a state that a projection has moved off their history */
+    /* a multistep method cannot continue from a state that a projection has moved */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
     if (!p->smooth)
@@ -250,7 +250,7 @@ check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_reque
     return qdot_hint("method taylor, radau, dop853");
 }
 
-/* --- ensembles ---------------------------------------------------------------------- */
+/* --- plans of ensembles and runs ---------------------------------------------------- */
 
 /* Whether M couples coordinates and need not be positive definite. */
 static bool
@@ -313,7 +313,7 @@ plan_make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (qdot_plan_needs_jacobian(p) || p->share || p->method->geometric)
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
-    /* with events that set parameters do not divide the equations: these affect all of them */
+    /* do not divide the equations if events set parameters, as these affect all of them */
     return p->n_states > 0 ? QDOT_OK : qdot_parts_find(p, scene, request);
 }
 

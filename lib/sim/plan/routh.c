@@ -47,7 +47,7 @@ typedef struct {
     double *in, *out, *work;
 } routh;
 
-/* --- what is cyclic ------------------------------------------------------------------ */
+/* --- which coordinates are cyclic ---------------------------------------------------- */
 
 /* Irregular sample values in (0.3, 1.7), an interval that most domains contain. */
 static double
@@ -77,7 +77,7 @@ may_be_absent(const routh *e, size_t i)
     return true;
 }
 
-/* Whether row i of M contains no velocities, so that p_i is linear in them. */
+/* Whether row i of M contains no velocities, so that the momentum p_i is linear in them. */
 static bool
 is_linear(const routh *e, size_t i)
 {
@@ -87,7 +87,7 @@ is_linear(const routh *e, size_t i)
     return true;
 }
 
-/* The index of the plan's coordinate i in the scene. */
+/* The index in the scene of the plan's coordinate i. */
 static size_t
 in_scene(const routh *e, size_t i)
 {
@@ -138,7 +138,7 @@ find_cyclic(routh *e, bool *some)
     return QDOT_OK;
 }
 
-/* --- elimination --------------------------------------------------------------------- */
+/* --- eliminating velocities ---------------------------------------------------------- */
 
 static qdot_expr
 velocity(const routh *e, size_t i)
@@ -246,7 +246,7 @@ shortest(const routh *e)
     return best;
 }
 
-/* --- a plan of what is left ------------------------------------------------------------ */
+/* --- the plan for the remaining coordinates -------------------------------------------- */
 
 static qdot_status
 begin_plan(const routh *e, qdot_plan **out)
@@ -307,7 +307,7 @@ routh_put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
     }
 }
 
-/* The cost of a step of r, or of one evaluation if there is no series. */
+/* Find the cost of a step of r, or of one evaluation if there is no series. */
 static qdot_status
 find_cost(qdot_plan *r)
 {
@@ -372,7 +372,7 @@ cost_of_all(const qdot_plan *p)
     return p->method->series ? p->cost : qdot_cost_evaluation(p->tape);
 }
 
-/* Compare the ways; the plan takes the cheapest if it is cheaper than the full equations. */
+/* Compare the ways of insertion; the plan uses the cheapest if it is cheaper than the full equations. */
 static qdot_status
 routh_choose(routh *e)
 {
@@ -400,7 +400,7 @@ routh_choose(routh *e)
     return status;
 }
 
-/* --- what cancels --------------------------------------------------------------------- */
+/* --- whether velocities cancel digits ------------------------------------------------- */
 
 /* For each eliminated velocity: its pivot, then the terms of its numerator. */
 typedef qdot_vec(qdot_expr) expressions;
@@ -500,7 +500,7 @@ find_cancellation(routh *e, bool *too_far)
     return status;
 }
 
-/* --- all of it ----------------------------------------------------------------------- */
+/* --- the whole reduction ------------------------------------------------------------- */
 
 static void
 routh_clear(routh *e)

@@ -50,7 +50,7 @@ find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
         }
 }
 
-/* A lower bound of the cost of steps by M q'' = f, if M has `entries` entries off the diagonal. */
+/* Find a lower bound of the cost of steps by M q'' = f, if M has `entries` entries off the diagonal. */
 static double
 least_cost(size_t n, size_t entries)
 {

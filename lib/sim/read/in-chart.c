@@ -1,4 +1,5 @@
-/* in-chart.c -- expressions by the chart of a run, stretch by stretch. */
+/* in-chart.c -- writes expressions in the coordinates of a run's chart, one stretch of its angles
+ * after another. */
 #include "sim/read/in-chart.h"
 
 #include <math.h>

@@ -27,12 +27,12 @@ QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *r
 bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
 void qdot_in_chart_clear(qdot_in_chart *in);
 
-/* Values, with errors, of expressions in the coordinates of the run itself. */
+/* Evaluate expressions, with errors, in the coordinates of the run itself. */
 QDOT_MUST_CHECK qdot_status qdot_in_chart_values(qdot_run *run, size_t m, const qdot_expr *exprs,
                                                  const qdot_exact_times *times, double *values,
                                                  double *errors);
 
-/* The end of the stretch that contains `from`, towards `to`; `to` if that is nearer. */
+/* The end of the stretch that contains `from`, in the direction of `to`; `to` if that is nearer. */
 double qdot_in_chart_end(const qdot_in_chart *in, double from, double to);
 
 #endif

@@ -38,7 +38,7 @@ make_inputs(const qdot_plan *plan, size_t k, qdot_expr *own)
     return status == QDOT_OK ? qdot_pool_check(plan->pool) : status;
 }
 
-/* The value of member m in terms of its run's inputs `own` and of t, which all runs have in common. */
+/* Express the value of member m by its run's inputs `own` and by t, which all runs have in common. */
 static qdot_expr
 member_express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 {

@@ -49,7 +49,8 @@ sort_by_event(const qdot_course *c, size_t events, by_event *out)
     return QDOT_OK;
 }
 
-/* The time of the companion's occurrence that corresponds to the k-th one of the run's event; NaN: none. */
+/* Find the time of the companion's occurrence that corresponds to occurrence k of the run's event;
+ * NaN: none. */
 static double
 time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
 {

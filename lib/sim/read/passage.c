@@ -1,4 +1,4 @@
-/* passage.c -- the extrema of an expression near a coordinate singularity that the motion passes exactly. */
+/* passage.c -- finds extrema of an expression near a coordinate singularity that the motion passes exactly. */
 #include "sim/read/passage.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { NODES = 16, TRIES = 4 };
 
-/* Half of the first interval about the singularity, as a fraction of the step there. */
+/* Half of the length of the first interval about a singularity, as a fraction of the step there. */
 static const double part = 0.1;
 
 /* A function is smooth if its last Chebyshev coefficients are below this fraction of the largest. */
@@ -48,7 +48,7 @@ expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, boo
     return now;
 }
 
-/* The values of e at Chebyshev nodes on one side of t, the side given by `sign`. */
+/* Evaluate e at Chebyshev nodes on one side of t, the side given by `sign`. */
 static qdot_status
 read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *values, double *error)
 {
@@ -71,7 +71,7 @@ read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *valu
     return QDOT_OK;
 }
 
-/* The extrema of the polynomial from x = middle to `sign`. */
+/* Find the extrema of the polynomial between x = middle and x = sign. */
 static void
 find_extrema(const double *c, double middle, int sign, qdot_passage *p)
 {
@@ -113,7 +113,7 @@ fit_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c
     return QDOT_OK;
 }
 
-/* Where in the interval the distance from the singularity is 0: stretches begin just after that time. */
+/* Find where in the interval the distance from the singularity is 0: stretches begin just after that time. */
 static qdot_status
 find_middle(qdot_run *run, size_t k, bool before, double h, double *middle)
 {
@@ -132,7 +132,7 @@ find_middle(qdot_run *run, size_t k, bool before, double h, double *middle)
     return QDOT_OK;
 }
 
-/* How far the interval may reach: not to the next stretches, nor to t. */
+/* Find how far the interval may reach: not to neighbouring stretches, nor to t. */
 static double
 largest_part(const qdot_run *run, size_t k, double t)
 {

@@ -102,7 +102,7 @@ qdot_range_miss(const qdot_range_scan *s, const qdot_range_part *p)
     return 4 * p->tail + (isnan(s->bounds.miss[0]) ? 0 : s->bounds.miss[0]);
 }
 
-/* Count a value of the expression. */
+/* Include a value of the expression among the extremes found so far. */
 static inline void
 qdot_range_meet(qdot_range_scan *s, double x)
 {
@@ -112,16 +112,16 @@ qdot_range_meet(qdot_range_scan *s, double x)
     s->sure[1] = fmin(s->sure[1], x);
 }
 
-/* --- a step (range-step.c) ------------------------------------------------------------ */
+/* --- one step (range-step.c) ---------------------------------------------------------- */
 
-/* The value of the expression at t; QDOT_EDOMAIN if it is undefined. */
+/* Evaluate the expression at t; QDOT_EDOMAIN if it is undefined. */
 QDOT_MUST_CHECK qdot_status qdot_range_at(qdot_range_scan *s, double t, double *x);
 
 /* All that lies between a and b, where no course begins another step. s->most_parts limits the
  * number of its parts. */
 QDOT_MUST_CHECK qdot_status qdot_range_step(qdot_range_scan *s, double a, double b);
 
-/* --- poles (range-poles.c) ----------------------------------------------------------- */
+/* --- finding poles (range-poles.c) --------------------------------------------------- */
 
 /* Find out whether a part that cannot be halved holds a pole; s->bounds.box of the part is known
  * (if it is finite there is none). */
@@ -130,7 +130,7 @@ void qdot_range_look_for_pole(qdot_range_scan *s, const qdot_range_part *p);
 /* Extrapolate the values towards a short interval from both sides; s->bounds.box must be known. */
 void qdot_range_look_towards(qdot_range_scan *s, const qdot_range_part *p);
 
-/* --- by intervals (range-seek.c) ----------------------------------------------------- */
+/* --- bounds by intervals (range-seek.c) ---------------------------------------------- */
 
 /* Find values near the largest and the smallest of this step, halving the part whose interval
  * reaches farthest first. */

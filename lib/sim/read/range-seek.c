@@ -34,7 +34,7 @@ step_enclose(qdot_range_scan *s, double a, double b, int nodes)
     qdot_polynomial_bounds_enclose(&s->bounds, a, b, nodes);
 }
 
-/* --- seeking ------------------------------------------------------------------------- */
+/* --- searching for extrema ----------------------------------------------------------- */
 
 /* An interval of the step with an upper bound of the values; values are negated when the minimum is sought. */
 typedef struct {
@@ -114,7 +114,7 @@ qdot_range_seek(qdot_range_scan *s)
     return qdot_grave(status);
 }
 
-/* --- what is open -------------------------------------------------------------------- */
+/* --- intervals left undecided -------------------------------------------------------- */
 
 static void
 range_note(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
@@ -163,7 +163,7 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     step_enclose(s, p->a, p->b, p->n);
     lo = h->box->lo;
     hi = h->box->hi;
-    /* a pole, sin(x)/x, or a switch nearby: use the values only */
+    /* near a pole, in sin(x)/x at 0, or at a switch: use only the values */
     if (shortest
         && (!isfinite(lo) || !isfinite(hi) || qdot_range_is_beside_switch(s, p)))
         return;

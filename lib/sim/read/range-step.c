@@ -19,23 +19,23 @@ enum { MOST_NODES = QDOT_CHEBYSHEV_MOST, DEEPEST = 60, LEAST_PARTS = 64 };
  * possibly rounding. */
 enum { SEEKING = 16, MANY_PARTS = 512 };
 
-/* Size of the last coefficients relative to the largest, if rounding of times is negligible. */
+/* The last coefficients relative to the largest in a good fit, if rounding of times is negligible. */
 static const double tight = 0x1p-44;
 
 /* If the last coefficients keep this fraction of those with half as many nodes, the fit has not
  * converged. */
 static const double no_progress = 0.25;
 
-/* An interval this short relative to its step, or with this much rounding, is extrapolated from both sides. */
+/* An interval is extrapolated if it is shorter than this fraction of its step, or has this much rounding. */
 static const double deep = 0x1p-24, blurred = 0x1p-14;
 
-/* At an end of the range the value jumps if it differs from the limit from inside by this, relatively. */
+/* At an end of the range a value jumps if it differs from the limit from inside by this fraction. */
 static const double jump = 0x1p-30;
 
 typedef qdot_range_scan scan;
 typedef qdot_range_part part;
 
-/* What the values at the nodes tell about an interval. */
+/* What the values at the nodes of an interval show about it. */
 typedef enum {
     ROUGH,     /* no polynomial fits the values */
     UNSURE,    /* one fits, but a peak may hide between the nodes */
@@ -53,7 +53,7 @@ qdot_range_at(scan *s, double t, double *x)
                         : qdot_fail(QDOT_EDOMAIN, "it is undefined at t = %.15g", t);
 }
 
-/* Count values between low and high at unknown times. */
+/* Include values between low and high, at unknown times, among the extremes found so far. */
 static void
 meet_roughly(scan *s, double low, double high)
 {
@@ -158,7 +158,7 @@ from_within(scan *s, const part *p, int end, double x)
     return limit;
 }
 
-/* Whether values low ... high with the uncertainty `off` may exceed the extremes found so far. */
+/* Whether values low ... high, uncertain by `off`, may exceed the extremes found so far. */
 static bool
 may_surpass(const scan *s, double low, double high, double off)
 {
@@ -276,7 +276,7 @@ find_blur(scan *s, double t)
     return QDOT_OK;
 }
 
-/* Rounding noise of the values in the step, and of its nodes; 0 if unknown. */
+/* Find the rounding noise of the values in the step, and of its nodes; 0 if unknown. */
 static qdot_status
 find_noise(scan *s, double a, double b)
 {
@@ -293,9 +293,9 @@ find_noise(scan *s, double a, double b)
     return qdot_grave(status);
 }
 
-/* The mean of the sizes of the values but for the largest. */
+/* The mean size of the values in an interval, without the largest one. */
 static double
-middling(const part *p)
+mean_without_largest(const part *p)
 {
     double sum = 0, largest = 0;
 
@@ -365,7 +365,7 @@ qdot_range_step(scan *s, double a, double b)
         /* if the inputs are constant, jumps between values are rounding */
         short_one = short_one || (v == ROUGH && s->bounds.resting);
         if (s->parts == 0 && depth == 1)
-            s->typical = middling(&p);
+            s->typical = mean_without_largest(&p);
         if (good)
             s->nodes = p.rough ? nodes / 2 : nodes;
         if (v == SURPASSED) {

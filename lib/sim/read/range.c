@@ -34,7 +34,7 @@ typedef struct {
     qdot_joint joint;
 } question;
 
-/* --- along given courses -------------------------------------------------------------- */
+/* --- the extremum or mean along given courses ----------------------------------------- */
 
 /* Include the value at a single time t, as at an end of the range or if the range has no length. */
 static qdot_status
@@ -122,7 +122,7 @@ check_bounds(const scan *s, qdot_range_kind kind)
                      s->pole);
 }
 
-/* Changes of an input below its roughness are ignored; no force can hide in them. */
+/* Find for each input the size below which its changes are ignored, as no force can hide in them. */
 static qdot_status
 find_least(scan *s)
 {
@@ -169,9 +169,9 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
     return status;
 }
 
-/* --- the error ------------------------------------------------------------------------ */
+/* --- error of the result -------------------------------------------------------------- */
 
-/* The rounding error of e, evaluated at the ends of the range. */
+/* Find the rounding error of e, evaluated at the ends of the range. */
 static qdot_status
 rounding(const question *q, double *error)
 {
@@ -240,7 +240,7 @@ find_error(const question *q, double x, double rough, double *error)
     return QDOT_OK;
 }
 
-/* --- asking --------------------------------------------------------------------------- */
+/* --- answering the question ----------------------------------------------------------- */
 
 /* The range in the direction of the runs, or forward where they go both ways; given [2], NULL: all
  * that they have in common. */
@@ -341,7 +341,7 @@ express(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdo
     return status;
 }
 
-/* Combine the result over one stretch with that over the earlier ones. */
+/* The result over the earlier stretches, which is then combined with that over one more stretch. */
 typedef struct {
     double length, sum, most, least, first, error, sum_error;
     bool begun;
@@ -483,7 +483,7 @@ range_by_chart(const qdot_run_expression *x, qdot_range_kind kind, const double 
     return range_along(x, kind, range, value, error);
 }
 
-/* An extremum or mean over runs that count their times from the same origin. */
+/* Find an extremum or mean over runs that count their times from the same origin. */
 static qdot_status
 range_from_origin(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
                   double *error)

@@ -47,7 +47,7 @@ qdot_section_clear(qdot_section *s)
     *s = (qdot_section){.lost = NAN};
 }
 
-/* --- a side --------------------------------------------------------------------------- */
+/* --- the crossings of one run --------------------------------------------------------- */
 
 static qdot_status
 find_crossings(section *x, side *s, const double *limits)
@@ -67,7 +67,7 @@ find_crossings(section *x, side *s, const double *limits)
     return qdot_reader_init(&s->reader, &x->reading, s->course);
 }
 
-/* The values of the expressions, out [m], at a crossing. */
+/* Evaluate the expressions at a crossing: out [m]. */
 static qdot_status
 read_at(section *x, side *s, const qdot_crossing *at, double *out)
 {
@@ -84,7 +84,7 @@ read_at(section *x, side *s, const qdot_crossing *at, double *out)
     return qdot_reader_go_on(&s->reader, at->piece, at->t, h, at->low, x->work, out);
 }
 
-/* --- errors --------------------------------------------------------------------------- */
+/* --- errors of crossings -------------------------------------------------------------- */
 
 /* The errors of row k from those of the companions: of the time into *t_error, of the numbers into
  * errors [m]; NaN where one has not that crossing. */
@@ -143,7 +143,7 @@ widen(size_t n, size_t m, double *errors)
     return QDOT_OK;
 }
 
-/* The errors of rows [n] of the run, stored in s from row `first` on. */
+/* Find the errors of rows [n] of the run, stored in s from row `first` on. */
 static qdot_status
 section_find_errors(section *x, qdot_section *s, size_t first)
 {
@@ -179,7 +179,7 @@ section_find_errors(section *x, qdot_section *s, size_t first)
     return status;
 }
 
-/* --- the section ---------------------------------------------------------------------- */
+/* --- rows of the section -------------------------------------------------------------- */
 
 static bool
 grow(double **at, size_t n)

@@ -1,4 +1,4 @@
-/* stretches.c -- divides a range of several courses at the points of all. */
+/* stretches.c -- divides a time range at the points of several courses. */
 #include "sim/read/stretches.h"
 
 #include <float.h>
@@ -98,7 +98,7 @@ qdot_stretches_next(qdot_stretches *s)
 
         s->a = s->from < s->to ? t[k] : t[n - 1 - k];
         s->b = s->from < s->to ? t[k + 1] : t[n - 2 - k];
-        /* points of two courses that differ by rounding count as one */
+        /* treat points of two courses that differ only by rounding as one point */
         if (s->a == s->b || (s->n > 1 && k + 2 < n &&
                              fabs(s->b - s->a) <= 16 * DBL_EPSILON * fabs(s->b)))
             continue;

@@ -15,10 +15,10 @@
 #include "sim/read/in-chart.h"
 #include "sim/run/run.h"
 
-/* Step of t, relative, for slopes. */
+/* The difference of t for numerical derivatives, relative to t. */
 static const double slope_over = 0x1p-28;
 
-/* --- asking ------------------------------------------------------------------------- */
+/* --- evaluation at times ------------------------------------------------------------ */
 
 static qdot_status
 undefined(const qdot_run *run, qdot_expr e, double t)

@@ -17,14 +17,14 @@
  * value, or of 1. */
 static const double near_place = 0.05;
 
-/* The number of points at which each step is inspected. */
+/* The number of points within each step at which a distance is inspected. */
 enum { parts = 8 };
 
 /* Rounding held the steps so far above their tolerance, or the error is so large, that other
  * coordinates may do better. */
 static const double poor = 100, poor_error = 1000, least_poor = 1e-9;
 
-/* --- which groups ---------------------------------------------------------------------------- */
+/* --- choosing groups of coordinates ---------------------------------------------------------- */
 
 /* The sign of a distance at the start, its smallest and its largest absolute value along a run. */
 typedef struct {
@@ -113,7 +113,7 @@ choose_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run *ru
 
 /* --- the run in the chart ---------------------------------------------------------------------- */
 
-/* The start in new coordinates: exact constants, in order of the chart's scene. */
+/* Write the start in new coordinates: exact constants, in the order of the chart's scene. */
 static qdot_status
 chart_put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr *q0,
                 qdot_expr *v0)
@@ -157,7 +157,7 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     return status;
 }
 
-/* Add a notice of the times at which the run leaves the region in which a root of the scene is valid. */
+/* Add a notice of the times at which the run leaves the region where a root of the scene is valid. */
 static qdot_status
 say_branches(qdot_run *run)
 {

@@ -5,7 +5,7 @@
 
 #include "sim/course/run-state.h"
 
-/* The method for stiff scenes, and the tolerance below which rounding dominates the error of its steps. */
+/* The method for stiff scenes, and the tolerance below which rounding dominates its errors. */
 static const char stiff_method[] = "radau";
 static const double tightest = 1e-13;
 
@@ -19,7 +19,7 @@ is_accurate(const qdot_run *run, double tol)
     return run->report.scaled_error <= fmax(rather_wait * tol, 1e-10);
 }
 
-/* Replace *run by `other` unless that is NULL. */
+/* Replace *run by `other`, unless that is NULL. */
 static void
 run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
 {

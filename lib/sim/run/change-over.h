@@ -12,7 +12,7 @@
 #include "sim/course/report.h"
 #include "sim/model/request.h"
 
-/* The functions that make runs, as qdot_run_new, read them, as qdot_run_values, and free them. */
+/* The functions with which runs are made (qdot_run_new), read (qdot_run_values) and freed. */
 typedef struct {
     qdot_status (*make)(qdot_scene *scene, const qdot_run_request *request,
                         qdot_run **run);

@@ -15,7 +15,8 @@
  * Each step of the run is looked at in `parts`. */
 static const double sure = 0.8, far = 2.0, turn = 6.283185307179586;
 
-/* So near to a singularity, relative to the largest distance so far, rounding decides the direction. */
+/* If a singularity is nearer than this, relative to the largest distance so far, rounding decides
+ * the direction. */
 static const double no_direction = 1e-13;
 
 /* The gradient of P is 0 if its square is below this part of its largest value: w^2 = P crosses
@@ -66,7 +67,7 @@ typedef struct {
     double t;
 } following;
 
-/* Whether m is followed, as an angle. */
+/* Whether the coordinate m is followed along the run because it is an angle. */
 static bool
 turns(const qdot_chart_moved *m)
 {
@@ -94,7 +95,7 @@ turn_to(following *f, size_t i)
         f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
 }
 
-/* Whether the sign of a root at t differs from that before. */
+/* Whether the sign of a root at t differs from its sign before t. */
 static bool
 changes_branch(const following *f)
 {
@@ -198,7 +199,7 @@ change_branches(following *f)
     }
 }
 
-/* Angles that still jump by about half a turn do so upwards, so that rounding does not decide. */
+/* Turn angles that still jump by about half a turn upwards, so that rounding does not decide. */
 static void
 half_turns(following *f)
 {
@@ -256,7 +257,7 @@ follow_run(following *f, const qdot_trajectory *tr)
     return QDOT_OK;
 }
 
-/* Expressions of angle i for signs +1 and -1: x, and y or the factor of the sine of half an angle. */
+/* Write the expressions of angle i for signs +1 and -1: x, and y or the factor of the sine of half an angle. */
 static void
 express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr *xy)
 {
@@ -268,7 +269,7 @@ express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr
                                                quarters, NULL);
 }
 
-/* The squared gradient of P. */
+/* The squared gradient of P, the square of a root. */
 static qdot_expr
 slope_of(const qdot_chart *c, const qdot_chart_sign *s)
 {
@@ -281,7 +282,7 @@ slope_of(const qdot_chart *c, const qdot_chart_sign *s)
     return sum;
 }
 
-/* exprs [4 m + 2 n], as following.xy. */
+/* Write the expressions read along the run, exprs [4 m + 2 n], in the order of the array following.xy. */
 static qdot_status
 express_all(const qdot_run_chart *x, qdot_expr *exprs)
 {
@@ -394,7 +395,7 @@ qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
     return QDOT_OK;
 }
 
-/* --- the report ---------------------------------------------------------------------------- */
+/* --- the end state in the report ----------------------------------------------------------- */
 
 /* Read end value i (of q or q') with its error; a velocity may be undefined at a singularity. */
 static qdot_status

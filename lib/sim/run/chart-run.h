@@ -43,7 +43,7 @@ typedef struct qdot_run_chart {
 
 void qdot_run_chart_free(qdot_run_chart *x);
 
-/* An expression of the scene given in the coordinates of the run (as qdot_chart_express). */
+/* An expression of the given scene written in the coordinates of the run (as qdot_chart_express). */
 qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
                                  bool *turns);
 

@@ -5,11 +5,11 @@
 #include "sim/model/request.h"
 #include "sim/run/chart-run.h"
 
-/* e, in coordinates and velocities of s, at the start of the request: an exact constant. */
+/* The value of e, given in coordinates and velocities of s, at the start of the request: an exact constant. */
 qdot_expr qdot_chart_at_start(const qdot_scene *s, const qdot_run_request *request,
                               qdot_expr e);
 
-/* The value of e at the start and its sign, 1 or -1. Errors: as qdot_constant_double. */
+/* Find the value of e at the start and its sign, 1 or -1. Errors: as qdot_constant_double. */
 QDOT_MUST_CHECK qdot_status qdot_chart_start_sign(const qdot_scene *s,
                                             const qdot_run_request *request, qdot_expr e,
                                             int *sign, double *value);

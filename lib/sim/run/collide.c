@@ -41,9 +41,9 @@ static const char *const at_end = "end#";
  * at most. */
 static const double lengths[] = {8, 1e5};
 
-/* --- which pair -------------------------------------------------------------------------------- */
+/* --- choosing the pair ------------------------------------------------------------------------- */
 
-/* A scene without polar coordinates, in which colliding pairs are searched. */
+/* A scene without polar coordinates, in which colliding pairs are sought. */
 typedef struct {
     qdot_run_chart *x;
     qdot_scene *scene; /* x->chart.scene, or the one given */
@@ -54,7 +54,7 @@ typedef struct {
 
 typedef qdot_vec(qdot_expr) causes;
 
-/* Potentials and forces of a scene, with numbers for parameters. */
+/* List potentials and forces of a scene, with numbers for parameters. */
 static qdot_status
 list_causes(const ground *g, const qdot_scene *s, causes *list)
 {
@@ -74,7 +74,7 @@ list_causes(const ground *g, const qdot_scene *s, causes *list)
     return qdot_pool_check(s->pool);
 }
 
-/* Whether anything is divided by coordinates: if not, no chart has to be looked for. */
+/* Whether anything is divided by coordinates; if not, no collision has to be looked for. */
 static qdot_status
 may_collide(const ground *g, const qdot_scene *s, bool *may)
 {
@@ -191,7 +191,7 @@ pair_measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* The pair whose distance became smallest in the run; *found. */
+/* Choose the pair whose distance became smallest in the run; *found: there is one. */
 static qdot_status
 pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
             qdot_collision_pair *pair, bool *found)
@@ -222,9 +222,9 @@ pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
     return status;
 }
 
-/* --- the run in s ------------------------------------------------------------------------------ */
+/* --- the run over the regular variable s ------------------------------------------------------- */
 
-/* Add the end time of the run as an event of the scene with independent variable s. */
+/* Add the end time of the run as an event of the regularised scene, whose independent variable is s. */
 static qdot_status
 add_end(const ground *g)
 {
@@ -237,7 +237,7 @@ add_end(const ground *g)
     return qdot_scene_event(c->scene, &end);
 }
 
-/* The start, an exact constant, of an expression in coordinates of g->scene and t. */
+/* The value at the start, an exact constant, of an expression in coordinates of g->scene and t. */
 static qdot_expr
 at_start(const ground *g, qdot_expr e)
 {
@@ -249,7 +249,7 @@ at_start(const ground *g, qdot_expr e)
                                          &g->request->t0));
 }
 
-/* The run with independent variable s: its length, start and scales. */
+/* A run with independent variable s: its length, start and scales. */
 typedef struct {
     size_t n;         /* coordinates */
     double T, R, k;   /* the time, R at the start */
@@ -367,7 +367,7 @@ run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
     return status;
 }
 
-/* --- the run in t ------------------------------------------------------------------------------ */
+/* --- the run as a function of t ---------------------------------------------------------------- */
 
 static qdot_status
 time_occurrences(qdot_course *c, size_t clock, size_t end)
@@ -411,7 +411,7 @@ time_course(qdot_course *c, size_t clock, size_t end, double t1)
     return QDOT_OK;
 }
 
-/* Replace a value of s in the report, as the horizon, by the time t. */
+/* Replace a value of s in the report, such as the horizon, by the time t. */
 static qdot_status
 time_of(const qdot_run *run, size_t clock, double *t)
 {
@@ -539,9 +539,9 @@ say_hindrance(const ground *g, qdot_run *run)
     return qdot_text_status(&run->notice);
 }
 
-/* --- all of it ----------------------------------------------------------------------------------- */
+/* --- the whole repetition ------------------------------------------------------------------------ */
 
-/* Make the run with that pair regularised; *out is NULL if it does not reach its end. */
+/* Make the run with the given pair regularised; *out is NULL if it does not reach its end. */
 static qdot_status
 collision_pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
                qdot_run **out)

@@ -1,4 +1,4 @@
-/* describe.c -- prints a plan in words. */
+/* describe.c -- prints a plan in words, for the statement `plan`. */
 #include "expr/node.h"
 #include "expr/print.h"
 #include "expr/symbol.h"
@@ -20,7 +20,7 @@ moving(const qdot_plan *p)
     return p->reduced ? p->reduced : p;
 }
 
-/* Write the coordinates whose momenta are conserved. */
+/* List the coordinates whose momenta are conserved. */
 static void
 say_kept(const qdot_plan *r, qdot_text *out)
 {
@@ -181,7 +181,7 @@ say_code(qdot_bind *bind, double tol, int p, qdot_text *out)
     return QDOT_OK;
 }
 
-/* Taylor series: the order, the form of the equations, the cost of an order. */
+/* Describe Taylor series: the order, the form of the equations, the cost of an order. */
 static qdot_status
 say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
 {

@@ -10,7 +10,7 @@
 /* The default tolerance of a run. */
 static const double tol_unsaid = 1e-12;
 
-/* The steps used for the prediction: `few_steps`, or `first_steps` if those make a long run likely. */
+/* The number of steps used for a prediction; `first_steps` if the first few make a long run likely. */
 enum { few_steps = 2, first_steps = 64 };
 static const double unlikely = QDOT_LONG_STEPS / 50;
 
@@ -28,7 +28,7 @@ count(double t, const double *y, bool *stop, void *user)
     return QDOT_OK;
 }
 
-/* Predict the number of steps of the whole run from the first `looked` ones; 0 if they do not tell. */
+/* Predict the number of steps of the whole run from the first `looked` ones; 0 if that is not possible. */
 static qdot_status
 foresee(const qdot_long_run *run, int looked, double *steps)
 {

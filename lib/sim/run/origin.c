@@ -11,7 +11,7 @@
 #include "expr/exact.h"
 #include "expr/walk.h"
 
-/* A run counts times from its start if that is more than this many durations of the run away from t = 0. */
+/* A run counts times from its start if that is farther from t = 0 than this many durations of the run. */
 static const double far = 1024;
 
 typedef struct {

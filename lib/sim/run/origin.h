@@ -11,7 +11,7 @@
 #include "mech/scene/saved.h"
 #include "sim/model/request.h"
 
-/* A request in terms of s. Start from {0}. */
+/* A request that counts time from the start, as s. Start from {0}. */
 typedef struct {
     qdot_run_request request; /* borrows from the one asked for */
     double origin;            /* 0: nothing was done */

@@ -11,16 +11,16 @@
 #include "sim/error/touches.h"
 #include "sim/error/unresolved-forces.h"
 
-/* Make the error of the run unknown, with the reason. */
+/* Make the error of the run unknown, for the reason given. */
 static qdot_status
-lose(qdot_run *run, const char *doubt)
+lose_error_estimate(qdot_run *run, const char *doubt)
 {
     run->hidden = true;
     run->report.error = run->report.scaled_error = run->report.horizon = NAN;
     return qdot_run_say_doubt(run, doubt);
 }
 
-/* If a step missed a force, the error is unknown. */
+/* Make the error unknown if a step missed a force. */
 static qdot_status
 find_hidden(qdot_run *run)
 {
@@ -37,10 +37,11 @@ find_hidden(qdot_run *run)
              "a force acts about t = %.6g for less than a step, which went over it: %s", t,
              run->plan->method->series ? "end a run just before, and go on from there"
                                        : "method taylor looks for such places");
-    return lose(run, text);
+    return lose_error_estimate(run, text);
 }
 
-/* If the motion reversed at a cusp of a constraint, its further course is unknown. */
+/* Make the error unknown if the motion reversed at a cusp of a constraint, after which its course
+ * is unknown. */
 static qdot_status
 find_corner(qdot_run *run)
 {
@@ -58,10 +59,11 @@ find_corner(qdot_run *run)
              "constraint %.100s has no direction about t = %.6g, a cusp of it, and what the motion is "
              "from there is not determined",
              run->plan->constraints->rows[row].name, t);
-    return lose(run, text);
+    return lose_error_estimate(run, text);
 }
 
-/* If an event with a direction touches 0 within rounding, it is unknown whether it occurs there. */
+/* Make the error unknown if an event with a direction touches 0 within rounding, so that it may not
+ * occur there. */
 static qdot_status
 find_touch(qdot_run *run)
 {
@@ -76,7 +78,7 @@ find_touch(qdot_run *run)
         snprintf(text, sizeof text,
                  "about t = %.6g the event %.100s touches but for rounding, so that whether it acts there is not known",
                  c->faded.at[k].from, e->name);
-        return lose(run, text);
+        return lose_error_estimate(run, text);
     }
     return QDOT_OK;
 }
@@ -132,7 +134,7 @@ point_underflows(const qdot_course *course, const qdot_ode_system *system, size_
     return QDOT_OK;
 }
 
-/* If forces too small for a double would matter in the run, the error is unknown. */
+/* Make the error unknown if forces too small for a double would matter in the run. */
 static qdot_status
 find_underflow(qdot_run *run)
 {
@@ -160,8 +162,8 @@ find_underflow(qdot_run *run)
     if (status == QDOT_OK)
         qdot_fail_again(&before);
     return status == QDOT_OK && found
-               ? lose(run, "forces are as small as the least double or smaller, and their rounding errors matter in this run: "
-                           "other units, or `digits 20`")
+               ? lose_error_estimate(run, "forces are as small as the least double or smaller, and their rounding errors matter in this run: "
+                                          "other units, or `digits 20`")
                : status;
 }
 
@@ -193,8 +195,8 @@ qdot_run_doubt_energy(qdot_run *run, double tol)
                                     fmax(tol, tr->result.stats.raised), &contradict));
     if (!contradict)
         return QDOT_OK;
-    return lose(run, "the energy, which is conserved, has not been kept: a step came within tol of a "
-                     "place where the equations are singular, or went over it");
+    return lose_error_estimate(run, "the energy, which is conserved, has not been kept: a step came within tol of a "
+                                    "place where the equations are singular, or went over it");
 }
 
 qdot_status

@@ -86,7 +86,7 @@ check_springs(const qdot_run *run, const qdot_scene *scene)
     return QDOT_OK;
 }
 
-/* Bring the start onto the constraints. */
+/* Move the start onto the constraints. */
 static qdot_status
 settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
              const qdot_domains *domains)

@@ -33,7 +33,8 @@
 #include "sim/model/still.h"
 #include "tape/shake.h"
 
-/* `auto` changes to a method for stiff scenes if at least this much work (ns) is left (ode/stiffness.h). */
+/* `auto` changes to a method for stiff scenes only if at least this much work (ns) is left
+ * (ode/stiffness.h). */
 static const double worth_changing = 3e6;
 
 /* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
@@ -95,7 +96,7 @@ qdot_run_bytes(const qdot_run *run)
     const size_t points = bytes_of(&run->course.tr) + bytes_of(&run->companion.tr) +
                           bytes_of(&run->twin.tr);
 
-    /* with `digits` also the points of the run and of its companion in MPFR */
+    /* with `digits`, add the points of the run and of its companion in MPFR */
     return sizeof *run +
            points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
 }
@@ -114,7 +115,7 @@ check_tolerance(double tol)
     return QDOT_OK;
 }
 
-/* --- the run ------------------------------------------------------------------------ */
+/* --- integration and its error ------------------------------------------------------ */
 
 /* Whether an incomplete run with this status is kept. */
 static bool
@@ -270,7 +271,7 @@ show_states(qdot_run *run, qdot_companion *companion)
     }
     qdot_free(y);
     qdot_trajectory_close(cursor);
-    /* without these states the error is that of the end only */
+    /* without the states the error is only that of the end */
     return qdot_grave(status);
 }
 
@@ -281,7 +282,7 @@ is_alone(const qdot_run *run)
     return run->apart == NULL && run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
-/* Whether nothing changes the motion discontinuously: no switches, and no event with an effect. */
+/* Whether nothing changes the motion suddenly: no switches, and no event with an effect. */
 static bool
 is_undisturbed(const qdot_run *run)
 {
@@ -330,7 +331,7 @@ start_companion(qdot_run *run, double tol, qdot_companion **out)
     return qdot_companion_start(&request, out);
 }
 
-/* Record why the error is unknown. */
+/* Record the reason why the error is unknown. */
 static qdot_status
 say_lost(qdot_run *run, const char *reason)
 {
@@ -454,7 +455,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < 2 * run->plan->n; i++)
         run->difference[i] = NAN;
-    /* run in two doubles only if no event acts: an event's time is a double */
+    /* run in two doubles only if no event has an effect, because the time of an event is a double */
     run->leading = run->plan->leading && is_undisturbed(run);
     status = integrate_with_error(run, tol, interrupted);
     if (status == QDOT_OK && run->course.tr.result.unfit)
@@ -479,7 +480,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     return status;
 }
 
-/* The tolerance that a run of many steps uses instead of tol, into *better. */
+/* Find a tolerance *better that a run of many steps should use instead of tol. */
 static qdot_status
 foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
 {
@@ -578,7 +579,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
     return interrupted ? QDOT_EINTR : QDOT_OK;
 }
 
-/* Make the run; repeat it with other settings if it is long, or until a touching event is decided. */
+/* Make the run; repeat it if it is long (tighter), or until it is decided whether an event touches. */
 static qdot_status
 make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {

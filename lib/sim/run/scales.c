@@ -4,14 +4,14 @@
 #include <float.h>
 #include <math.h>
 
-/* Coordinates whose largest value is below this get a scale of their own. */
+/* Coordinates whose largest value is below this get scales of their own. */
 static const double small = 1e-3;
 
 /* A is no rounding if its error is below this part of it, and it is above that part of the largest
  * coordinate. */
 static const double sure = 0.1, least_part = 1e-12;
 
-/* Two states without motion between them differ in a position by this part of it: rounding. */
+/* Two states without motion between them may differ in a position by this fraction of it, by rounding. */
 static const double rounding = 8 * DBL_EPSILON;
 
 /* A run with more work than this (about ns) is not repeated. */
@@ -20,7 +20,7 @@ static const double most_work = 3e8;
 /* The most coordinates that a notice names. */
 enum { MOST_NAMES = 4 };
 
-/* The largest |y_i| at the stored points. */
+/* The largest |y_i| at the stored points of the run. */
 static double
 size_along(const qdot_trajectory *tr, size_t i)
 {
@@ -48,7 +48,7 @@ speed_along(const qdot_trajectory *tr, size_t i)
     return most;
 }
 
-/* The power of ten at or below x > 0. */
+/* The largest power of ten that is not above x > 0. */
 static double
 decade(double x)
 {

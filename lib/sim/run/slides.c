@@ -69,7 +69,7 @@ list_stretches(const qdot_course *c, size_t surface, stretches *out)
     return QDOT_OK;
 }
 
-/* "sticks at x' = 0" where only velocities are held, else "slides along u = 0". */
+/* Append "sticks at x' = 0" if only velocities are held, else "slides along u = 0". */
 static qdot_status
 name(const qdot_run *run, size_t surface, qdot_text *to)
 {

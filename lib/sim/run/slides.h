@@ -11,7 +11,7 @@
  * (qdot_plan_reading), and add a notice of where each was held. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_slides_tell(qdot_run *run);
 
-/* Whether a contact lasts somewhere along the run. */
+/* Whether the motion stays on a contact over some time of the run. */
 bool qdot_slides_in_contact(const qdot_run *run);
 
 #endif

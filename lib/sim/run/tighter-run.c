@@ -16,7 +16,7 @@ static const double most_work = 1e9;
 static const double most_power = 4, alike = 1.5, few = 1e-2;
 enum { looked_at = 16 };
 
-/* The scaled distance of the run from its companion at t, the largest over components; NAN: unknown. */
+/* The largest scaled distance of any component of the run from its companion at t; NAN: unknown. */
 static double
 distance_at(const qdot_run *run, double t)
 {

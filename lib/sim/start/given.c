@@ -1,4 +1,5 @@
-/* given.c -- the start of a run as balls: from its exact expressions, or as two doubles after a projection. */
+/* given.c -- gives the start of a run as balls: from exact expressions, or as two doubles after a
+ * projection. */
 #include "sim/start/given.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@ qdot_given_clear(qdot_given *g)
     *g = (qdot_given){0};
 }
 
-/* Set x to y + low; the radius is the rounding error of two doubles. */
+/* Set x to a ball about y + low, whose radius is the rounding error of two doubles. */
 static void
 set_moved(arb_t x, double y, double low)
 {
@@ -28,7 +29,7 @@ set_moved(arb_t x, double y, double low)
     arb_clear(rest);
 }
 
-/* Set x to the exact requested value if the start still has it; else to y + low. */
+/* Set x to the exact requested value if the start still has that value; otherwise to y + low. */
 static qdot_status
 set_one(const qdot_given *g, qdot_expr asked, double y, double low, arb_t x)
 {

@@ -18,7 +18,7 @@ static const double on_it = 1e-8;   /* F = 0 is met: what is left is for balls *
 static const double alike = 1e-6;   /* points nearer than this are one */
 static const double as_near = 1e-9; /* distances nearer than this are equal */
 
-/* A gradient below this fraction of the largest one of its row so far is rounding. */
+/* A gradient below this fraction of the largest one that its row has had is rounding. */
 static const double rounding = 1e-13;
 
 typedef struct {
@@ -47,7 +47,7 @@ unknown_place(const search *s, size_t i)
     return s->p->first + s->index[i];
 }
 
-/* Set the size of row k: its length, or the largest so far if the present one is rounding. */
+/* Set the size of row k: its length, or the largest length so far if the present one is rounding. */
 static void
 measure_row(search *s, size_t k, double length)
 {
@@ -81,7 +81,7 @@ search_evaluate(search *s, const double *at, bool measure)
     return isnan(sum) ? INFINITY : sum;
 }
 
-/* Compute the rows of A for the free unknowns in the metric, B = A C^-T. */
+/* Compute B = A C^-T, the rows of A for the free unknowns in the metric. */
 static void
 factor_rows(search *s)
 {
@@ -107,7 +107,7 @@ factor_rows(search *s)
     qdot_row_space_factor(&s->rows, s->B, 1e-10, false);
 }
 
-/* x becomes C^-T x. */
+/* Transform x back from the metric: x becomes C^-T x. */
 static void
 from_metric(const search *s, double *x)
 {
@@ -166,9 +166,9 @@ search_holds(const search *s, const double *at)
     return true;
 }
 
-/* Newton steps of least length, halved until they reduce the residual. */
+/* Take Newton steps of least length, halved until they reduce the residual, to reach F = 0. */
 static bool
-restore(search *s, double *at)
+restore_constraints(search *s, double *at)
 {
     const qdot_nearest *p = s->p;
 
@@ -203,7 +203,7 @@ restore(search *s, double *at)
 
 /* Move along F = 0 against the gradient of the distance; each step is projected back onto F = 0. */
 static void
-slide(search *s, double *at)
+descend_on_constraints(search *s, double *at)
 {
     const qdot_nearest *p = s->p;
 
@@ -227,7 +227,7 @@ slide(search *s, double *at)
             double now;
 
             search_move(s, s->kept, -scale, s->slid, at);
-            if (!restore(s, at))
+            if (!restore_constraints(s, at))
                 continue;
             now = search_distance(s, at);
             nearer = now * now < near * near - 0.1 * scale * slope * slope;
@@ -239,7 +239,7 @@ slide(search *s, double *at)
     }
 }
 
-/* --- second derivatives ------------------------------------------------------------- */
+/* --- using second derivatives ------------------------------------------------------- */
 
 static qdot_status
 find_curves(qdot_nearest *p)
@@ -327,9 +327,9 @@ newton_system(search *s, const double *at, double *K, double *r)
     }
 }
 
-/* Newton's method for the stationary point of the distance on F = 0, while its steps shrink. */
+/* Find, by Newton's method, where the distance is stationary on F = 0, while the steps shrink. */
 static qdot_status
-polish(search *s, double *at)
+newton_to_nearest(search *s, double *at)
 {
     qdot_nearest *p = s->p;
     double last = 1e-2, *K, *r;
@@ -387,7 +387,7 @@ polish(search *s, double *at)
     return status;
 }
 
-/* --- from several points ------------------------------------------------------------ */
+/* --- searching from several points -------------------------------------------------- */
 
 static double
 random_sign(uint64_t *seed)
@@ -396,7 +396,7 @@ random_sign(uint64_t *seed)
     return ((double)(*seed >> 11) * 0x1p-53) * 2 - 1;
 }
 
-/* The k-th start of the search: the centre, then pairs of points about it at different distances. */
+/* Choose the k-th start of the search: the centre, then pairs of points about it at different distances. */
 static void
 choose_point(const search *s, int k, double *at)
 {
@@ -437,11 +437,11 @@ search_look_around(search *s, double *at, double *best, double *other, qdot_near
 
         QDOT_TRY(qdot_interrupt_check());
         choose_point(s, k, at);
-        if (!restore(s, at))
+        if (!restore_constraints(s, at))
             continue;
-        slide(s, at);
+        descend_on_constraints(s, at);
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(polish(s, at));
+        QDOT_TRY(newton_to_nearest(s, at));
         (void)search_evaluate(s, at, true);
         if (!search_holds(s, at) || (p->domains && qdot_domains_outside(p->domains, at)))
             continue;

@@ -26,9 +26,9 @@ qdot_nearest_end(qdot_nearest *p)
     qdot_free(p->work);
 }
 
-/* --- balls -------------------------------------------------------------------------- */
+/* --- evaluation in ball arithmetic -------------------------------------------------- */
 
-/* Where F and A are evaluated: with the unknowns as exact given values, as at + low, or all 0. */
+/* A point at which F and A are evaluated: exact given values of the unknowns, or at + low, or all 0. */
 typedef struct {
     const qdot_nearest *p;
     enum { AS_GIVEN, MOVED, AT_ZERO } unknowns;
@@ -76,7 +76,7 @@ point_evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
     return QDOT_OK;
 }
 
-/* --- F and A ------------------------------------------------------------------------ */
+/* --- evaluating F and A ------------------------------------------------------------- */
 
 static bool
 has_unknowns(const qdot_nearest *p, qdot_expr e)

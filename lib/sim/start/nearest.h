@@ -33,7 +33,7 @@ typedef struct {
     const qdot_domains *domains; /* of the unknowns; NULL: none */
     const qdot_given *given;     /* [inputs] the start that is asked for */
 
-    /* set by _begin: */
+    /* Fields set by _begin: */
     qdot_tape *tape, *curved; /* F and A; second derivatives where there are any */
     qdot_expr *A;             /* [m * n] */
     uint32_t *place;          /* [3 * curves] k, i, j of each second derivative */
@@ -56,7 +56,7 @@ typedef enum {
 QDOT_MUST_CHECK qdot_status qdot_nearest_begin(qdot_nearest *p);
 void qdot_nearest_end(qdot_nearest *p);
 
-/* F and A at a point, into p->value. */
+/* Evaluate F and A at a point, into p->value. */
 void qdot_nearest_evaluate(qdot_nearest *p, const double *at);
 
 /* distance [m] to F_k = 0 at the start that is given, whose doubles are at [inputs], by balls:
@@ -71,11 +71,11 @@ QDOT_MUST_CHECK qdot_status qdot_nearest_find(qdot_nearest *p, const bool *free,
                                               const double *W, double *at, double *other,
                                               qdot_nearest_outcome *outcome);
 
-/* Make F = 0 at at + low to the precision of two doubles, moving the free unknowns as little as possible. */
+/* Solve F = 0 at at + low to the precision of two doubles, moving the free unknowns as little as possible. */
 QDOT_MUST_CHECK qdot_status qdot_nearest_refine(qdot_nearest *p, const bool *free,
                                                 double *at, double *low);
 
-/* sqrt(x . x) of x [n], without overflow; for nearest-search.c too. */
+/* The length sqrt(x . x) of x [n], without overflow; for nearest-search.c too. */
 double qdot_nearest_length(const double *x, size_t n);
 
 #endif

@@ -17,7 +17,7 @@ static const double breaks = 1e-14; /* relative to max(1, |x|) */
 
 enum { MOST_LISTED = 24, MOST_ANSWERED = 4 };
 
-/* One level of a start, positions or velocities, with the equations that must hold for it. */
+/* One level of a start, positions or velocities, with the equations that hold on it. */
 typedef struct {
     qdot_scene *scene;
     const qdot_plan *plan;
@@ -36,7 +36,7 @@ typedef struct {
     const qdot_given *given;
 } level;
 
-/* --- the equations ------------------------------------------------------------------ */
+/* --- the equations of a level ------------------------------------------------------- */
 
 /* Constraint k: first those of the scene as declared, after them the equations of the plan. */
 static qdot_constraints_row
@@ -115,7 +115,7 @@ is_moving(const level *l, size_t i)
     return i < l->n - l->plan->n_states && is_own(l, i);
 }
 
-/* The search over the equations F [m]. */
+/* Set up the search for a solution of the equations F [m]. */
 static qdot_nearest
 level_equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
 {
@@ -130,7 +130,7 @@ level_equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains
                           .domains = l->velocities ? NULL : domains};
 }
 
-/* --- words -------------------------------------------------------------------------- */
+/* --- words of messages -------------------------------------------------------------- */
 
 static void
 print_unknown(const level *l, size_t i, qdot_text *out)
@@ -138,7 +138,7 @@ print_unknown(const level *l, size_t i, qdot_text *out)
     qdot_text_format(out, "%s%s", l->plan->names[i], l->velocities ? "'" : "");
 }
 
-/* "constraint rod", "constraints a, pin[2] and b" */
+/* Append a list such as "constraint rod" or "constraints a, pin[2] and b". */
 static void
 print_constraints(const level *l, const bool *which, qdot_text *out)
 {
@@ -298,7 +298,7 @@ say_moved(const level *l, const double *at, qdot_text *notice)
     return qdot_text_status(notice);
 }
 
-/* --- contradictions ----------------------------------------------------------------- */
+/* --- contradictory equations -------------------------------------------------------- */
 
 /* Whether the equations marked in `kept` have a common solution within the domains. */
 static qdot_status
@@ -333,7 +333,7 @@ can_hold(const level *l, const bool *kept, const qdot_domains *domains,
 /* If no state satisfies all constraints: name a minimal set that contradicts itself, by removing
  * others one by one. */
 static qdot_status
-blame(const level *l, const qdot_domains *domains, const double *start)
+name_contradiction(const level *l, const qdot_domains *domains, const double *start)
 {
     bool *kept = qdot_calloc(l->m + 1, sizeof *kept), can;
     qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
@@ -368,9 +368,9 @@ blame(const level *l, const qdot_domains *domains, const double *start)
     return status;
 }
 
-/* --- a level ------------------------------------------------------------------------ */
+/* --- solving one level -------------------------------------------------------------- */
 
-/* Find the nearest start that satisfies the equations, if the given one does not. */
+/* Evaluate the mass matrix M at the start, into W. */
 static qdot_status
 metric(const level *l, double *W)
 {
@@ -403,7 +403,7 @@ metric(const level *l, double *W)
     return status;
 }
 
-/* Move all values, as little as possible. */
+/* Move all values as little as possible, also those given by the user. */
 static qdot_status
 move_all(level *l, const qdot_domains *domains, double *y, double *other,
          qdot_text *notice)
@@ -421,13 +421,13 @@ move_all(level *l, const qdot_domains *domains, double *y, double *other,
     qdot_free(W);
     QDOT_TRY(status);
     if (outcome == QDOT_NEAREST_NONE)
-        return blame(l, domains, y);
+        return name_contradiction(l, domains, y);
     if (outcome == QDOT_NEAREST_SEVERAL)
         return say_several(l, y, other, true);
     return say_moved(l, y, notice);
 }
 
-/* Fail for a coordinate without a given value that occurs in no constraint and must not be 0. */
+/* Solve for the values that were not given; if these cannot satisfy the equations, move all values. */
 static qdot_status
 level_solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
 {
@@ -460,7 +460,7 @@ worst(const level *l, const double *y)
     return most;
 }
 
-/* The rows of A at the start, each according to its constraint's kind. */
+/* Fail for a coordinate without a given value that occurs in no constraint and must not be 0. */
 static qdot_status
 check_left_alone(const level *l, const qdot_domains *domains, const double *y)
 {
@@ -510,9 +510,9 @@ level_settle(level *l, const qdot_domains *domains, double *y, double *low, qdot
     return status;
 }
 
-/* --- constraints that say nothing new ----------------------------------------------- */
+/* --- redundant constraints ---------------------------------------------------------- */
 
-/* The mass matrix M at the start, into W. */
+/* Evaluate the rows of A at the start, each according to its constraint's kind. */
 static qdot_status
 level_slopes(const level *l, double *A)
 {

@@ -19,7 +19,7 @@
  * so much. */
 static const double most_growth = 1e4;
 
-/* A limit of work that is never reached. */
+/* A limit of work so large that it is never reached. */
 static const uint64_t no_bound = UINT64_MAX / 2;
 
 typedef struct {
@@ -44,9 +44,9 @@ qdot_exponents_clear(qdot_exponents *x)
     *x = (qdot_exponents){.spectrum = x->spectrum};
 }
 
-/* --- directions ---------------------------------------------------------------------------- */
+/* --- tangent vectors ----------------------------------------------------------------------- */
 
-/* Component i < 2n of direction k. */
+/* Component i < 2n of tangent vector k. */
 static double *
 direction_component(const pursuit *p, double *y, size_t k, size_t i)
 {
@@ -95,7 +95,7 @@ pursuit_gather(pursuit *p)
     return QDOT_OK;
 }
 
-/* Stop when a tangent vector, orthogonalised to those before it, has a length far from 1. */
+/* Stop the integration if a tangent vector, orthogonalised to those before it, has a length far from 1. */
 static qdot_status
 pursuit_look(double t, const double *y, bool *stop, void *user)
 {
@@ -110,7 +110,7 @@ pursuit_look(double t, const double *y, bool *stop, void *user)
     return QDOT_OK;
 }
 
-/* --- the way --------------------------------------------------------------------------------- */
+/* --- integration through the windows --------------------------------------------------------- */
 
 /* Integrate to `end`, or until a tangent vector has grown too long. */
 static qdot_status
@@ -217,7 +217,7 @@ pursuit_follow(pursuit *p)
     return QDOT_OK;
 }
 
-/* --- the numbers ---------------------------------------------------------------------------- */
+/* --- means and errors ----------------------------------------------------------------------- */
 
 /* The standard error of the mean of x [n] in blocks of `size`. */
 static double
@@ -316,7 +316,7 @@ conclude(pursuit *p)
     return QDOT_OK;
 }
 
-/* --- all ---------------------------------------------------------------------------------- */
+/* --- the whole computation ---------------------------------------------------------------- */
 
 static qdot_status
 pursuit_allocate(pursuit *p)
@@ -359,7 +359,7 @@ pursue(pursuit *p)
     return conclude(p);
 }
 
-/* The number of independent directions on the constraints and the equations of massless coordinates. */
+/* Find the number of independent directions on the constraints and equations of massless coordinates. */
 static size_t
 count_directions(const qdot_scene *s, size_t determined)
 {

@@ -43,7 +43,7 @@ QDOT_MUST_CHECK qdot_status qdot_exponents_find(qdot_scene *scene,
                                                 qdot_exponents *x);
 void qdot_exponents_clear(qdot_exponents *x);
 
-/* The mean of x [n] and its error, estimated from means of blocks as described above. */
+/* Find the mean of x [n] and its error, estimated from means of blocks as described above. */
 void qdot_exponents_mean(size_t n, const double *x, double *mean, double *error);
 
 #endif

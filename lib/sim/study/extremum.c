@@ -1,4 +1,4 @@
-/* extremum.c -- narrows a range about its extremum by halving, then solves de/dt = 0. */
+/* extremum.c -- finds the time of an extremum: narrows a range about it by halving, then solves de/dt = 0. */
 #include "sim/study/extremum.h"
 
 #include <float.h>
@@ -49,7 +49,7 @@ is_end(const qdot_extremum *x, double end, bool *is)
     return QDOT_OK;
 }
 
-/* t, limited to the range. */
+/* The time t, moved into the range if it lies outside. */
 static double
 clamp(const qdot_extremum *x, double t)
 {

@@ -10,7 +10,7 @@
 
 #include "sim/run/run.h"
 
-/* The extremum to be found: e, de/dt, d2e/dt2 along the run. */
+/* The extremum of an expression e to be found, with e, de/dt and d2e/dt2 along the run. */
 typedef struct {
     qdot_run *run;
     qdot_range_kind kind; /* QDOT_RANGE_MAX, QDOT_RANGE_MIN */
@@ -18,7 +18,7 @@ typedef struct {
     double from, to;
 } qdot_extremum;
 
-/* The time *t of the extremum. QDOT_EFAILED: e has a corner or a jump there. */
+/* Find the time *t of the extremum. QDOT_EFAILED: e has a corner or a jump there. */
 QDOT_MUST_CHECK qdot_status qdot_extremum_time(const qdot_extremum *x, double *t);
 
 #endif

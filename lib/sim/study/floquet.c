@@ -1,4 +1,4 @@
-/* floquet.c -- the monodromy matrix of a periodic orbit, its eigenvalues, the verdict of stability. */
+/* floquet.c -- the monodromy matrix of a periodic orbit, its eigenvalues, and the stability that follows. */
 #include "sim/study/floquet.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static const double followed = 1e-3, near_start = 1e-6;
  * max(1, |value|). */
 static const double resting = 1e-9;
 
-/* A multiplier is outside the unit circle if by more than this many errors. */
+/* A multiplier counts as outside the unit circle if it is outside by more than this many errors. */
 static const double surely = 2;
 
 /* Accelerations are periodic if they differ by less than this, relative to their largest value;
@@ -73,7 +73,8 @@ size_of(const qdot_run_report *report, size_t n, size_t i, double value)
     return qdot_ode_size(report->scales, i < n ? i : report->n + i - n, value);
 }
 
-/* The change by [2n] of each of q, q' if its initial rate lasted for the whole run; the scales of q, q'. */
+/* Find the change by [2n] of each of q, q' if its initial rate lasted for the whole run, and the
+ * scales of q, q'. */
 static qdot_status
 find_ways(qdot_scene *scene, qdot_run *run, double *by, double *size)
 {
@@ -143,7 +144,7 @@ qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *wh
     return QDOT_OK;
 }
 
-/* --- the equations ----------------------------------------------------------------------------- */
+/* --- period of the equations ------------------------------------------------------------------- */
 
 static bool
 has_time(const orbit *o, qdot_expr e)
@@ -168,7 +169,8 @@ holds_time(const orbit *o)
     return false;
 }
 
-/* e with all coordinates and velocities shifted a little, so that a symmetric orbit does not hide anything. */
+/* The value of e with all coordinates and velocities shifted a little, so that symmetry of the
+ * orbit hides nothing. */
 static qdot_expr
 moved(const orbit *o, qdot_expr e)
 {
@@ -185,7 +187,7 @@ moved(const orbit *o, qdot_expr e)
     return e;
 }
 
-/* Check that e at a given state is the same one period later. */
+/* Check that the expression e at a given state has the same value one period later. */
 static qdot_status
 check_same(orbit *o, qdot_expr of)
 {
@@ -248,7 +250,7 @@ qdot_floquet_is_lagrangian(qdot_scene *s, bool *yes)
     return *yes && !plain ? qdot_mech_is_holonomic(s, yes) : QDOT_OK;
 }
 
-/* --- multipliers ----------------------------------------------------------------------------- */
+/* --- multipliers and stability --------------------------------------------------------------- */
 
 /* Set a multiplier to real if its conjugate partner was: its imaginary part is within its error. */
 static void
@@ -370,7 +372,7 @@ qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t tri
     return QDOT_OK;
 }
 
-/* B of the flow of a tolerance. */
+/* Compute B, the factors of the monodromy matrix, by the flow with tolerance tol. */
 static qdot_status
 fill_factors(orbit *o, double tol, double *B)
 {
@@ -405,7 +407,7 @@ find_multipliers(orbit *o, qdot_floquet *x)
     return qdot_floquet_of(o->K, o->c, o->B, o->E, driven || rests ? 0 : free ? 2 : 1, !free, x);
 }
 
-/* --- the orbit ----------------------------------------------------------------------------------- */
+/* --- closing the orbit --------------------------------------------------------------------------- */
 
 /* Use the sizes of the states as scales of the runs if they differ much from each other or from 1. */
 static qdot_status
@@ -489,7 +491,7 @@ close_up(orbit *o, double off)
     return status;
 }
 
-/* --- all ----------------------------------------------------------------------------------------- */
+/* --- the whole computation ----------------------------------------------------------------------- */
 
 static qdot_status
 floquet_follow(orbit *o, qdot_floquet *x)

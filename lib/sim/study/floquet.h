@@ -38,7 +38,7 @@ typedef struct {
     qdot_floquet_verdict verdict;
 } qdot_floquet;
 
-/* *reach: the largest change of q and q' if their initial rates lasted for the whole run. */
+/* Find *reach, the largest change of q and q' if their initial rates lasted for the whole run. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach);
 /* Whether the run began at rest: no coordinate or velocity changes, relative to max(scale, |value|). */
 QDOT_MUST_CHECK qdot_status qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests);

@@ -1,4 +1,4 @@
-/* flow.c -- the flow map: states after a time with their derivatives by the initial state and parameters. */
+/* flow.c -- the flow map: states after a time, with derivatives by the initial state and by parameters. */
 #include "sim/study/flow.h"
 
 #include <float.h>
@@ -211,7 +211,7 @@ qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *par
     return qdot_grave(status);
 }
 
-/* --- orbits ---------------------------------------------------------------------------------- */
+/* --- flows along periodic orbits ------------------------------------------------------------- */
 
 double
 qdot_flow_time(const qdot_flow_orbit *o, size_t k)
@@ -257,7 +257,7 @@ qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *o, size_t *at, size_t count,
     return QDOT_OK;
 }
 
-/* out [c x c] = to^T S from, S [z x (z + p)], from and to [c x z]. */
+/* Compute to^T S from, into out [c x c], with S [z x (z + p)] and from, to [c x z]. */
 static void
 along(const qdot_flow *x, size_t c, const double *from, const double *to, const double *S, double *out)
 {
@@ -269,7 +269,7 @@ along(const qdot_flow *x, size_t c, const double *from, const double *to, const 
                     out[a * c + b] += to[a * x->z + i] * S[i * (x->z + x->p) + j] * from[b * x->z + j];
 }
 
-/* The tangents at the beginnings of the segments: N [K x z x z], c of each. */
+/* Find the tangents at the beginnings of the segments: N [K x z x z], c of each. */
 static qdot_status
 find_tangents(qdot_flow *x, const qdot_flow_orbit *o, size_t *c, double *N)
 {
@@ -300,7 +300,7 @@ qdot_flow_errors(size_t count, const double *B, double *coarse)
         coarse[i] = fabs(coarse[i] - B[i]) + alike * fabs(B[i]);
 }
 
-/* R [z x (z + p)]: some epsilons of the largest of S [z x (z + p)] in units size [z]. */
+/* Estimate rounding errors R [z x (z + p)]: some epsilons of the largest entry of S in units size [z]. */
 static void
 fill_rounding(const qdot_flow *x, const double *S, const double *size, double *R)
 {

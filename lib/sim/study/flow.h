@@ -10,7 +10,7 @@
 
 #include "sim/study/response.h"
 
-/* The tolerances of the two flows; the difference of their results is the error. */
+/* The tolerances of the two flows; the difference between their results is taken as the error. */
 extern const double qdot_flow_tolerance[2];
 
 enum { QDOT_FLOW_LOOKS = 16, QDOT_FLOW_MOST_SEGMENTS = 32 };
@@ -73,7 +73,7 @@ QDOT_MUST_CHECK qdot_status qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *
  * the segments, ends + k step [z x (z + p)]. Without constraints c = z, and B are these. */
 QDOT_MUST_CHECK qdot_status qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step,
                                               size_t *c, double *B);
-/* Errors of B [count] of the fine flow, from that of the coarse one; they replace `coarse`. */
+/* Find the errors of B [count] of the fine flow from B of the coarse one; they replace `coarse`. */
 void qdot_flow_errors(size_t count, const double *B, double *coarse);
 /* Add to E [K x c x c] what rounding leaves in these factors where both flows round alike, as in a slope that is 0 by
  * cancellation: some epsilons of the largest slope in units size [z] of the states. */

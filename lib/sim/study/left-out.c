@@ -1,4 +1,4 @@
-/* left-out.c -- the methods that a study of methods leaves out, with reasons. */
+/* left-out.c -- lists the methods that a study of methods leaves out, with reasons. */
 #include "sim/study/left-out.h"
 
 #include <stdio.h>

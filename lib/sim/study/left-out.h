@@ -15,7 +15,7 @@ typedef struct {
 
 typedef qdot_vec(qdot_method_left_out) qdot_methods_left_out;
 
-/* Add a method, with the message of the last failure. */
+/* Add a method to the list, with the message of the last failure as the reason. */
 QDOT_MUST_CHECK qdot_status qdot_methods_leave_out(qdot_methods_left_out *list, const char *method);
 
 #endif

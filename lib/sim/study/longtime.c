@@ -20,7 +20,7 @@ static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4};
 
 enum { foretelling_steps = 1000, least_in_window = 8, samples_in_window = 256 };
 
-/* A limit of work that is never reached. */
+/* A limit of work so large that it is never reached. */
 static const uint64_t no_bound = UINT64_MAX / 2;
 
 /* A run whose energy error is sampled. */
@@ -35,7 +35,7 @@ typedef struct {
     bool too_much;
 } watched;
 
-/* --- the growth --------------------------------------------------------------------- */
+/* --- growth of the error ------------------------------------------------------------ */
 
 void
 qdot_longtime_fit(size_t n, const double *x, const double *y, double *slope, double *error)
@@ -67,7 +67,7 @@ qdot_longtime_fit(size_t n, const double *x, const double *y, double *slope, dou
     *error = 2 * sqrt(squares / (double)(n - 2) / uu * (1 + c) / (1 - c));
 }
 
-/* The later half of the windows, in log t. */
+/* Fit the growth of the error to the later half of the windows, in log t. */
 static void
 find_growth(qdot_longtime_row *row)
 {
@@ -77,7 +77,7 @@ find_growth(qdot_longtime_row *row)
                       &row->growth_error);
 }
 
-/* --- a run -------------------------------------------------------------------------- */
+/* --- the run of one method ---------------------------------------------------------- */
 
 /* The end of window k, as a fraction of the run's duration; windows grow by a factor sqrt(2). */
 static double
@@ -202,7 +202,7 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
     return QDOT_OK;
 }
 
-/* --- a method ----------------------------------------------------------------------- */
+/* --- measuring all methods ---------------------------------------------------------- */
 
 static qdot_status
 longtime_check(const qdot_method_run *m)

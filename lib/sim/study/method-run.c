@@ -1,4 +1,4 @@
-/* method-run.c -- a plan with its system and start, as used by studies of methods. */
+/* method-run.c -- prepares a run by one method: plan, system and start, for studies of methods. */
 #include "sim/study/method-run.h"
 
 #include <math.h>
@@ -70,7 +70,7 @@ settle_side(qdot_method_run *m)
     return QDOT_OK;
 }
 
-/* Bring the start onto the constraints. */
+/* Move the start onto the constraints. */
 static qdot_status
 settle_start(qdot_method_run *m, qdot_scene *scene, const qdot_run_request *request)
 {

@@ -12,7 +12,7 @@
 #include "sim/bind/bind.h"
 #include "sim/course/stage.h"
 
-/* Not to be copied: the stage points to the request. */
+/* A run for a study. Must not be copied: the stage points to the request. */
 typedef struct {
     qdot_run_request request;
     qdot_stage stage;
@@ -36,7 +36,7 @@ void qdot_method_run_clear(qdot_method_run *m);
 /* Derive the energy of the scene if it is conserved. */
 QDOT_MUST_CHECK qdot_status qdot_method_run_find_energy(qdot_method_run *m, qdot_scene *scene);
 
-/* The start of the scene projected onto its constraints, as exact constants [2n]. */
+/* Find the start of the scene projected onto its constraints, as exact constants [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_method_run_settled(qdot_scene *scene,
                                                     const qdot_run_request *request,
                                                     qdot_expr *start);

@@ -1,4 +1,4 @@
-/* race.c -- runs the formulations and the reference, and converts minimal coordinates back. */
+/* race.c -- runs several formulations and a reference, and compares their end states. */
 #include "sim/study/race.h"
 
 #include <math.h>
@@ -46,9 +46,9 @@ qdot_race_clear(qdot_race *r)
     *r = (qdot_race){0};
 }
 
-/* --- one lane ----------------------------------------------------------------------- */
+/* --- running one formulation -------------------------------------------------------- */
 
-/* Worst of values [2n] against the reference. */
+/* The largest error of values [2n] against the reference. */
 static double
 error_of(const race *r)
 {
@@ -62,7 +62,7 @@ error_of(const race *r)
     return worst;
 }
 
-/* state [2n]: q and q' of the scene as given, in the coordinates of `scene`. */
+/* Run one formulation; state [2n]: q and q' of the given scene, in the coordinates of `scene`. */
 static qdot_status
 one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
         const qdot_expr *state, qdot_race_entry *entry)
@@ -101,7 +101,7 @@ one_run(race *r, qdot_scene *scene, const qdot_run_request *request,
     return QDOT_OK;
 }
 
-/* Whether a failure concerns one formulation only, so that the race continues. */
+/* Whether a failure concerns only one formulation, so that the race continues. */
 static bool
 is_its_own(qdot_status status)
 {
@@ -138,9 +138,9 @@ run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
     return QDOT_OK;
 }
 
-/* --- in minimal coordinates --------------------------------------------------------- */
+/* --- the formulation in minimal coordinates ----------------------------------------- */
 
-/* An expression in the coordinates as given, at the settled start. */
+/* The value of an expression in the given coordinates at the start on the constraints. */
 static qdot_expr
 at_start(const race *r, qdot_expr e)
 {
@@ -203,7 +203,7 @@ run_minimal(race *r, const qdot_minimal *m)
     return status;
 }
 
-/* `size` of a qdot_minimal_start (minimal.h); 0 if e holds more than coordinates and numbers. */
+/* The size of e for qdot_minimal_start (minimal.h); 0 if e contains more than coordinates and numbers. */
 static double
 size_at_start(qdot_expr e, void *user)
 {
@@ -250,7 +250,7 @@ try_minimal(race *r)
     return status;
 }
 
-/* --- the race ----------------------------------------------------------------------- */
+/* --- running all formulations ------------------------------------------------------- */
 
 static qdot_status
 run_reference(race *r)

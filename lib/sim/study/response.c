@@ -33,7 +33,7 @@ struct qdot_response {
     qdot_tangents tangents;
     bool once, made;        /* the scene is made once; it is made */
 
-    /* the scene made; with constraints from numbers: */
+    /* Fields of the scene with derivatives; with the constraints, for numerical values: */
     /* [k] the unknowns as symbols; [(1 + k) x n_values] the values of the request with all, and with one of them
      * free */
     qdot_expr *u, *values;
@@ -52,9 +52,9 @@ struct qdot_response {
     double *y, *out; /* [2 (1 + k) n + 2 n_parameters], [m (1 + k)] */
 };
 
-/* --- memory ------------------------------------------------------------------------------ */
+/* --- allocating and freeing -------------------------------------------------------------- */
 
-/* Free the variational scene with all that belongs to it. */
+/* Free the variational scene and everything that belongs to it. */
 static void
 unmake(qdot_response *r)
 {
@@ -110,9 +110,9 @@ response_allocate(qdot_response *r)
     return QDOT_OK;
 }
 
-/* --- the start ----------------------------------------------------------------------------- */
+/* --- start values as functions of the unknowns --------------------------------------------- */
 
-/* q, q' and their slopes from u. */
+/* Lower q, q' at the start, and their slopes, as functions of u. */
 static qdot_status
 lower_start(qdot_response *r)
 {
@@ -138,7 +138,7 @@ lower_start(qdot_response *r)
     return status;
 }
 
-/* If the constraints apply to the whole start: project it onto them, and the derivatives along them. */
+/* If the constraints apply to the whole start, project it onto them, and the derivatives along them. */
 static qdot_status
 response_settle(qdot_response *r, const double *u, double t)
 {
@@ -176,7 +176,7 @@ response_put_start(qdot_response *r, const double *u)
 
 /* --- the scene for all u ---------------------------------------------------------------------- */
 
-/* The requested scale of unknown k if it is a coordinate or velocity with a scale; else 0. */
+/* The requested scale of unknown k if it is a coordinate or velocity with a scale; otherwise 0. */
 static double
 scale_of(const qdot_response *r, size_t k)
 {
@@ -188,7 +188,7 @@ scale_of(const qdot_response *r, size_t k)
     return 0;
 }
 
-/* Directions: each parameter is free in all values. */
+/* Make every unknown parameter a free symbol in the values of all directions. */
 static void
 free_all(qdot_response *r)
 {
@@ -230,7 +230,7 @@ open_parameters(qdot_response *r, const double *u)
 
 /* --- the scene for one u ---------------------------------------------------------------------- */
 
-/* The values of the request, with numbers for all unknowns except `free`. */
+/* Find the values of the request, with numbers for all unknowns except `free`. */
 static void
 put_values(qdot_response *r, size_t free, qdot_expr *values)
 {
@@ -244,7 +244,7 @@ put_values(qdot_response *r, size_t free, qdot_expr *values)
     }
 }
 
-/* The request with numbers, and the directions. */
+/* Put numbers into the request and into the directions. */
 static qdot_status
 put_numbers(qdot_response *r, const double *u)
 {
@@ -282,7 +282,7 @@ put_numbers(qdot_response *r, const double *u)
     return QDOT_OK;
 }
 
-/* --- the scene made ----------------------------------------------------------------------------- */
+/* --- making the scene --------------------------------------------------------------------------- */
 
 static qdot_status
 lower_expressions(qdot_response *r)
@@ -322,7 +322,7 @@ response_make(qdot_response *r, const double *u)
     return QDOT_OK;
 }
 
-/* --- its runs --------------------------------------------------------------------------------- */
+/* --- runs of the scene ------------------------------------------------------------------------ */
 
 /* Discard the last run but keep the systems of its modes. */
 static void
@@ -390,7 +390,7 @@ qdot_response_read(qdot_response *r, size_t n_times, const double *times, double
     return status;
 }
 
-/* Make what does not exist yet, and the start for u and t. */
+/* Make the parts that do not exist yet, and the start for u and t. */
 static qdot_status
 response_prepare(qdot_response *r, const double *u, double t)
 {
@@ -440,7 +440,7 @@ qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *coun
     return QDOT_OK;
 }
 
-/* --- all -------------------------------------------------------------------------------------- */
+/* --- making a response ------------------------------------------------------------------------ */
 
 qdot_status
 qdot_response_new(const qdot_response_of *of, qdot_response **out)

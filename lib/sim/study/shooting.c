@@ -46,16 +46,16 @@ typedef struct {
     size_t rank;           /* of u there */
 } shooting;
 
-/* --- the guess ------------------------------------------------------------------------------- */
+/* --- guesses for start and states ------------------------------------------------------------ */
 
-/* Start and period at u, with slopes. */
+/* Evaluate start and period at u, with slopes. */
 static void
 embed(shooting *x, const double *u)
 {
     qdot_derivative_eval(x->tape, u, 0, x->k, x->first, x->slope, x->tape_work);
 }
 
-/* The motion from a state, with the parameters contained in u, as by qdot_flow_go. */
+/* Integrate the motion from a state, with the parameters contained in u, by qdot_flow_go. */
 static qdot_status
 shooting_go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
 {
@@ -88,7 +88,7 @@ take_states(shooting *x, const double *u, bool back, double trust, double *state
     return QDOT_OK;
 }
 
-/* The first guess of the states between segments. */
+/* Guess the states between the segments of the orbit. */
 static qdot_status
 guess_states(shooting *x, const double *u, double trust, double *states, bool *known)
 {
@@ -113,7 +113,7 @@ guess_states(shooting *x, const double *u, double trust, double *states, bool *k
     return QDOT_OK;
 }
 
-/* --- the gaps ---------------------------------------------------------------------------------- */
+/* --- gaps between segments --------------------------------------------------------------------- */
 
 /* Add sign * M times the derivatives of the state at the start of segment `at` to J; rows of M [z x
  * (z + p)], or the unit matrix if NULL. */
@@ -133,7 +133,7 @@ add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
         }
 }
 
-/* The gap after segment s and its derivatives, from the flow over that segment. */
+/* Find the gap after segment s and its derivatives, from the flow over that segment. */
 static void
 segment_fill(const shooting *x, const double *next, size_t s, double *f, double *J)
 {
@@ -185,7 +185,7 @@ shooting_evaluate(const double *u, double *f, double *error, double *slope, void
     return QDOT_OK;
 }
 
-/* --- the search ---------------------------------------------------------------------------------- */
+/* --- the search for the orbit -------------------------------------------------------------------- */
 
 /* The largest distance of an unknown in u from its guess, relative to the guess or to the extent of
  * the motion. */
@@ -203,7 +203,7 @@ shooting_distance(const shooting *x, const double *u, const double *guess)
     return most;
 }
 
-/* Whether the states between differ from the start. */
+/* Whether the states between segments differ from the start. */
 static bool
 moves(const shooting *x, const double *states)
 {
@@ -262,7 +262,7 @@ shooting_search(shooting *x, double trust, const double *u, double *best, double
     return status;
 }
 
-/* --- made -------------------------------------------------------------------------------------- */
+/* --- making and carrying out the search -------------------------------------------------------- */
 
 static qdot_status
 shooting_allocate(shooting *x)
@@ -279,7 +279,7 @@ shooting_allocate(shooting *x)
     return QDOT_OK;
 }
 
-/* Lower the start and the period as functions of u. */
+/* Compile start and period as functions of the unknowns u to a tape. */
 static qdot_status
 shooting_lower(shooting *x)
 {

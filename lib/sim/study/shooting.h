@@ -24,7 +24,7 @@
 
 typedef struct {
     qdot_scene *scene;
-    /* Values in terms of those unknowns that are parameters; t0 is the time of the start. */
+    /* The request, whose values depend on those unknowns that are parameters; t0 is the time of the start. */
     const qdot_run_request *request;
     size_t k; /* unknowns: symbols of parameters, coordinates, velocities, times; their names for messages */
     const qdot_expr *unknowns;

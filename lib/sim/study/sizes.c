@@ -1,11 +1,11 @@
-/* sizes.c -- largest values at equal distances in time. */
+/* sizes.c -- finds the largest values along a run, at equal distances in time. */
 #include "sim/study/sizes.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-/* Sizes are far apart if one is below this part of the largest, or of 1. */
+/* Sizes are far apart if one is below this fraction of the largest, or of 1. */
 static const double apart = 1e-2;
 
 /* A value is known if it exceeds this many times its error. */

@@ -1,4 +1,4 @@
-/* tangents.c -- Newton's method onto constraints, and their null space. */
+/* tangents.c -- projects states onto the constraints by Newton's method, and finds tangents to them. */
 #include "sim/study/tangents.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #include "sim/model/massless.h"
 #include "sim/model/substitute.h"
 
-/* Singular values below so much of the largest count as 0. */
+/* Singular values below this fraction of the largest one count as 0. */
 static const double least_singular = 1e-9;
 /* `rounding`: a relative change of a state that counts as none. `left`: a residual of F that counts
  * as 0, relative to its terms. */
@@ -29,7 +29,7 @@ add_condition(qdot_scene *s, const qdot_run_request *r, qdot_expr f, bool of_pos
         F[(*rows)++] = qdot_substitute(s->pool, qdot_ddt(s->pool, f), r->n_values, r->symbols, r->values);
 }
 
-/* F as expressions, of constraints and of coordinates without mass. */
+/* Write F, the conditions from constraints and from coordinates without mass, as expressions. */
 static void
 write_conditions(qdot_scene *s, const qdot_run_request *r, const qdot_massless *massless, qdot_expr *F, size_t *rows)
 {
@@ -180,7 +180,7 @@ decompose(qdot_tangents *x, bool leaves)
     return true;
 }
 
-/* to -= F_z^+ b [rows]; returns the size of the change relative to max(1, |to|). */
+/* Subtract F_z^+ b [rows] from `to`; returns the size of the change relative to max(1, |to|). */
 static double
 subtract(const qdot_tangents *x, const double *b, double *to)
 {

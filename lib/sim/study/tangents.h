@@ -29,7 +29,7 @@ typedef struct {
     gsl_vector *S, *room;
 } qdot_tangents;
 
-/* The request's values, with parameters [p] free. From {0}; ended in any case. */
+/* Begin with the request's values, parameters [p] being free. From {0}; must be ended in any case. */
 QDOT_MUST_CHECK qdot_status qdot_tangents_begin(qdot_tangents *x, qdot_scene *scene, const qdot_run_request *request,
                                                 size_t p, const qdot_expr *parameters);
 void qdot_tangents_end(qdot_tangents *x);

@@ -1,4 +1,4 @@
-/* variation-parts.c -- symbols of the variational scene; derivatives in its directions. */
+/* variation-parts.c -- symbols of the variational scene, and derivatives in its directions. */
 #include "sim/study/variation-parts.h"
 
 #include "expr/build.h"

@@ -4,7 +4,7 @@
 
 #include "sim/run/run.h"
 
-/* A direction: the variable s by which derivatives are taken. */
+/* A direction of differentiation: the variable s by which derivatives are taken. */
 typedef struct {
     const char *name;
     qdot_expr parameter; /* nil: s moves the start alone */
@@ -32,7 +32,8 @@ typedef struct {
     double *scales;                  /* [2 (k + 1) n] of these, as in a request; NULL: none is known */
 } qdot_variation;
 
-/* q, q', q'' (order 0, 1, 2) of coordinate i of the given scene, and of its derivative in direction k. */
+/* The symbol of q, q', q'' (order 0, 1, 2) of coordinate i of the given scene, or of its derivative
+ * in direction k. */
 qdot_expr qdot_variation_jet(const qdot_variation *v, size_t i, uint32_t order);
 qdot_expr qdot_variation_slope_jet(const qdot_variation *v, size_t k, size_t i,
                                    uint32_t order);
@@ -40,13 +41,14 @@ qdot_expr qdot_variation_slope_jet(const qdot_variation *v, size_t k, size_t i,
  * pool failed. */
 qdot_expr qdot_variation_with_numbers(const qdot_variation *v, qdot_expr e);
 qdot_expr qdot_variation_with_motion(const qdot_variation *v, qdot_expr e);
-/* de/ds by the parameter of direction k, with parameter values; 0 if s changes the start only. */
+/* The derivative de/ds by the parameter of direction k, with parameter values; 0 if s changes the
+ * start only. */
 qdot_expr qdot_variation_by_parameter(const qdot_variation *v, qdot_expr e, size_t k);
 
 /* De/Ds in direction k of an expression in q, q', q'', t and parameters, with numbers put in: an
  * expression of the new scene. Nil: the pool keeps the failure. */
 qdot_expr qdot_variation_of(const qdot_variation *v, qdot_expr e, size_t k);
-/* de/dt along the motion, with parameter values. */
+/* The rate de/dt along the motion, with parameter values. */
 qdot_expr qdot_variation_rate(const qdot_variation *v, qdot_expr e);
 
 #endif

@@ -127,7 +127,7 @@ add_events(const qdot_variation *v)
     return status;
 }
 
-/* --- the start ---------------------------------------------------------------------------- */
+/* --- the start of the derivatives --------------------------------------------------------- */
 
 /* Whether the equation of a massless coordinate determines coordinate i, or its velocity. */
 static bool
@@ -194,7 +194,7 @@ say_bound(const qdot_variation *v, size_t k)
     return qdot_hint("leave a value unnamed in `start`, so that it follows");
 }
 
-/* Check a linear condition on the derivatives: fail if no choice of the open ones satisfies it at the start. */
+/* Check a linear condition on the derivatives: fail if no choice of the free ones satisfies it at the start. */
 static qdot_status
 check_condition(const qdot_variation *v, qdot_expr e, size_t k)
 {
@@ -218,7 +218,7 @@ check_condition(const qdot_variation *v, qdot_expr e, size_t k)
     return fabs(value) <= moved ? QDOT_OK : say_bound(v, k);
 }
 
-/* Check Df = 0 and, for holonomic constraints, its time derivative. */
+/* Check that Df = 0 at the start and, for holonomic constraints, its time derivative. */
 static qdot_status
 check_conditions(const qdot_variation *v)
 {
@@ -280,7 +280,7 @@ variation_put_start(const qdot_variation *v)
     }
 }
 
-/* Scales of the request; dz_i/ds gets the scale of z_i divided by that of s, if it is well below 1. */
+/* Find scales of the request; dz_i/ds gets the scale of z_i divided by that of s, if it is well below 1. */
 static qdot_status
 put_scales(qdot_variation *v)
 {
@@ -321,7 +321,7 @@ qdot_variation_request(const qdot_variation *v)
     r.apart = NULL; /* slopes are those of a motion from exactly there */
     r.n_values = 0;
     r.symbols = r.values = NULL;
-    /* another method may not fit the variational scene */
+    /* the method given may not fit the variational scene */
     r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto";
     return r;
 }
@@ -364,7 +364,7 @@ qdot_variation_check_start(const qdot_variation *v, qdot_run *run)
     return status;
 }
 
-/* --- all ------------------------------------------------------------------------------------ */
+/* --- the whole variational scene ------------------------------------------------------------ */
 
 qdot_status
 qdot_variation_write(qdot_variation *v, const qdot_expr *b)

@@ -4,7 +4,7 @@
 
 #include "sim/study/variation-parts.h"
 
-/* Write the scene and its start, with y'' = b [k x n]. */
+/* Write the scene and its start, where y'' = b [k x n] for all directions. */
 QDOT_MUST_CHECK qdot_status qdot_variation_write(qdot_variation *v, const qdot_expr *b);
 
 /* The request of the variational run: the given one with the start of v. Borrows from both. */

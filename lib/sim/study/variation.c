@@ -1,4 +1,4 @@
-/* variation.c -- the equations of motion solved for q'' in symbols, and their slopes. */
+/* variation.c -- solves the equations of motion for q'' in symbols, and differentiates them. */
 #include "sim/study/variation.h"
 
 #include <stdio.h>
@@ -30,7 +30,7 @@ qdot_variation_clear(qdot_variation *v)
     *v = (qdot_variation){0};
 }
 
-/* --- what is not carried --------------------------------------------------------------- */
+/* --- scenes that cannot be varied ------------------------------------------------------ */
 
 /* Whether the condition that decides a jump of this function depends on the motion or on the
  * parameter (may be nil). */
@@ -57,7 +57,7 @@ function_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
     return false;
 }
 
-/* Refuse equations that jump where the motion or a parameter decides it. */
+/* Refuse equations that jump at a value that the motion or a parameter determines. */
 static qdot_status
 refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 {
@@ -105,7 +105,7 @@ refuse_events(const qdot_scene *s)
     return QDOT_OK;
 }
 
-/* M and f as a LIST, checked; values: of a direction, or of the request. */
+/* Derive M and f as a LIST, and check them; values: of a direction, or of the request. */
 static qdot_status
 check_equations(const qdot_variation *v, qdot_expr whole, const qdot_expr *values,
                 qdot_expr parameter)
@@ -121,7 +121,7 @@ check_equations(const qdot_variation *v, qdot_expr whole, const qdot_expr *value
     return refuse_jumps(pool, e, parameter);
 }
 
-/* --- the elimination -------------------------------------------------------------------- */
+/* --- elimination by the factors of M ---------------------------------------------------- */
 
 /* M = L D L^T, B = M^-1 A^T, S = A B = L D L^T; entries held. Coordinates without mass, whose rows and columns of M are 0,
  * stand in it with mass 1 and have their q'' from the rates of their equations, behind those of the constraints in F and
@@ -257,7 +257,7 @@ coordinate_is_held(const elimination *e, size_t i)
     return false;
 }
 
-/* Whether g contains the time derivative of that order of a massless coordinate. */
+/* Whether g contains this time derivative of a massless coordinate. */
 static bool
 holds_jet(const elimination *e, qdot_expr g, uint32_t order)
 {
@@ -365,7 +365,7 @@ prepare_massless(elimination *e, size_t *pivot)
     return factor_massless(e, pivot);
 }
 
-/* Constraint c, differentiated by t until it contains q''. */
+/* Differentiate constraint c by t until it contains q''. */
 static qdot_expr
 second_rate(const elimination *e, size_t c)
 {
@@ -478,9 +478,9 @@ solve_motion(const elimination *e)
     return qdot_pool_check(e->pool);
 }
 
-/* --- slopes ------------------------------------------------------------------------------ */
+/* --- derivatives of the equations -------------------------------------------------------- */
 
-/* The right-hand sides of the derivatives by z, a coordinate or velocity, into e->x, e->z. */
+/* Find the right-hand sides of the derivatives by z, a coordinate or velocity: e->x, e->z. */
 static void
 slope_by(const elimination *e, qdot_expr z)
 {
@@ -505,7 +505,7 @@ slope_by(const elimination *e, qdot_expr z)
                                                      v, qdot_diff(pool, e->F[c], z))));
 }
 
-/* Add the derivatives by the parameter of direction k to x, z. */
+/* Add to x and z the derivatives by the parameter of direction k. */
 static void
 add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
 {
@@ -546,7 +546,7 @@ add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
     }
 }
 
-/* y'' of all directions, b [k x n]. */
+/* Find y'' of all directions, b [k x n]. */
 static qdot_status
 solve_slopes(const elimination *e, qdot_expr *b)
 {
@@ -584,7 +584,7 @@ solve_slopes(const elimination *e, qdot_expr *b)
     return qdot_pool_check(pool);
 }
 
-/* --- all --------------------------------------------------------------------------------- */
+/* --- the whole variation ----------------------------------------------------------------- */
 
 static qdot_status
 name_slopes(qdot_variation *v)

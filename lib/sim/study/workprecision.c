@@ -1,4 +1,4 @@
-/* workprecision.c -- runs every method at every tolerance. */
+/* workprecision.c -- measures error and CPU time of every method at every tolerance. */
 #include "sim/study/workprecision.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
 
 static const double budget_default = 3e8;
 
-/* The tolerance of a reference in doubles. */
+/* The tolerance of a reference run in doubles. */
 static const double reference_tol = 1e-15;
 
 /* A smaller error counts as rounding, even for a motion of small variation. */
@@ -49,7 +49,7 @@ typedef struct {
     double variation; /* of the motion (horizon.h) */
 } reference;
 
-/* --- the reference ------------------------------------------------------------------- */
+/* --- the reference run --------------------------------------------------------------- */
 
 static qdot_status
 make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
@@ -66,7 +66,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
     if (status == QDOT_ENOTBUILT || (scene->constraints.n > 0 && status == QDOT_ESINGULAR) ||
-        /* `digits` cannot be used: abs(x)^1.5, or a coordinate without mass */
+        /* `digits` cannot be used, as with abs(x)^1.5 or a coordinate without mass */
         (run == NULL && status == QDOT_EFAILED)) {
         precise.digits = 0;
         status = qdot_run_new(scene, &precise, &run);
@@ -111,7 +111,7 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     return status;
 }
 
-/* The scaled error of an end state; if an event ends the run also that of its time. */
+/* Find the scaled error of an end state; if an event ends the run also that of its time. */
 static double
 error_against(const reference *r, const double *scales, const double *y, double t)
 {
@@ -126,7 +126,7 @@ error_against(const reference *r, const double *scales, const double *y, double 
     return most;
 }
 
-/* --- a method ------------------------------------------------------------------------ */
+/* --- the runs of one method ---------------------------------------------------------- */
 
 static void
 follow_energy(worker *w, double t, const double *y)
@@ -195,7 +195,7 @@ keeps_energy(const worker *w)
     return w->run.energy != NULL;
 }
 
-/* The drift of the energy and of the constraints at all points of the course. */
+/* Measure the drift of the energy and of the constraints at all points of the course. */
 static void
 follow_course(worker *w)
 {
@@ -270,7 +270,7 @@ worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
                               w->run.t0, w->run.t1, w->run.y, result);
 }
 
-/* Measure the run time: at least three runs, more if they are short. */
+/* Measure the run time by at least three runs, or more if they are short. */
 static qdot_status
 take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
 {
@@ -351,7 +351,8 @@ rung(int k)
     return strtod((char[]){'1', 'e', '-', (char)('0' + k / 10), (char)('0' + k % 10), 0}, NULL);
 }
 
-/* A form of the equations may be for some tolerances only (sim/form/eliminated.h). */
+/* Whether the plan must be made anew for each tolerance, as some forms of equations depend on it
+ * (sim/form/eliminated.h). */
 static bool
 is_planned_anew(const worker *w)
 {
@@ -360,8 +361,8 @@ is_planned_anew(const worker *w)
 
 /* Measure a method at all tolerances. */
 static qdot_status
-climb(qdot_scene *scene, const qdot_run_request *request, const char *method,
-      const reference *r, qdot_workprecision *out)
+measure_tolerances(qdot_scene *scene, const qdot_run_request *request, const char *method,
+                   const reference *r, qdot_workprecision *out)
 {
     const double budget = out->budget > 0 ? out->budget : budget_default;
     worker w = {0};
@@ -394,7 +395,7 @@ workprecision_measure(qdot_scene *scene, const qdot_run_request *request, qdot_w
     for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++) {
         const char *method = qdot_ode_method_at(i)->name;
 
-        status = climb(scene, request, method, &r, out);
+        status = measure_tolerances(scene, request, method, &r, out);
         if (status == QDOT_ENOTBUILT)
             status = qdot_methods_leave_out(&out->left_out, method);
     }

@@ -25,7 +25,7 @@ typedef struct {
     double within, bend;
 } qdot_root;
 
-/* The direction of the function that the user asked for; `way` is that of the watched one. */
+/* The direction of the function asked for by the user; `way` is that of the watched function. */
 static inline int
 qdot_root_way(const qdot_root *root)
 {
@@ -34,12 +34,12 @@ qdot_root_way(const qdot_root *root)
 
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
-    /* The state at t as sums of two doubles, for steps with a series; NULL if not available. */
+    /* Read the state at t as sums of two doubles; only for steps with a series, otherwise NULL. */
     qdot_status (*read_two)(double t, qdot_two *y, void *user);
     void *user;
     bool alone; /* no other thread uses the pool of expressions meanwhile */
     const qdot_ode_system *system; /* for accelerations and multipliers */
-    /* Whether the steps end at a root, so that those behind it are not wanted; NULL: they do not. */
+    /* Whether a step ends at this root, so that later roots are not wanted; NULL: steps do not end at roots. */
     bool (*ends)(const qdot_root *root, void *user);
 } qdot_watch_reader;
 

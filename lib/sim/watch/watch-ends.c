@@ -1,4 +1,4 @@
-/* watch-ends.c -- zeros exactly at the end of a run, and at its start. */
+/* watch-ends.c -- zeros of watched functions exactly at the end of a run, and at its start. */
 #include <float.h>
 #include <math.h>
 

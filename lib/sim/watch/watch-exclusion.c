@@ -4,7 +4,7 @@
 
 #include "sim/watch/watch-parts.h"
 
-/* If discs give no bound: whether the interval of the function excludes 0. */
+/* Whether the interval of the function excludes 0; used if discs give no bound. */
 static bool
 keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
 {
@@ -58,7 +58,7 @@ box_excludes(const qdot_watch *w, size_t i)
                                   : false;
 }
 
-/* Discs know no abs(x) - pi; intervals do. */
+/* Bound all functions over the step: by discs, and also by intervals if discs do not exclude all zeros. */
 void
 qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
 {

@@ -23,7 +23,7 @@ qdot_watch_may_fade(qdot_watch *w, size_t i, bool may)
     w->may_fade[i] = may;
 }
 
-/* The rounding error of g_i if each component of y [2n] is rounded relative to its scale. */
+/* Find the rounding error of g_i if each component of y [2n] is rounded relative to its scale. */
 static qdot_status
 find_floor(qdot_watch *w, double t, const double *y, size_t i, double *floor)
 {

@@ -39,7 +39,7 @@ qdot_watch_put_on_double(const qdot_watch *w, const qdot_watch_part *p, qdot_roo
     root->late = 0;
 }
 
-/* How much later than b the root a is. */
+/* The time by which the root a is later than b. */
 static double
 how_much_later(const qdot_watch *w, const qdot_root *a, const qdot_root *b)
 {

@@ -1,4 +1,4 @@
-/* watch-noise.c -- rounding errors of the watched functions. */
+/* watch-noise.c -- estimates rounding errors of the watched functions. */
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
@@ -8,9 +8,9 @@
 
 #include "tape/rounding.h"
 
-/* --- at a state ----------------------------------------------------------------------- */
+/* --- rounding at a state -------------------------------------------------------------- */
 
-/* The change |g_i - g| if component k of the state y (2n: none) is replaced by `to`; 0 where undefined. */
+/* Find the change |g_i - g| if component k of the state y (2n: none) is replaced by `to`; 0 where undefined. */
 static qdot_status
 moved_by(qdot_watch *w, double t, const double *y, size_t k, double to, size_t i, double g, double *change)
 {
@@ -148,7 +148,7 @@ qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i, double 
     return status;
 }
 
-/* --- on a part ------------------------------------------------------------------------ */
+/* --- rounding within an interval ------------------------------------------------------ */
 
 /* The largest |g_i| at the nodes of the first sample. */
 static double

@@ -30,7 +30,7 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
 /* A function of at most this many times its noise counts as 0. */
 #define QDOT_WATCH_ROUNDINGS 16
 
-/* Value of n_extrema while the extrema have not been computed. */
+/* The value of n_extrema as long as the extrema have not been computed. */
 #define QDOT_WATCH_UNKNOWN (-2)
 
 /* The signs of the functions at the time up to which the step has been searched. */
@@ -52,7 +52,7 @@ struct qdot_watch {
     qdot_watch_reader reader; /* of the piece */
     qdot_tape *tape, *sizes; /* g; the sums of the magnitudes of their terms */
     qdot_tape *plain; /* g, where `tape` is shaken; else NULL */
-    /* Values in sums of two doubles (watch-two.c). */
+    /* Fields for values in sums of two doubles (watch-two.c). */
     qdot_tape_two *two;   /* the tape of g in two doubles; NULL until it is needed */
     qdot_two *state_two;  /* [2n] scratch */
     struct qdot_precise *many; /* g in many digits (watch-flat.c); NULL until it is needed */
@@ -66,7 +66,7 @@ struct qdot_watch {
     bool expanded;        /* the step has a series */
     bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
     bool fine;            /* values of those within the step are in two doubles at present */
-    /* all switches in the functions have constant sides in the present interval, as far as was tested */
+    /* all switches in the functions keep their sides in the present interval, as far as was tested */
     bool steady;
     bool coarse;          /* and are not to be: beside a jump or kink */
     size_t m, n;             /* functions; coordinates */
@@ -97,7 +97,7 @@ struct qdot_watch {
     double part_before; /* the start of the part before the present one, in this step */
     double direction;   /* the direction of time in the step, 1 or -1 */
 
-    /* The step's start, and the search so far. */
+    /* The start of the step, and the state of the search. */
     double t, *y; /* [2n] */
     double begun;          /* when the piece did */
     const double *largest; /* [2n] as in qdot_watch_known */
@@ -108,7 +108,7 @@ struct qdot_watch {
     bool *fresh;     /* [m] `first` is not known yet */
     bool *grazed;    /* [m] g touches 0 at the end of the step */
     bool *live;      /* [m] g may have a root in this step */
-    /* Functions that have decayed until rounding hides their signs (watch-fade.c). */
+    /* Fields for functions that have decayed until rounding hides their signs (watch-fade.c). */
     bool *may_fade;  /* [m] they may be left unsearched there */
     bool *fading;    /* [m] |g| is within its rounding all through the step at hand */
     int *faded;      /* [m] the number of steps just before it, in a row, in which it was */
@@ -135,7 +135,7 @@ typedef struct {
     bool sharp;     /* it is in two doubles, though values within the part are not */
 } qdot_watch_part;
 
-/* What to do with an interval; the most expensive last. */
+/* The next action for an interval; the most expensive last. */
 typedef enum {
     QDOT_PART_GOOD,
     QDOT_PART_MORE_NODES,
@@ -174,15 +174,15 @@ qdot_watch_sign(double x)
     return (x > 0) - (x < 0);
 }
 
-/* --- roots (watch-turns.c) ----------------------------------------------------------- */
+/* --- recording roots (watch-turns.c) ------------------------------------------------- */
 
-/* Add a root of the step, with the direction of the function that was asked for. */
+/* Add a root of the step, with the direction of the function that the user asked for. */
 QDOT_MUST_CHECK qdot_status qdot_watch_push(qdot_watch *w, qdot_root root);
 void qdot_watch_clear_turns(qdot_watch *w);
 
-/* --- values (watch-values.c) --------------------------------------------------------- */
+/* --- values of the functions (watch-values.c) ---------------------------------------- */
 
-/* Lower g [m] with the parameter values of the plan; shaken and errors as qdot_watch_new. */
+/* Lower the functions g [m] with the parameter values of the plan; shaken and errors as qdot_watch_new. */
 QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
                                              bool shaken);
 
@@ -190,7 +190,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
  * one is not a number. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
 
-/* g [m] at t within the step; w->in is the state there. */
+/* Evaluate g [m] at t within the step; w->in becomes the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double *g);
 
 /* --- values in two doubles (watch-two.c) --------------------------------------------- */
@@ -205,7 +205,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_read_two(qdot_watch *w, double t);
 /* g [m] at t within the step, in two doubles where w->wants says so; w->in is the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double *g);
 
-/* g [m] at the state y + low [2n] (NULL: 0), all in two doubles. */
+/* Evaluate g [m] at the state y + low [2n] (low NULL: 0), all in two doubles. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, const double *y,
                                                       const double *low, double *g);
 
@@ -229,7 +229,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_find_fading(qdot_watch *w, double t, cons
 bool qdot_watch_has_faded(const qdot_watch *w, size_t i);
 void qdot_watch_take_fading(qdot_watch *w);
 
-/* --- their rounding (watch-noise.c) ------------------------------------------------- */
+/* --- rounding of the functions (watch-noise.c) -------------------------------------- */
 
 /* The sum of the changes of g_i if t and each component of the state y [2n] in turn is changed by
  * the fraction `by` of max(|component|, least). Undefined values count as 0. */
@@ -237,7 +237,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
                                              double by, double least, size_t i,
                                              double *noise);
 
-/* The change of g_i by rounding of its operations, in two doubles if `exact`, at the state in w->in. */
+/* Find the change of g_i by rounding of its operations, in two doubles if `exact`, at the state in w->in. */
 QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise);
 
 /* The same within the part: at two places beside its middle, the larger. (Some functions have none at a single place, and
@@ -245,11 +245,11 @@ QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool 
 QDOT_MUST_CHECK qdot_status qdot_watch_operations_within(qdot_watch *w, const qdot_watch_part *p, bool exact, size_t i,
                                                          double *noise);
 
-/* The change of g_i by rounding of the state y [2n], of t, of its terms and of its operations. */
+/* Find the change of g_i by rounding of the state y [2n], of t, of its terms and of its operations. */
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);
 
-/* The change of g_i by rounding of the change of the state y [2n] since the start of the step. */
+/* Find the change of g_i by rounding of the change of the state y [2n] since the start of the step. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i,
                                                  double *noise);
 
@@ -278,7 +278,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_resolve(qdot_watch *w, const qdot_watch_p
  * has no root. */
 int qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const double **x);
 
-/* --- roots (watch-roots.c) ----------------------------------------------------------- */
+/* --- finding roots (watch-roots.c) --------------------------------------------------- */
 
 /* The time that corresponds to x in -1 ... 1 on an interval. */
 double qdot_watch_time(const qdot_watch_part *p, double x);
@@ -289,7 +289,7 @@ qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, i
 /* After a fit: whether function i is only rounding noise on the interval. */
 bool qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
-/* After a fit: the size below which function i cannot be told from rounding noise. */
+/* After a fit: the size below which function i cannot be distinguished from noise. */
 double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
 /* Whether a fit is accurate only within rounding noise, which may hide a kink. */
@@ -312,10 +312,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_par
 
 /* --- roots of one instant (watch-instants.c) ------------------------------------------ */
 
-/* Set root->rounding, if its function depends on t only and has that slope at the root. */
+/* Set root->rounding if the function depends on t only and has the given slope at the root. */
 QDOT_MUST_CHECK qdot_status qdot_watch_clock_rounding(qdot_watch *w, qdot_root *root, double slope);
 
-/* That rounding, if it is negligible beside `step` between doubles of t; else 0. */
+/* The value of root->rounding if it is negligible compared to `step`, the distance of doubles of t; else 0. */
 double qdot_watch_negligible_rounding(const qdot_root *root, double step);
 
 /* Move the root to the double before root->t if rounding cannot tell the two apart. */
@@ -365,7 +365,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_end_on_zero(qdot_watch *w, double t);
 /* Remove a zero found because the start was shifted by one rounding: the function was 0 at the start. */
 QDOT_MUST_CHECK qdot_status qdot_watch_forget_start(qdot_watch *w);
 
-/* --- jumps, kinks (watch-rough.c) ---------------------------------------------------- */
+/* --- roots where a function jumps or has a kink (watch-rough.c) ---------------------- */
 
 /* As qdot_watch_roots, by the values themselves, for a part of a few thousand doubles of t in which no
  * polynomial represents the function: it jumps there, or has a kink. */

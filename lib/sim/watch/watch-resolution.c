@@ -30,7 +30,7 @@ qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const doub
     return w->n_extrema[i] > 0 ? w->n_extrema[i] : 0;
 }
 
-/* The size below which the polynomial's sign is not reliable. */
+/* The size below which the sign of the polynomial is not reliable. */
 static double
 least_told(const qdot_watch_part *p)
 {

@@ -9,7 +9,7 @@
  * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
-/* A value is not small if it is at least this fraction of the function's largest value. */
+/* A value counts as not small if it is at least this fraction of the function's largest value. */
 static const double least_of_size = 1e-3;
 
 /* Near a root a function falls below this fraction of its size; near a jump or pole it does not. */
@@ -18,7 +18,7 @@ static const double rest_of_size = 1e-6;
 /* The factor from the rounding of a function to that of its slope at a zero: nodes lie densely near an end. */
 static const double noise_of_slope = 1e4;
 
-/* --- its polynomial ------------------------------------------------------------------ */
+/* --- the polynomial of a function ---------------------------------------------------- */
 
 /* The rounding error of the nodes, relative to the length of the interval. */
 static double
@@ -41,7 +41,7 @@ qdot_watch_time(const qdot_watch_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* The largest difference between values of function i on the interval and its zero at the start. */
+/* The largest difference between a value of function i on the interval and its zero at the start. */
 static double
 most_off_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -91,7 +91,7 @@ note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
     w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
 }
 
-/* Coefficients c [p->n] of function i, or of its quotient by the time since it was 0. */
+/* Find coefficients c [p->n] of function i, or of its quotient by the time since it was 0. */
 static void
 fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
 {
@@ -103,7 +103,7 @@ fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
         if (p->from_zero) {
             double t = qdot_watch_time(p, qdot_chebyshev_node(p->n, j));
 
-            /* use the value of the node before if a node rounds to the start */
+            /* if a node rounds to the start use the value at the node before it */
             values[j] = t != p->a
                             ? (g[j] - qdot_watch_zero(w, i)) * ((p->b - p->a) / (t - p->a))
                         : j > 0 ? values[j - 1]
@@ -137,7 +137,7 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
     return QDOT_PART_GOOD;
 }
 
-/* --- locating a root in doubles of t ------------------------------------------------- */
+/* --- locating a root between doubles of t -------------------------------------------- */
 
 /* Evaluate g_i at t, which becomes ends[*over]; *over: whether g_i has changed its sign to `way`.
  *  */
@@ -150,7 +150,7 @@ narrow(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *o
     return QDOT_OK;
 }
 
-/* Narrow the root between ends [2] to neighbouring doubles, as qdot_watch_cross. */
+/* Narrow the interval of a root, ends [2], to neighbouring doubles, as qdot_watch_cross does. */
 static qdot_status
 locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, bool *found)
 {
@@ -283,7 +283,7 @@ found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_w
     return root->exact ? QDOT_OK : is_pole(w, p, ends, root, &root->pole);
 }
 
-/* As qdot_watch_cross, with functions evaluated in the present precision. */
+/* As qdot_watch_cross, for functions evaluated in the present precision. */
 static qdot_status
 cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
       qdot_root *root, bool *found)
@@ -330,7 +330,7 @@ cross_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double gu
     return found_between(w, p, i, way, ends, root);
 }
 
-/* Evaluate function i in two doubles from now on, or no longer. */
+/* Start, or stop, evaluating function i in two doubles. */
 static void
 set_fine(qdot_watch *w, size_t i, bool fine, bool others)
 {
@@ -374,11 +374,11 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
     return status;
 }
 
-/* --- its roots ----------------------------------------------------------------------- */
+/* --- roots of the polynomial --------------------------------------------------------- */
 
 /* The root of the polynomial between x0 and x1, where it is monotonic. */
 static double
-between(const qdot_watch_part *p, double x0, double x1, int way)
+root_between(const qdot_watch_part *p, double x0, double x1, int way)
 {
     if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x0)) == way)
         return x0;
@@ -395,7 +395,7 @@ is_flat(const qdot_watch_part *p)
            <= least_slope(p) * qdot_chebyshev_size(p->n, p->c);
 }
 
-/* Whether the slope of g at the zero at the start is 0 within its rounding. */
+/* Whether the slope of g at its zero at the start is 0 to within rounding. */
 static bool
 is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -503,7 +503,7 @@ cross_between_steps(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, 
                                           .exact = true});
 }
 
-/* A second root that rounding finds beside the zero at the start is that zero. */
+/* Whether a root at t is the zero at the start of the interval, found a second time because of rounding. */
 static bool
 is_start_again(const qdot_watch_part *p, double t)
 {
@@ -564,7 +564,7 @@ forget_roundings(qdot_watch *w, size_t i, double from)
         w->roots.n--;
 }
 
-/* Treat a function that vanishes on the whole interval, and may jump at its end. */
+/* Handle a function that vanishes on the whole interval, and may jump at its end. */
 static qdot_status
 be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -637,7 +637,7 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {
-            double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
+            double guess = qdot_watch_time(p, root_between(p, x_from, x[e], there));
             qdot_watch_end ends[2] = {{sure, 0}, {to, 0}};
             qdot_root root;
 

@@ -12,7 +12,7 @@
 /* The shift of a kink by rounding of the states, relative to t. */
 static const double few_doubles = 32 * DBL_EPSILON;
 
-/* The state of a scan of one function on the interval, up to the time `at`. */
+/* The state of a scan of one function over the interval, up to the time `at`. */
 typedef struct {
     qdot_watch *w;
     const qdot_watch_part *p;
@@ -78,7 +78,7 @@ go(walk *x, double t, double g)
     return QDOT_OK;
 }
 
-/* g at t times its sign before: positive as long as g has not crossed 0. */
+/* Evaluate g at t times its earlier sign: positive as long as g has not crossed 0. */
 static qdot_status
 height(const walk *x, double t, double *g)
 {
@@ -152,7 +152,8 @@ seek_least(walk *x, double *t, double g)
                                              .blur = DBL_EPSILON * fabs(t[1])});
 }
 
-/* The change *by of g_i if the state in w->z changes by `roundings` rounding errors in either direction. */
+/* Find the change *by of g_i if the state in w->z changes by `roundings` rounding errors in either
+ * direction. */
 static qdot_status
 change(qdot_watch *w, double t, size_t i, double roundings, double *by)
 {

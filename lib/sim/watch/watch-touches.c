@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-/* At an extremum a function may be 0 if it is below this fraction of its size. */
+/* At an extremum below this fraction of its size, a function may be 0. */
 static const double small_of_size = 1e-3;
 
 qdot_status
@@ -40,7 +40,7 @@ qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
     return QDOT_OK;
 }
 
-/* g'' at x, where d is the derivative of the interval's polynomial. */
+/* The second derivative g'' at x, where d is the derivative of the interval's polynomial. */
 static double
 bend_at(const qdot_watch_part *p, const double *d, double x)
 {
@@ -72,7 +72,7 @@ is_steep(const qdot_watch_part *p, const double *d, double x)
            || fabs(qdot_chebyshev_at(p->n - 1, d, x)) > 0x1p-49 * qdot_chebyshev_size(p->n - 1, d);
 }
 
-/* How far from an extremum at x the function is flat but for rounding. */
+/* The distance from an extremum at x within which the function is flat except for rounding. */
 static double
 flat_width(const qdot_watch_part *p, const double *d, double x)
 {

@@ -1,4 +1,4 @@
-/* watch-two.c -- the watched functions in sums of two doubles, where a double cannot tell their sign. */
+/* watch-two.c -- evaluates watched functions in sums of two doubles where a double cannot decide their sign. */
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
@@ -71,7 +71,7 @@ is_of_two(const qdot_watch *w, size_t i)
     return w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
 }
 
-/* Whether a function is exactly 0 in two doubles, while its double may be rounding or underflow. */
+/* Whether a function is exactly 0 in two doubles, where its double may be only rounding or underflow. */
 static bool
 is_nothing(const qdot_watch *w, size_t i)
 {

@@ -13,9 +13,9 @@
 #include "sim/model/term-magnitude.h"
 #include "tape/shake.h"
 
-/* --- their tapes --------------------------------------------------------------------- */
+/* --- the tapes of the functions ------------------------------------------------------ */
 
-/* What a function of t only does not contain. */
+/* The symbols that do not occur in a function of t only. */
 enum {
     OF_STATE = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER
 };
@@ -77,7 +77,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     return status;
 }
 
-/* --- values -------------------------------------------------------------------------- */
+/* --- evaluating the functions -------------------------------------------------------- */
 
 /* An interval about 0 narrower than this underflows. */
 static const double nothing = 0x1p-900;
@@ -111,7 +111,7 @@ underflows(qdot_watch *w, size_t i)
 #endif
 }
 
-/* A function is not a number at the state in w->in. */
+/* Fail because a function is not a number at the state in w->in. */
 static qdot_status
 refuse_value(qdot_watch *w, double t)
 {

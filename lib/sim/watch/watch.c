@@ -10,10 +10,10 @@
 
 enum { DEEPEST = 100, MOST_PARTS = 4000 };
 
-/* A step with a series is ended after this many intervals; the rest becomes the next step. */
+/* A step with a series ends after this many intervals; the remaining part becomes the next step. */
 enum { ENOUGH_PARTS = 500 };
 
-/* --- parts of a step ----------------------------------------------------------------- */
+/* --- intervals of a step ------------------------------------------------------------- */
 
 static qdot_status
 sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
@@ -69,7 +69,8 @@ is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int node
     return !w->smooth[i] && (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
 }
 
-/* The roots of function i on an interval that is not halved further: it is `good`, or too short. */
+/* Find the roots of function i on an interval that is not halved further: the fit is `good`, or it
+ * is too short. */
 static qdot_status
 roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
 {
@@ -201,7 +202,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     return QDOT_OK;
 }
 
-/* Roots closer than this, relative to their time, may be simultaneous. */
+/* Roots closer than this, relative to their times, may be simultaneous. */
 static const double one_instant = 64 * DBL_EPSILON;
 
 /* Whether a root from w->roots.at[since] on ends the step, clearly before b; *after: how long after the start of
@@ -300,9 +301,9 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
     return QDOT_OK;
 }
 
-/* --- steps --------------------------------------------------------------------------- */
+/* --- searching a step ---------------------------------------------------------------- */
 
-/* Whether a zero is far from the step. */
+/* Whether the zero of a bound is so far from the step that the step cannot reach it. */
 static bool
 is_far(const qdot_watch *w, size_t i, double t, const double *y, const qdot_ode_expanded *step)
 {
@@ -558,7 +559,7 @@ qdot_watch_look(qdot_watch *w, double t, const double *y, const double *largest,
     return QDOT_OK;
 }
 
-/* --- building ------------------------------------------------------------------------ */
+/* --- making a watch ------------------------------------------------------------------ */
 
 void
 qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound)

@@ -67,7 +67,7 @@ bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
 double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 
-/* What is known about the functions g at the start of a piece. */
+/* Values and signs of the functions g at the start of a piece. */
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
                                the start was moved by a rounding of 1 */
@@ -88,7 +88,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
                                              const double *y, const qdot_watch_known *known,
                                              bool *on);
 
-/* The functions [m] at a state, before _begin. */
+/* Evaluate the functions [m] at a state; call before _begin. */
 QDOT_MUST_CHECK qdot_status qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader,
                                                double t, const double *y, const double **g);
 
@@ -124,11 +124,12 @@ QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const doubl
                                             const double *rates, const double *fast, size_t i,
                                             double *rate, double *noise);
 
-/* The change of g_i if each component of the state y [2n] changes by 4 rounding errors of by [2n]. */
+/* The change of g_i if each component of the state y [2n] changes by 4 rounding errors of the sizes
+ * `by` [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
                                                 const double *by, size_t i, double *noise);
 
-/* The change of g_i by 4 rounding errors of t, if it depends on t. */
+/* Find the change of g_i by 4 rounding errors of t, if it depends on t. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_of_time(qdot_watch *w, double t, const double *y, size_t i,
                                                      double *noise);
 
