@@ -1,4 +1,4 @@
-/* csv-read.c -- reads rows of numbers, line by line. */
+/* csv-read.c -- reads rows of numbers from CSV text, line by line. */
 #include "table/csv-read.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { FILE_LIMIT = 1 << 28, SHOWN = 40 };
 
-/* A part of a line. */
+/* A part of a line of the file. */
 typedef struct {
     const char *at, *end;
 } piece;
@@ -30,7 +30,7 @@ typedef struct {
     qdot_csv *csv; /* takes the names */
 } reader;
 
-/* --- errors -------------------------------------------------------------------------------- */
+/* --- reporting errors ---------------------------------------------------------------------- */
 
 qdot_status
 qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format, ...)
@@ -51,7 +51,7 @@ csv_place_of(const reader *r, const char *at)
                             1 + qdot_utf8_columns(r->line.at, (size_t)(at - r->line.at))};
 }
 
-/* --- cells ---------------------------------------------------------------------------------- */
+/* --- reading cells -------------------------------------------------------------------------- */
 
 static bool
 is_blank(char c)
@@ -101,7 +101,7 @@ next_cell(const reader *r, const char **at, piece *cell)
     return true;
 }
 
-/* Whether a cell is written as a decimal number: 1, -.5, 2.5e-3. */
+/* Whether a cell is a decimal number such as 1, -.5 or 2.5e-3. */
 static bool
 piece_is_number(piece p)
 {
@@ -188,7 +188,7 @@ read_cell(const reader *r, piece cell, double *x)
                          n > SHOWN ? SHOWN : (int)n, cell.at);
 }
 
-/* --- lines ----------------------------------------------------------------------------------- */
+/* --- reading lines --------------------------------------------------------------------------- */
 
 static char
 find_separator(piece line)
@@ -345,7 +345,7 @@ qdot_csv_clear(qdot_csv *csv)
     *csv = (qdot_csv){0};
 }
 
-/* --- files ------------------------------------------------------------------------------------- */
+/* --- reading files ----------------------------------------------------------------------------- */
 
 qdot_status
 qdot_csv_read(const char *path, qdot_csv *csv)

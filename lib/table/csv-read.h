@@ -21,7 +21,7 @@ typedef struct {
     size_t line, column; /* where a number begins */
 } qdot_csv_place;
 
-/* A word of the first line of words. */
+/* A word of the first line that consists of words, such as a column's name. */
 typedef struct {
     char *word;
     qdot_csv_place place;

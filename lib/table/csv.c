@@ -1,4 +1,4 @@
-/* csv.c -- a table as comma-separated values. */
+/* csv.c -- writes a table as comma-separated values. */
 #include "table/csv.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include "table/table.h"
 
-/* How a format writes what precedes the rows, each row, and what follows; a function NULL: nothing. */
+/* The functions by which a format writes the head, each row, and the end of a file; NULL: nothing. */
 typedef struct {
     void (*head)(const qdot_table *t, qdot_text *out);
     void (*row)(const qdot_table *t, size_t row, qdot_text *out);

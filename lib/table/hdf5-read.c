@@ -68,9 +68,9 @@ hdf5_load(const char *path, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* --- messages ------------------------------------------------------------------------- */
+/* --- messages of an HDF5 object ------------------------------------------------------- */
 
-/* Iterates over the messages of an HDF5 object header. */
+/* An iterator over the messages of an HDF5 object header. */
 typedef struct {
     const unsigned char *at, *end; /* the next one */
     int type;
@@ -107,7 +107,7 @@ messages_next(messages *m)
     return true;
 }
 
-/* --- columns -------------------------------------------------------------------------- */
+/* --- reading columns ------------------------------------------------------------------ */
 
 /* Read the data set at `address` as the next column. */
 static qdot_status

@@ -31,7 +31,7 @@ enum {
 
 #define NOWHERE UINT64_MAX
 
-/* --- bytes ------------------------------------------------------------------------------ */
+/* --- writing bytes ---------------------------------------------------------------------- */
 
 static void
 bytes(qdot_text *out, uint64_t x, int n)
@@ -65,7 +65,7 @@ word(const unsigned char *key, size_t n)
     return x;
 }
 
-/* lookup3 of n bytes, from 0. */
+/* The checksum of n bytes by lookup3 (Jenkins), with the initial value 0. */
 static uint32_t
 checksum(const char *text, size_t n)
 {
@@ -98,7 +98,7 @@ checksum(const char *text, size_t n)
     return c;
 }
 
-/* --- messages --------------------------------------------------------------------------- */
+/* --- messages of an HDF5 object --------------------------------------------------------- */
 
 static void
 message(qdot_text *header, int type, size_t size)
@@ -108,7 +108,7 @@ message(qdot_text *header, int type, size_t size)
     bytes(header, 0, 1);
 }
 
-/* A double of IEEE 754, least byte first: 20 bytes. */
+/* Append the type of a double of IEEE 754, least byte first: 20 bytes. */
 static void
 real_type(qdot_text *out)
 {
@@ -203,7 +203,7 @@ entry_text(const qdot_table *t, size_t j, size_t i)
     return text != NULL ? text : "";
 }
 
-/* The bytes of one entry of a column: a double, or the longest text and its NUL. */
+/* The number of bytes of one entry of a column: a double, or the longest text and its NUL. */
 static size_t
 entry_size(const qdot_table *t, size_t j)
 {
@@ -241,7 +241,7 @@ data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
     bytes(header, rows * size, 8);
 }
 
-/* The messages as an object header. */
+/* Append the messages, preceded by an object header. */
 static void
 object(qdot_text *out, const qdot_text *messages)
 {
@@ -258,7 +258,7 @@ object(qdot_text *out, const qdot_text *messages)
 
 enum { OBJECT = 14 }; /* bytes of a header beside its messages */
 
-/* --- the file --------------------------------------------------------------------------- */
+/* --- laying out the file ---------------------------------------------------------------- */
 
 /* Append a column's name: its label without forbidden characters, with the column's number if it
  * was used before. */
@@ -279,13 +279,13 @@ column_name(const qdot_table *t, size_t j, qdot_text *out)
         }
 }
 
-/* Where the headers and the numbers are. */
+/* The addresses of headers and numbers in the file. */
 typedef struct {
     uint64_t parameters, headers, numbers, end; /* headers: of the columns, the first */
     const uint64_t *columns; /* of their headers; NULL: not known yet */
 } places;
 
-/* The messages of the root: facts, links to the parameters and to the columns. */
+/* Append the messages of the root: facts, links to the parameters and to the columns. */
 static void
 hdf5_add_root(const qdot_table *t, const places *at, qdot_text *messages)
 {

@@ -1,4 +1,4 @@
-/* html.c -- a table of HTML. */
+/* html.c -- writes a table as HTML, on a page of its own or within another page. */
 #include "table/html.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "table/file.h"
 
-/* The digits of numbers on a page of their own. */
+/* The number of digits of numbers on a page of their own. */
 enum { PAGE_DIGITS = 12 };
 
 static void
@@ -69,7 +69,7 @@ qdot_table_html_part(const qdot_table *t, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* --- a page ----------------------------------------------------------------------------- */
+/* --- a page of its own ------------------------------------------------------------------ */
 
 static const html_style page_style = {true, PAGE_DIGITS, "nan"};
 

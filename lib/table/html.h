@@ -11,7 +11,8 @@
  * Errors: those of qdot_table_select. */
 QDOT_MUST_CHECK qdot_status qdot_table_html_part(const qdot_table *t, qdot_text *out);
 
-/* Write a page, all numbers with 12 significant digits; path "-": standard output. Errors as in table/file.h. */
+/* Write a table as a page, numbers with 12 significant digits; path "-": standard output. Errors as
+ * in table/file.h. */
 QDOT_MUST_CHECK qdot_status qdot_table_html(const qdot_table *t, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* json.c -- a table as JSON. */
+/* json.c -- writes a table as JSON, as a file or as answers. */
 #include "table/json.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ json_is_value(const qdot_table *t, size_t column)
     return qdot_table_shows(t, column, QDOT_IN_ANSWERS) && t->columns[column].field == NULL;
 }
 
-/* `"values":[...]`, and `"errors":[...]` if some column has errors. */
+/* Append `"values":[...]`, and `"errors":[...]` if some column has errors. */
 static void
 json_add_values(const qdot_table *t, size_t row, qdot_text *out)
 {
@@ -105,7 +105,7 @@ qdot_table_json_row(const qdot_table *t, size_t row, qdot_text *out)
     qdot_text_add(out, "}\n");
 }
 
-/* --- a file ----------------------------------------------------------------------------- */
+/* --- a table as a JSON file ------------------------------------------------------------- */
 
 static void
 json_add_facts(size_t n, const qdot_table_fact *facts, qdot_text *out)

@@ -1,4 +1,4 @@
-/* table.c -- the cells of a table and the rows it owns. */
+/* table.c -- stores the cells of a table that owns its rows, and reads cells of any table. */
 #include "table/table.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/number-text.h"
 
-/* --- rows of its own -------------------------------------------------------------------- */
+/* --- tables that own their rows --------------------------------------------------------- */
 
 qdot_status
 qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns)
@@ -21,7 +21,7 @@ qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns)
     return QDOT_OK;
 }
 
-/* More room for cells, and where the columns find theirs. */
+/* Make room for more cells, and tell the columns where their cells are. */
 static void
 table_enlarge(qdot_table *t)
 {
@@ -105,7 +105,7 @@ qdot_table_clear(qdot_table *t)
     *t = (qdot_table){0};
 }
 
-/* --- reading ---------------------------------------------------------------------------- */
+/* --- reading cells ---------------------------------------------------------------------- */
 
 qdot_table_cell
 qdot_table_at(const qdot_table *t, size_t row, size_t column)

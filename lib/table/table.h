@@ -22,7 +22,7 @@ typedef enum {
     QDOT_CELL_FLAG /* a number: 1 yes, 0 no, NaN undecided */
 } qdot_cell_kind;
 
-/* How a number is shown to people; data files have all digits of a double. */
+/* The form in which a number is shown to people; data files have all digits of a double. */
 typedef enum {
     QDOT_NUMBER_GENERAL,         /* `digits` significant ones */
     QDOT_NUMBER_FIXED,           /* `digits` behind the point */
@@ -32,7 +32,7 @@ typedef enum {
     QDOT_NUMBER_BOUND            /* one, rounded up */
 } qdot_number_form;
 
-/* Where a column appears. */
+/* The kinds of output in which a column appears. */
 enum {
     QDOT_IN_TERMINAL = 1, /* in answers that people read */
     QDOT_IN_ANSWERS = 2,  /* in rows of JSON as answers */
@@ -48,19 +48,19 @@ typedef struct {
     unsigned in;      /* QDOT_IN_...; 0: everywhere */
     qdot_cell_kind kind;
 
-    /* the format for people */
+    /* The format used for people. */
     qdot_number_form form;
     int digits;
     bool left;           /* aligned; else right */
     unsigned gap, width; /* blanks before it, but for the first; the least width */
 
-    /* the format for programs */
+    /* The format used for programs. */
     int exact;         /* significant digits in CSV; 0: those of a double */
     bool blank;        /* in CSV nothing stands where there is no number; else nan */
     bool measured;     /* rows of JSON have its errors */
     const char *field; /* in rows of JSON: the field that it is; NULL: one of `values` */
 
-    /* its cells: */
+    /* The cells of the column: */
     const double *values, *errors; /* of row k: [k stride]; errors NULL: none are known; else 0: exact, NaN: unknown */
     size_t stride;                 /* 0: 1 */
     char *const *texts;            /* of row k: [k text_stride], NULL: there is none. Of numbers: their digits, where a
@@ -91,21 +91,21 @@ typedef struct {
     } own; /* rows of its own; zero: its columns borrow theirs */
 } qdot_table;
 
-/* --- rows of its own -------------------------------------------------------------------- */
+/* --- tables that own their rows --------------------------------------------------------- */
 
 /* Columns [n] are copied, their names borrowed; then cells are added from left to right, row after row. Clear the
  * table in any case. QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_table_begin(qdot_table *t, size_t n, const qdot_table_column *columns);
 void qdot_table_add_number(qdot_table *t, double value, double error);
-/* The text is copied; NULL: none. */
+/* Add a cell with a copy of the text; NULL: none. */
 void qdot_table_add_text(qdot_table *t, const char *text);
 /* Add a cell with the contents of `text`, which is then cleared. */
 void qdot_table_add_written(qdot_table *t, qdot_text *text);
-/* QDOT_ENOMEM if any cell could not be added. */
+/* The status of the table: QDOT_ENOMEM if a cell could not be added. */
 QDOT_MUST_CHECK qdot_status qdot_table_status(const qdot_table *t);
 void qdot_table_clear(qdot_table *t);
 
-/* --- reading ---------------------------------------------------------------------------- */
+/* --- reading cells ---------------------------------------------------------------------- */
 
 typedef struct {
     double value, error; /* NaN: there is none, is unknown */
@@ -126,7 +126,7 @@ QDOT_MUST_CHECK qdot_status qdot_table_select(const qdot_table *t, unsigned wher
 
 /* The heading of a column for people. */
 const char *qdot_table_head(const qdot_table *t, size_t column);
-/* Append a cell for people, `none` if it has no number; digits: of all numbers, 0: as the column says. */
+/* Append a cell for people, `none` if it has no number; digits: of all numbers, 0: as its column says. */
 void qdot_table_print_cell(const qdot_table *t, size_t row, size_t column, int digits, const char *none, qdot_text *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* text.c -- a table as aligned text. */
+/* text.c -- writes a table as aligned text. */
 #include "table/text.h"
 
 #include <string.h>
