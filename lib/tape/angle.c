@@ -1,4 +1,5 @@
-/* angle.c -- base angles, chosen by counted cost. */
+/* angle.c -- chooses base angles, of which sines and cosines of sums and multiples are composed, by
+ * their cost. */
 #include "tape/angle.h"
 
 #include "expr/build.h"
@@ -10,7 +11,7 @@
 
 enum { MOST_MULTIPLE = 8, NONE = QDOT_KEYMAP_NONE };
 
-/* Costs: for numbers in operations; for an order of a series in products of series. */
+/* The costs: in operations for numbers; in products of series for one order of a series. */
 static const struct {
     long call, addition;
 } number = {20, 6}, of_series = {2, 4};
@@ -25,7 +26,7 @@ typedef struct {
     qdot_value sine, cosine;
 } base;
 
-/* multiple * base. The first, 1, is the base itself. */
+/* The angle multiple * base. The first multiple, 1, is the base itself. */
 typedef struct {
     uint32_t base, multiple;
     uint32_t uses;
@@ -33,7 +34,7 @@ typedef struct {
     qdot_value sine, cosine;
 } multiple;
 
-/* The sum of `parent` (NONE: 0) and +- a multiple. */
+/* The sum of two angles: that of `parent` (NONE: 0) and +- a multiple. */
 typedef struct {
     uint32_t parent, multiple;
     bool minus;
@@ -42,7 +43,7 @@ typedef struct {
     qdot_value sine, cosine;
 } angle_sum;
 
-/* One summand of an argument. */
+/* One summand of the argument of a sine or cosine. */
 typedef struct {
     qdot_expr term, coefficient; /* coefficient * term */
     qdot_expr source, of_source; /* a node of the walk that is of_source * term */
@@ -99,7 +100,7 @@ is_trigonometric(const qdot_node *node)
 
 /* --- reading the arguments ---------------------------------------------------------- */
 
-/* The rational factor of a term and the rest. */
+/* Split a term into its rational factor and the remaining factors. */
 static qdot_expr
 term_strip_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
 {
@@ -153,7 +154,7 @@ read_argument(qdot_angles *a, qdot_expr e)
                                                   .source = e, .of_source = c})));
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
-    /* Make the first summand positive: use the sum or its negative. */
+    /* If the first summand is negative, use minus the sum. */
     if (a->parts.n > arg.first)
         arg.minus = qdot_expr_is_negative(pool, a->parts.at[arg.first].coefficient);
     for (size_t i = arg.first; i < a->parts.n; i++) {
@@ -178,7 +179,7 @@ magnitude(qdot_pool *pool, qdot_expr number)
     return qdot_expr_is_negative(pool, number) ? qdot_neg(pool, number) : number;
 }
 
-/* Nil absorbs. */
+/* The largest unit of which x and y are both integer multiples; nil if x or y is nil. */
 static qdot_expr
 common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
 {
@@ -194,7 +195,7 @@ common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
     return e;
 }
 
-/* x as a multiple of the unit; 0 if it is not a small integer. */
+/* The number x as a multiple of the unit; 0 if it is not a small integer. */
 static long
 units(qdot_pool *pool, qdot_expr coefficient, qdot_expr unit)
 {
@@ -292,7 +293,7 @@ find_sums(qdot_angles *a)
     return QDOT_OK;
 }
 
-/* --- the choice --------------------------------------------------------------------- */
+/* --- which arguments to compose ----------------------------------------------------- */
 
 /* Compose the argument from base angles, or give it a sine and cosine of its own; returns the added cost. */
 static long
@@ -427,9 +428,9 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, bool series,
     return status;
 }
 
-/* --- writing ------------------------------------------------------------------------ */
+/* --- writing code for angles -------------------------------------------------------- */
 
-/* (s, c) <- sine and cosine of A + B, or A - B. */
+/* Compute sine and cosine (s, c) of A + B, or of A - B. */
 static void
 add_angles(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_value cb,
            bool minus)
@@ -443,7 +444,7 @@ add_angles(qdot_code *code, qdot_value *s, qdot_value *c, qdot_value sb, qdot_va
     *c = qdot_code_op(code, minus ? QDOT_OP_ADD : QDOT_OP_SUB, cc, ss, 0);
 }
 
-/* Compute unit * term, from a node of the walk that is of_source * term. */
+/* Compute the base angle unit * term from the value of `source`, a node of the expression. */
 static void
 make_base(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
 {
@@ -469,7 +470,7 @@ make_base(qdot_angles *a, const qdot_walk *walk, qdot_code *code, const part *p)
     qdot_code_sincos(code, x, &b->sine, &b->cosine);
 }
 
-/* Sine and cosine of `times` base angles, by doubling and adding. */
+/* Compute sine and cosine of an integer multiple of a base angle, by doubling and adding. */
 static void
 make_multiple(qdot_angles *a, qdot_code *code, uint32_t m)
 {
@@ -485,7 +486,7 @@ make_multiple(qdot_angles *a, qdot_code *code, uint32_t m)
     to->sine = b->sine;
     to->cosine = b->cosine;
     while ((bit /= 2) > 0) {
-        /* sin 2x = 2 s c, cos 2x = (c - s)(c + s) */
+        /* sin 2x = 2 s c and cos 2x = (c - s)(c + s) */
         qdot_value sc = qdot_code_op(code, QDOT_OP_MUL, to->sine, to->cosine, 0);
         qdot_value minus = qdot_code_op(code, QDOT_OP_SUB, to->cosine, to->sine, 0);
         qdot_value plus = qdot_code_op(code, QDOT_OP_ADD, to->cosine, to->sine, 0);

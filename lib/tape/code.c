@@ -1,4 +1,4 @@
-/* code.c -- writes a tape: value numbering, constants, powers. */
+/* code.c -- writes a tape: reuses equal values, collects constants, computes powers by products. */
 #include "tape/code.h"
 
 #include <string.h>

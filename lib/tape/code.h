@@ -13,7 +13,7 @@
 #include "tape/instruction.h"
 #include "tape/keymap.h"
 
-/* Higher powers are computed by pow(). */
+/* Powers above this exponent are computed by pow(). */
 #define QDOT_CODE_MOST_POWER 64
 
 typedef uint32_t qdot_value; /* a value of the code: an index */
@@ -48,7 +48,7 @@ qdot_value qdot_code_op(qdot_code *code, qdot_op op, qdot_value a, qdot_value b,
                         qdot_value c);
 /* A constant expression, evaluated exactly and rounded once. */
 qdot_value qdot_code_constant(qdot_code *code, qdot_expr e);
-/* Sine and cosine of a value. */
+/* Compute sine and cosine of a value. */
 void qdot_code_sincos(qdot_code *code, qdot_value a, qdot_value *sine,
                       qdot_value *cosine);
 /* a^n, n != 0, by the fewest multiplications a factor method finds; inverse powers by

@@ -1,4 +1,4 @@
-/* derivative.c -- the columns of a Jacobian, a group of directions at a time. */
+/* derivative.c -- computes the columns of a Jacobian, a group of directions at a time. */
 #include "tape/derivative.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* disc.c -- a tape over discs: values at the centres, and a radius for each. */
+/* disc.c -- evaluates a tape over complex discs: values at the centres, and a radius for each. */
 #include "tape/disc.h"
 
 #include <float.h>
@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "tape/instruction.h"
 
-/* --- bounds -------------------------------------------------------------------------- */
+/* --- bounds of single operations ----------------------------------------------------- */
 
-/* x y, with 0 times infinity = 0 */
+/* The product x y, with 0 times infinity = 0. */
 static double
 radius_times(double x, double y)
 {
@@ -23,7 +23,7 @@ of_product(double a, double ra, double b, double rb)
     return radius_times(fabs(a), rb) + radius_times(fabs(b), ra) + radius_times(ra, rb);
 }
 
-/* (a + u)/(b + v) - d = (u - d v)/(b + v), d = a/b */
+/* Bound the quotient with d = a/b and deviations u, v: (a + u)/(b + v) - d = (u - d v)/(b + v). */
 static double
 of_quotient(double d, double ra, double b, double rb)
 {
@@ -115,7 +115,7 @@ of_remainder(double a, double ra, double b, double rb)
     return floor(q - rq) == floor(q + rq) ? ra + fabs(floor(q)) * rb : NAN;
 }
 
-/* --- a tape -------------------------------------------------------------------------- */
+/* --- evaluating a tape --------------------------------------------------------------- */
 
 size_t
 qdot_disc_work(const qdot_tape *tape)
@@ -123,14 +123,14 @@ qdot_disc_work(const qdot_tape *tape)
     return 4 * tape->places;
 }
 
-/* Add the rounding error to a radius, unless that is 0. */
+/* Add the rounding error to a radius, unless the radius is 0. */
 static double
 radius_add_rounding(double d, double rd)
 {
     return isnan(d) ? NAN : rd != 0 ? rd + DBL_EPSILON * fabs(d) : 0;
 }
 
-/* The centre and the radius of the result of an instruction. */
+/* Compute the centre and the radius of the result of an instruction. */
 static void
 disc_execute(const qdot_instruction *i, double *work, double *radius)
 {
@@ -202,7 +202,7 @@ qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *
     }
 }
 
-/* Which inputs are read before their slots are reused. */
+/* Find the inputs that are read before their slots are reused. */
 qdot_status
 qdot_disc_reads(const qdot_tape *tape, bool *used)
 {
@@ -248,7 +248,7 @@ qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
     return false;
 }
 
-/* For larger arguments tanh is 1 in double precision. */
+/* For arguments larger than this, tanh is 1 in double precision. */
 static const double saturated = 20;
 
 /* How far the argument of an operation that falls off, or its logarithm, may go where its value
@@ -346,7 +346,7 @@ multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
     }
 }
 
-/* B counts as far from 0 if its magnitude varies by less than a factor of 5. */
+/* B counts as far from 0 if its magnitude varies over the disc by less than a factor of 5. */
 static const double far = 1.5;
 
 bool

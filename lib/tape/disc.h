@@ -22,14 +22,14 @@
 
 #include "tape/tape.h"
 
-/* The number of doubles of work space. */
+/* The number of doubles needed as work space. */
 size_t qdot_disc_work(const qdot_tape *tape);
 
-/* C, R [outputs] for discs c, r [inputs]; work [qdot_disc_work]. Never fails. */
+/* Find centres C and radii R [outputs] for discs c, r [inputs]; work [qdot_disc_work]. Never fails. */
 void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *C,
                     double *R, double *work);
 
-/* used [inputs]: which inputs the tape reads; QDOT_ENOMEM. */
+/* Find which inputs the tape reads: used [inputs]; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
 /* Kinds of operations through which a function that is large elsewhere may be negligible at a point. */
@@ -54,7 +54,7 @@ size_t qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double
 bool qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
                         double *most, double *work);
 
-/* The argument of instruction k at the inputs x, and its result. Work as above. */
+/* Evaluate the argument of instruction k at the inputs x, and its result. Work as above. */
 double qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *result,
                           double *work);
 

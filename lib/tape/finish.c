@@ -21,7 +21,7 @@ code_value_at(finish *f, qdot_value v)
     return f->code->values.at + v;
 }
 
-/* The operands of a value: how many of a, b, c. */
+/* The number of operands of a value: how many of a, b, c it has. */
 static int
 value_operands(const qdot_code_value *v)
 {
@@ -40,7 +40,7 @@ add_uses(finish *f, qdot_value v, uint32_t change)
         f->uses[args[i]] += change;
 }
 
-/* Count uses from the outputs down: unused values have none. */
+/* Count the uses of each value, from the outputs down; unused values get none. */
 static void
 count_uses(finish *f)
 {
@@ -62,7 +62,7 @@ split_pairs(finish *f)
         qdot_code_value *x = code_value_at(f, (qdot_value)v);
 
         if (x->op == QDOT_OP_SECOND && f->uses[v] > 0 && f->uses[x->a] == 1) {
-            /* only the second result is read */
+            /* only the second result is used */
             *x = (qdot_code_value){QDOT_OP_COS, code_value_at(f, x->a)->a, 0, 0};
         }
     }
@@ -109,7 +109,7 @@ fuse(finish *f)
     }
 }
 
-/* last[v], the last use, for all live values. */
+/* Find last[v], the last use, for all live values. */
 static void
 find_last(finish *f)
 {

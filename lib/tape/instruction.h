@@ -12,7 +12,7 @@ typedef enum {
 #include "tape/operation.def"
 #undef X
     QDOT_OP_COUNT,
-    /* only while a tape is being written: */
+    /* Fields used only while a tape is being written: */
     QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: which */
     QDOT_OP_CONSTANT,              /* a: which */
     QDOT_OP_SECOND                 /* a: the SINCOS whose second result this is */

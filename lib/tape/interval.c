@@ -1,4 +1,4 @@
-/* interval.c -- a tape over intervals. */
+/* interval.c -- evaluates a tape over intervals. */
 #include "tape/interval.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "tape/instruction.h"
 
-/* --- operations of a tape alone --------------------------------------------------------- */
+/* --- operations that occur only in tapes ------------------------------------------------ */
 
 static bool
 is_true(qdot_interval a)
@@ -32,7 +32,7 @@ softplus_of_double(double x)
     return fmax(x, 0) + log1p(exp(-fabs(x)));
 }
 
-/* --- a tape -------------------------------------------------------------------------- */
+/* --- evaluating a tape --------------------------------------------------------------- */
 
 size_t
 qdot_interval_work(const qdot_tape *tape)

@@ -20,10 +20,10 @@
 #include "num/interval.h"
 #include "tape/tape.h"
 
-/* The number of intervals of work space. */
+/* The number of intervals needed as work space. */
 size_t qdot_interval_work(const qdot_tape *tape);
 
-/* out [outputs] for in [inputs]; work [qdot_interval_work]. Never fails. */
+/* Evaluate outputs out [outputs] for intervals in [inputs]; work [qdot_interval_work]. Never fails. */
 void qdot_interval_eval(const qdot_tape *tape, const qdot_interval *in, qdot_interval *out,
                         qdot_interval *work);
 

@@ -1,4 +1,5 @@
-/* logistic.c -- products with negative powers of exponentials, as exponentials of logarithms. */
+/* logistic.c -- rewrites quotients by sums of exponentials as exponentials of logarithms, so that
+ * none overflows. */
 #include "tape/logistic.h"
 
 #include "expr/build.h"
@@ -25,12 +26,12 @@ has_sign(const qdot_pool *pool, qdot_expr e, int sign)
 
 /* --- sums of two exponentials ---------------------------------------------------------- */
 
-/* c e^v */
+/* An exponential c e^v, with a number c and an expression v. */
 typedef struct {
     qdot_expr c, v;
 } exponential;
 
-/* A constant, or a constant times e^v. */
+/* Read e as a constant c or as c e^v; false if it is neither. */
 static bool
 read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
 {
@@ -63,7 +64,7 @@ typedef struct {
     qdot_expr n, b;
 } denominator;
 
-/* Read S = c_1 e^v + c_2 e^w with c_1 c_2 > 0; a negative c_2 is factored out only if n is an integer. */
+/* Read a sum c_1 e^v + c_2 e^w with c_1 c_2 > 0; a negative c_2 is factored out only if n is an integer. */
 static bool
 read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
 {
@@ -98,7 +99,7 @@ read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
     return x->ratio != QDOT_NIL && has_sign(pool, x->ratio, QDOT_POS);
 }
 
-/* a/b if it is a rational number; else nil. */
+/* The quotient a/b if it is a rational number; else nil. */
 static qdot_expr
 quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
@@ -118,9 +119,9 @@ quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
     return qdot_expand(pool, qdot_sub(pool, a, qdot_mul(pool, q, b))) == QDOT_ZERO ? q : QDOT_NIL;
 }
 
-/* b shifted by as much of r as leaves it within -n/2 ... n/2. */
+/* The exponent b, increased by the part of r with which it stays within -n/2 ... n/2. */
 static qdot_expr
-within(qdot_pool *pool, const denominator *x, qdot_expr r)
+exponent_within(qdot_pool *pool, const denominator *x, qdot_expr r)
 {
     const qdot_expr half = qdot_mul(pool, QDOT_HALF, x->n), b = qdot_add(pool, x->b, r);
 
@@ -138,12 +139,12 @@ absorb(qdot_pool *pool, denominator *x, qdot_expr *left)
 
     if (r == QDOT_NIL || r == QDOT_ZERO)
         return;
-    b = within(pool, x, r);
+    b = exponent_within(pool, x, r);
     *left = qdot_sub(pool, *left, qdot_mul(pool, qdot_sub(pool, b, x->b), x->d));
     x->b = b;
 }
 
-/* log(1 + e^d) as one value. */
+/* The function log(1 + e^d) as one value. */
 static qdot_expr
 softplus_of(qdot_pool *pool, qdot_expr d)
 {
@@ -152,7 +153,7 @@ softplus_of(qdot_pool *pool, qdot_expr d)
     return qdot_hold(pool, qdot_fun1(pool, QDOT_LOG, qdot_add(pool, QDOT_ONE, e)));
 }
 
-/* -(n/2 - b) l(d) - (n/2 + b) l(-d) with l(d) = log(1 + e^d), d including log(ratio). */
+/* The exponent -(n/2 - b) l(d) - (n/2 + b) l(-d), where l(d) = log(1 + e^d) and d includes log(ratio). */
 static qdot_expr
 exponent_of(qdot_pool *pool, const denominator *x)
 {
@@ -168,7 +169,7 @@ exponent_of(qdot_pool *pool, const denominator *x)
     return qdot_neg(pool, sum);
 }
 
-/* --- products ----------------------------------------------------------------------------- */
+/* --- quotients in products ---------------------------------------------------------------- */
 
 typedef struct {
     qdot_pool *pool;
@@ -186,7 +187,7 @@ is_negative_number(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_NUM && qdot_expr_is_negative(pool, e);
 }
 
-/* Whether b^p is (c_1 e^v + c_2 e^w)^-n; if so record it. */
+/* Whether b^p has the form (c_1 e^v + c_2 e^w)^-n; if so, record it. */
 static bool
 take_denominator(quotients *q, qdot_expr b, qdot_expr p)
 {
@@ -241,7 +242,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
 
 static qdot_expr form_of(qdot_pool *pool, qdot_expr e, void *user);
 
-/* A term c cosh(u)^a sinh(u)^b, a, b >= 0; u nil: just c. */
+/* A term c cosh(u)^a sinh(u)^b with a, b >= 0; u nil: the constant c. */
 typedef struct {
     qdot_expr c, u;
     long a, b;
@@ -283,7 +284,7 @@ read_cosines(qdot_pool *pool, qdot_expr x, cosines *t)
     return t->c != QDOT_NIL;
 }
 
-/* A sum S = large scaled, large > 0, where `scaled` stays finite. */
+/* A sum written as large * scaled with large > 0, where `scaled` stays finite. */
 typedef struct {
     qdot_expr large, scaled;
 } factored;
@@ -373,7 +374,7 @@ over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
     return f->scaled != QDOT_NIL;
 }
 
-/* Factor e if it is such a sum, but not of two exponentials of the same sign (read_sum). */
+/* Factor e if it is a sum of exponentials, but not of two with the same sign (read_sum). */
 static bool
 factor_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 {
@@ -402,7 +403,7 @@ with_factors(qdot_pool *pool, qdot_expr e)
     return f;
 }
 
-/* b if it is a sum; cosh(u) or sinh(u) as (e^u +- e^-u)/2; else nil. */
+/* The sum b; for cosh(u) or sinh(u) the sum (e^u +- e^-u)/2; nil for other expressions. */
 static qdot_expr
 as_sum(qdot_pool *pool, qdot_expr b)
 {
@@ -442,7 +443,7 @@ quotients_sort(quotients *q, qdot_expr e)
     }
 }
 
-/* A sum with exponentials over the denominators, term by term. */
+/* Divide a sum with exponentials by the denominators, term by term. */
 static qdot_expr
 distribute(quotients *q, qdot_expr e)
 {
@@ -485,7 +486,7 @@ grows(const qdot_pool *pool, qdot_expr sum)
     return false;
 }
 
-/* The finite form of a product. */
+/* Rewrite a product with sums of exponentials in a form that does not overflow. */
 static qdot_expr
 form_of(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -521,7 +522,7 @@ form_of(qdot_pool *pool, qdot_expr e, void *user)
     return qdot_mul(pool, q.rest, qdot_fun1(pool, QDOT_EXP, exponent));
 }
 
-/* log(c_1 e^v + c_2 e^w), c_1 and c_2 > 0 */
+/* Rewrite log(c_1 e^v + c_2 e^w) with c_1 and c_2 > 0. */
 static qdot_expr
 logarithm_of_sum(qdot_pool *pool, const denominator *x)
 {
@@ -541,7 +542,7 @@ logarithm_of_sum(qdot_pool *pool, const denominator *x)
     return qdot_add(pool, c, qdot_mul(pool, QDOT_HALF, qdot_expand(pool, sum)));
 }
 
-/* log of cosh(u)^N, or of two exponentials */
+/* Rewrite the logarithm of cosh(u)^N, or of a sum of two exponentials. */
 static qdot_expr
 logarithm_of(qdot_pool *pool, qdot_expr large)
 {

@@ -26,13 +26,13 @@
 
 #include "expr/walk.h"
 
-/* Whether the nodes of a walk contain such expressions. */
+/* Whether the nodes of a walk contain quotients or logarithms of exponentials. */
 bool qdot_logistic_occurs(const qdot_walk *w);
 
 /* e with its quotients rewritten in the finite form. Nil: a failure of the pool. */
 qdot_expr qdot_logistic_form(qdot_pool *pool, qdot_expr e);
 
-/* d if e is log(1 + e^d); else nil. */
+/* The argument d if e has the form log(1 + e^d); otherwise nil. */
 qdot_expr qdot_logistic_argument(const qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -1,4 +1,4 @@
-/* lower.c -- lowers the DAG to code: sums, products, functions, node by node. */
+/* lower.c -- translates the expression graph to code of a tape: sums, products, functions, node by node. */
 #include <string.h>
 
 #include "expr/build.h"
@@ -13,7 +13,7 @@
 #include "tape/logistic.h"
 #include "tape/tape.h"
 
-/* A term in a group: terms of a sum whose coefficients are equal up to sign. */
+/* One term of a group of terms whose coefficients are equal up to sign. */
 typedef struct {
     qdot_value value;
     bool minus;
@@ -25,7 +25,7 @@ typedef struct {
     uint32_t first, last;
 } group;
 
-/* Data of a node, by its index in the walk. */
+/* Data of a node, stored by the node's index in the walk. */
 typedef struct {
     qdot_value bare;    /* the node without its constant factor */
     qdot_expr factor;   /* the constant factor */
@@ -41,7 +41,7 @@ typedef struct {
     bool series; /* are to run through it */
     qdot_angles *angles;
 
-    /* work space of lower_sum: */
+    /* Work space of the function lower_sum: */
     qdot_vec(term) terms;
     qdot_vec(group) groups;
     qdot_keymap by_magnitude;
@@ -60,7 +60,7 @@ node_value_of(lowering *l, qdot_expr e)
                                         : (qdot_value)qdot_walk_get(&l->walk, e);
 }
 
-/* Move a value's sign into *minus. */
+/* Remove the sign of a value and store it in *minus. */
 static qdot_value
 without_sign(lowering *l, qdot_value v, bool *minus)
 {
@@ -71,7 +71,7 @@ without_sign(lowering *l, qdot_value v, bool *minus)
     return v;
 }
 
-/* --- sums --------------------------------------------------------------------------- */
+/* --- lowering sums ------------------------------------------------------------------ */
 
 /* Add coefficient * v to the group of terms with the same |coefficient|. */
 static qdot_status
@@ -187,7 +187,7 @@ lower_sum(lowering *l, qdot_expr e, known *k)
     return QDOT_OK;
 }
 
-/* --- products ----------------------------------------------------------------------- */
+/* --- lowering products -------------------------------------------------------------- */
 
 typedef struct {
     bool some;
@@ -200,7 +200,7 @@ product_times(lowering *l, product *p, qdot_value v)
     *p = (product){true, p->some ? op(l, QDOT_OP_MUL, p->value, v) : v};
 }
 
-/* Twice a rational exponent if that is an integer of moderate size; else 0. */
+/* Twice a rational exponent if that is an integer of moderate size; otherwise 0. */
 static long
 exponent_twice(const qdot_pool *pool, qdot_expr exponent)
 {
@@ -300,9 +300,9 @@ count_negatives(lowering *l)
     }
 }
 
-/* --- functions, relations ----------------------------------------------------------- */
+/* --- lowering functions and relations ----------------------------------------------- */
 
-/* The operation of each function that is a single one; NEG, which is none of them, means none. */
+/* The operation of each function that is a single operation; NEG, which no function is, means none. */
 #define QDOT_OP_NONE QDOT_OP_NEG
 
 static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
@@ -311,7 +311,7 @@ static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
 #undef X
 };
 
-/* a op b op c ... */
+/* Write the operation for all operands of e, one after the other: ((a op b) op c) ... */
 static qdot_value
 fold(lowering *l, qdot_op id, qdot_expr e)
 {
@@ -322,7 +322,7 @@ fold(lowering *l, qdot_op id, qdot_expr e)
     return v;
 }
 
-/* Lower a held value: it includes its factor, and its readers only apply its sign. */
+/* Lower the argument of `hold`: its value includes the constant factor, so readers only apply a sign. */
 static void
 lower_hold(lowering *l, qdot_expr x, known *k)
 {
@@ -336,7 +336,7 @@ lower_hold(lowering *l, qdot_expr x, known *k)
     k->factor = minus ? QDOT_MINUS_ONE : QDOT_ONE;
 }
 
-/* erf and erfc also read their slope, from which their series are made. */
+/* erf and erfc also compute their slope, from which their series are made. */
 static qdot_value
 error_function(lowering *l, qdot_fun_id f, qdot_value x)
 {
@@ -544,7 +544,7 @@ lower_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qd
     return status;
 }
 
-/* The outputs [m] with quotients of exponentials in a finite form, owned, and a new walk of them. */
+/* Rewrite the outputs [m] with quotients of exponentials in a finite form, owned, and a new walk of them. */
 static qdot_status
 with_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **finite)
 {

@@ -1,4 +1,4 @@
-/* rounding.c -- running error analysis of a tape; factors near 1 that make its rounding errors visible. */
+/* rounding.c -- estimates rounding errors of a tape, and finds factors near 1 that make them visible. */
 #include "tape/rounding.h"
 
 #include <float.h>
@@ -12,7 +12,7 @@
 
 static const double unit = 0x1p-53;
 
-/* --- one operation ------------------------------------------------------------------- */
+/* --- rounding of one operation ------------------------------------------------------- */
 
 enum { OPERANDS = 3 };
 
@@ -95,7 +95,7 @@ operand_place(const qdot_instruction *i, int operand)
     return operand == 0 ? i->x : operand == 1 ? i->y : i->z;
 }
 
-/* slope * by, but 0 if `by` is 0, even for an infinite slope. */
+/* The product slope * by; 0 if `by` is 0, even for an infinite slope. */
 static double
 slope_times(double slope, double by)
 {
@@ -160,7 +160,7 @@ rounding_load(const qdot_tape *tape, const double *in, double *work)
         memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
 }
 
-/* Compute the errors of all results, stored after their values in work. */
+/* Evaluate all results and their rounding errors, stored after the values in work. */
 static void
 rounding_carry_out(const qdot_tape *tape, double rounding, double *work)
 {
@@ -214,14 +214,14 @@ qdot_rounding_underflows(const qdot_tape *tape, const double *in, double *bounds
         bounds[k] = errors[tape->output[k]];
 }
 
-/* --- where it is not shown ----------------------------------------------------------- */
+/* --- where rounding must be made visible --------------------------------------------- */
 
 /* A result is one whose error is hidden if that is so many times what moving the inputs shows, and of its
  * size, and so many times what constants and factors show; an operand counts that makes so large a part
  * of it. */
 static const double hidden = 8, hidden_still = 1.5, counts = 0.125;
 
-/* Test states: all inputs small, all large, then some of them small. SMALL, LARGE: powers of 2. */
+/* The test states: all inputs small, all large, then some of them small. SMALL, LARGE: powers of 2. */
 enum { SMALL = -20, LARGE = 10, STATES = 8 };
 
 /* What is shown: two directions in which the inputs are moved, and what constants and factors
@@ -240,7 +240,7 @@ typedef struct {
 
 /* Pseudo-random bits for input i in row k. */
 static uint32_t
-mixed(size_t i, size_t k)
+pseudo_random_bits(size_t i, size_t k)
 {
     uint32_t x = (uint32_t)(i + 1) * UINT32_C(2654435769) + (uint32_t)(k + 1) * UINT32_C(2246822519);
 
@@ -256,13 +256,13 @@ marking_begin(marking *m, size_t state)
 
     memset(m->errors, 0, (1 + SHOWN) * m->tape->places * sizeof *m->errors);
     for (size_t i = 0; i < inputs; i++) {
-        const uint32_t bits = mixed(i, 0);
-        const bool small = state == 0 || (state > 1 && mixed(i, state) & 1);
+        const uint32_t bits = pseudo_random_bits(i, 0);
+        const bool small = state == 0 || (state > 1 && pseudo_random_bits(i, state) & 1);
         const double size = ldexp(1 + ldexp(bits >> 1, -31), small ? SMALL : state == 1 ? LARGE : 0);
 
         in[i] = bits & 1 ? size : -size;
         for (size_t k = 0; k < MOVED; k++)
-            m->shown[k][i] = mixed(i, STATES + k) & 1 ? unit * in[i] : -unit * in[i];
+            m->shown[k][i] = pseudo_random_bits(i, STATES + k) & 1 ? unit * in[i] : -unit * in[i];
     }
     for (size_t k = 0; k < m->tape->constants; k++) {
         const double value = in[inputs + k] = m->tape->constant[k];
@@ -307,7 +307,7 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
     }
 }
 
-/* How the result of an instruction changes with the marked errors, from the slopes of its operands. */
+/* Find how the result of an instruction changes with the marked errors, from the slopes of its operands. */
 static void
 marking_show_result(const marking *m, const qdot_instruction *i, const double *slope, double *by)
 {
@@ -362,7 +362,7 @@ marking_carry_out(marking *m, size_t at)
     }
 }
 
-/* --- factors ------------------------------------------------------------------------- */
+/* --- inserting factors near 1 -------------------------------------------------------- */
 
 /* Make room for `more` constants after those of the tape. */
 static qdot_status
@@ -384,14 +384,14 @@ factors_make_room(qdot_tape *t, size_t more)
     return constant && side && low && exact ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The number of slot `place` after `more` constants have been inserted before it. */
+/* The number of slot `place` once `more` constants have been inserted before it. */
 static uint32_t
 moved_on(const qdot_tape *t, uint32_t place, size_t more)
 {
     return place < t->inputs + t->constants ? place : place + (uint32_t)more;
 }
 
-/* The constant 1 + side ulps among those from `first` on; it is added if missing. */
+/* Find the constant 1 + side ulps among those from `first` on; it is added if missing. */
 static uint32_t
 factor_constant(qdot_tape *t, size_t first, size_t *made, signed char side)
 {

@@ -1,4 +1,4 @@
-/* shake.c -- copies a tape with constants replaced by neighbouring doubles. */
+/* shake.c -- copies a tape with its constants replaced by neighbouring doubles, to show rounding errors. */
 #include "tape/shake.h"
 
 #include <math.h>

@@ -34,7 +34,7 @@ size_t qdot_tape_operations(const qdot_tape *tape); /* operations an evaluation 
 /* The number of calls of elementary functions (sincos counts once). */
 size_t qdot_tape_calls(const qdot_tape *tape);
 
-/* out [m] = outputs at in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
+/* Evaluate outputs out [m] at in [n]; work [qdot_tape_work]. Never fails; NaN and inf by IEEE 754. */
 void qdot_tape_eval(const qdot_tape *tape, const double *in, double *out, double *work);
 
 #endif
