@@ -1,4 +1,4 @@
-/* completion.c -- the TAB key. */
+/* completion.c -- completes words at the prompt when TAB is pressed. */
 #include "completion.h"
 
 #include <langinfo.h>
@@ -20,7 +20,7 @@ static struct {
     size_t n, next;
 } words;
 
-/* Readline takes and frees what is returned, so it comes from malloc. */
+/* The next of the words found; allocated by malloc, as readline frees it. */
 static char *
 next_word(const char *prefix, int again)
 {
@@ -98,7 +98,7 @@ complete(const char *prefix, int start, int end)
     return rl_completion_matches(prefix, next_word);
 }
 
-/* What ends a word to the left of the cursor; within quotes only the quote. */
+/* The characters that end a word to the left of the cursor; within quotes only the quote. */
 static char *
 breaks(void)
 {

@@ -12,7 +12,7 @@
  * (lang/workbench/complete.h). */
 void qdot_completion_install(qdot_session *session);
 
-/* The lines typed before the present one, to which it belongs; borrowed. */
+/* Set the earlier lines of the statement that is being typed; borrowed. */
 void qdot_completion_continue(const char *lines);
 
 #endif

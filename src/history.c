@@ -1,4 +1,4 @@
-/* history.c -- the statements typed, kept between sessions. */
+/* history.c -- keeps the statements typed at the prompt in a file between sessions. */
 #include "history.h"
 
 #include <errno.h>
@@ -45,7 +45,7 @@ find_path(void)
         qdot_text_format(&path, "%s/.local/state/qdot/history", home);
 }
 
-/* Every `from` of the text becomes `to`. */
+/* Replace every character `from` of the text by `to`. */
 static void
 replace(char *text, char from, char to)
 {

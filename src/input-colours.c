@@ -33,14 +33,14 @@ static const char *const colours[] = {
     [QDOT_HIGHLIGHT_WRONG] = QDOT_RED,
 };
 
-/* --- where characters stand ------------------------------------------------------------- */
+/* --- positions of characters on the screen ---------------------------------------------- */
 
 typedef struct {
     int columns, rows; /* of the terminal */
     int x, row;        /* of the next character, from the row that the prompt begins in */
 } place;
 
-/* Columns of the character at `text`, *bytes its length; negative: that cannot be known. */
+/* The number of columns of the character at `text`, *bytes its length; negative: unknown. */
 static int
 columns_of(const char *text, size_t *bytes)
 {
@@ -52,7 +52,7 @@ columns_of(const char *text, size_t *bytes)
     return n == 0 || n == (size_t)-1 || n == (size_t)-2 ? -1 : wcwidth(c);
 }
 
-/* Where a character as wide as that is put: one that has no room in its row is in the next. */
+/* The place of a character with that many columns: in the next row if it has no room in the present one. */
 static place
 character_place(place p, int columns)
 {
@@ -63,9 +63,9 @@ character_place(place p, int columns)
     return p;
 }
 
-/* The place behind it. */
+/* The place after a character that is put at p. */
 static place
-behind(place p, int columns)
+place_behind(place p, int columns)
 {
     p = character_place(p, columns);
     p.x += columns;
@@ -84,7 +84,7 @@ below(place p)
     return p;
 }
 
-/* Step over text; false: it holds a character of unknown width. */
+/* Step over text; false: it contains a character of unknown width. */
 static bool
 step_over(place *p, const char *text, size_t n)
 {
@@ -99,12 +99,12 @@ step_over(place *p, const char *text, size_t n)
         columns = columns_of(text + i, &bytes);
         if (columns < 0)
             return false;
-        *p = behind(*p, columns);
+        *p = place_behind(*p, columns);
     }
     return true;
 }
 
-/* The prompt that is shown, also that of a search, without what readline is told to skip. */
+/* Step over the prompt as it is shown, also that of a search, without what readline is told to ignore. */
 static bool
 step_over_prompt(place *p)
 {
@@ -121,7 +121,7 @@ step_over_prompt(place *p)
     return true;
 }
 
-/* --- writing ---------------------------------------------------------------------------- */
+/* --- painting the line ------------------------------------------------------------------ */
 
 static void
 move(int rows, int x)
@@ -133,7 +133,7 @@ move(int rows, int x)
         fprintf(rl_outstream, "\033[%dC", x);
 }
 
-/* The line in its colours, from place p on, where the cursor is. All its characters have a width. */
+/* Write the line in its colours from place p, where the cursor is. All its characters have a width. */
 static void
 write_line(place p, const uint8_t *kinds)
 {
@@ -162,12 +162,12 @@ write_line(place p, const uint8_t *kinds)
             now = kinds[i];
         }
         fwrite(text + i, 1, bytes, rl_outstream);
-        p = behind(p, columns);
+        p = place_behind(p, columns);
     }
     fputs(now != QDOT_HIGHLIGHT_PLAIN ? QDOT_COLOUR_END : "", rl_outstream);
 }
 
-/* The kinds of the bytes of the line, which may go on others; NULL: no memory. */
+/* Find the kinds of the bytes of the line, which may continue earlier lines; NULL: no memory. */
 static uint8_t *
 kinds_of_line(size_t *before)
 {
@@ -187,7 +187,7 @@ kinds_of_line(size_t *before)
     return kinds;
 }
 
-/* Whether more is to be read: the next time is soon enough for a long line that is pasted. */
+/* Whether more input is waiting: a long line that is being pasted is painted only after it. */
 static bool
 waits(void)
 {
@@ -196,9 +196,9 @@ waits(void)
     return rl_end > LONG_LINE && poll(&input, 1, 0) > 0;
 }
 
-/* Paint over what readline has shown. */
+/* Paint the colours over what readline has shown. */
 static void
-paint(void)
+paint_line(void)
 {
     place start = {0}, cursor, end;
     uint8_t *kinds;
@@ -227,7 +227,7 @@ static void
 redisplay(void)
 {
     rl_redisplay();
-    paint();
+    paint_line();
 }
 
 void

@@ -7,9 +7,9 @@
 
 #include "lang/session/parts.h"
 
-/* From now on, if rl_outstream shows colours. */
+/* Colour the line being typed from now on, if rl_outstream shows colours. */
 void qdot_input_colours_install(const qdot_session *session);
-/* For a statement of several lines: the lines before the one that is typed. */
+/* Set the earlier lines of a statement of several lines. */
 void qdot_input_colours_continue(const char *before);
 
 #endif

@@ -21,7 +21,7 @@ static const char *const libraries[] = {
 #undef FUNCTION
 };
 
-/* Names one after another: pointers to them would have to be relocated at every start. */
+/* Names of functions, one after another; pointers to them would have to be relocated at every start. */
 static const char names[] =
 #define LIBRARY(name)
 #define FUNCTION(number, name) #name "\0"
@@ -42,7 +42,7 @@ void *qdot_late_find(size_t number);
 enum { LIBRARIES = sizeof libraries / sizeof *libraries };
 static void *handle[LIBRARIES];
 
-/* As the loader does at the start of a program that cannot run. */
+/* End the program as the loader does when a library or function is missing at the start. */
 static __attribute__((noreturn)) void
 give_up(void)
 {

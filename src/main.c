@@ -1,4 +1,4 @@
-/* main.c -- the program: options, scripts in their order, the prompt, the exit status. */
+/* main.c -- the program: reads options, runs scripts in their order, then the prompt; gives the exit status. */
 #include <errno.h>
 #include <getopt.h>
 #include <langinfo.h>
@@ -73,7 +73,7 @@ typedef struct {
 typedef struct {
     qdot_vec(task) tasks;
     bool interactive, json, quiet, no_init;
-    const char *print; /* --help, --version: what to print instead of anything else */
+    const char *print; /* --help, --version: what to print instead of doing anything else */
 } options;
 
 static const struct option names[] = {
@@ -95,7 +95,7 @@ bad_usage(void)
     return qdot_fail(QDOT_EINVAL, "bad usage");
 }
 
-/* The kinds of num/kinds.h by their names. */
+/* Limit the processor kinds to be used (num/kinds.h) by name. */
 static qdot_status
 limit_processor(const char *name)
 {
@@ -115,7 +115,7 @@ options_read(int argc, char **argv, options *o)
 {
     int c;
 
-    /* the leading `-`: what is no option comes as option 1, in its place */
+    /* the leading `-` of the option list returns other arguments as option 1, in their order */
     while ((c = getopt_long(argc, argv, "-e:iq", names, NULL)) != -1) {
         switch (c) {
         case 1: QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, false}))); break;
@@ -135,7 +135,7 @@ options_read(int argc, char **argv, options *o)
     return QDOT_OK;
 }
 
-/* --- carrying out ------------------------------------------------------------------- */
+/* --- carrying out scripts and statements -------------------------------------------- */
 
 /* Greek and superscripts for a terminal that shows them, ASCII that parses back
  * elsewhere. */
@@ -176,7 +176,7 @@ tasks_carry_out(qdot_session *session, const options *o)
     return status;
 }
 
-/* `status`, or FAILED if not all of standard output could be written. */
+/* The exit status of the program: `status`, or FAILED if standard output could not be written completely. */
 static int
 finish(int status)
 {
@@ -230,7 +230,7 @@ join_ranks(const options *o)
     return QDOT_EINVAL;
 }
 
-/* Of a rank whose answers rank 0 gives. */
+/* Make the session of a rank whose answers are given by rank 0. */
 static qdot_session *
 unheard_session(void)
 {

@@ -1,4 +1,4 @@
-/* pager.c -- answers that are longer than the screen. */
+/* pager.c -- shows answers that are longer than the screen page by page. */
 #include "pager.h"
 
 #include <signal.h>
@@ -16,7 +16,7 @@ static FILE *collected, *out, *err; /* the session's files meanwhile */
 static char *text;
 static size_t length;
 
-/* The command that shows pages; NULL: none is wanted. */
+/* The command that shows pages; NULL if none is wanted. */
 static const char *
 command(void)
 {
@@ -49,7 +49,7 @@ qdot_pager_begin(qdot_session *session)
     return true;
 }
 
-/* The columns of a line without the codes for colours. */
+/* The number of columns of a line, without the codes for colours. */
 static size_t
 columns_of(const char *line, size_t n)
 {
@@ -81,7 +81,7 @@ is_longer_than_the_screen(void)
     return lines >= rows; /* the prompt takes a line too */
 }
 
-/* false: the command could not be started. */
+/* Show the collected answers; false: the command could not be started. */
 static bool
 show_pages(void)
 {

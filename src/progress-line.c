@@ -1,4 +1,4 @@
-/* progress-line.c -- the line that says how far long work is: `run: t = 12.3 of 20, ...`. */
+/* progress-line.c -- shows the progress of a long computation in one line: `run: t = 12.3 of 20, ...`. */
 #include "progress-line.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 static size_t columns_shown;
 
-/* 42 s, 3 min, 5.1 h */
+/* Append a duration such as 42 s, 3 min or 5.1 h. */
 static void
 add_duration(qdot_text *line, double seconds)
 {
@@ -47,7 +47,7 @@ show(const qdot_progress *p)
     }
     if (qdot_text_status(&line) == QDOT_OK &&
         qdot_terminal_size(stderr, &columns, &rows)) {
-        /* not to the last column, where some terminals go on to the next line */
+        /* stop before the last column, after which some terminals begin the next line */
         n = line.n < columns ? line.n : columns - 1;
         fprintf(stderr, "\r%.*s", (int)n, line.at);
         if (columns_shown > n)

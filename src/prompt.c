@@ -27,7 +27,7 @@
 #include "signals.h"
 #include "startup.h"
 
-/* --- a line ------------------------------------------------------------------------- */
+/* --- reading a line ----------------------------------------------------------------- */
 
 static struct {
     char *line; /* from readline, to be freed; NULL: the end of input */
@@ -80,7 +80,7 @@ clear_line(void)
 
 typedef enum { LINE, CLEARED, ENDED } line_kind;
 
-/* One line into *line (to be freed). CLEARED: Ctrl-C. */
+/* Read one line into *line (to be freed). CLEARED: Ctrl-C. */
 static line_kind
 read_line(const char *prompt, char **line)
 {
@@ -90,7 +90,7 @@ read_line(const char *prompt, char **line)
     (void)qdot_signals_take();
     rl_callback_handler_install(prompt, take_line);
     for (;;) {
-        /* before it sleeps: readline may have taken a signal while it showed the prompt */
+        /* check before waiting: readline may have received a signal while it showed the prompt */
         rl_check_signals();
         if (qdot_signals_take()) {
             clear_line();
@@ -105,7 +105,7 @@ read_line(const char *prompt, char **line)
     return answer.line != NULL ? LINE : ENDED;
 }
 
-/* --- the conversation --------------------------------------------------------------- */
+/* --- reading and carrying out statements -------------------------------------------- */
 
 static void
 prepare(qdot_session *session)
@@ -116,14 +116,14 @@ prepare(qdot_session *session)
     rl_outstream = session->output->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
     rl_persistent_signal_handlers = 1;
     rl_variable_bind("enable-bracketed-paste", "off");
-    /* where the locale knows ASCII only, the bytes of θ are still no keys with Meta */
+    /* where the locale knows only ASCII, do not take the bytes of θ for keys with Meta */
     rl_variable_bind("input-meta", "on");
     rl_variable_bind("output-meta", "on");
     rl_variable_bind("convert-meta", "off");
     qdot_input_colours_install(session);
 }
 
-/* `qdot 3> `, where %3 is the next value; what continues a line stands below it. */
+/* Write `qdot 3> `, where %3 is the next value; lines that continue a statement are aligned below it. */
 static void
 write_prompt(const qdot_session *session, bool first, qdot_text *prompt)
 {
@@ -138,7 +138,7 @@ write_prompt(const qdot_session *session, bool first, qdot_text *prompt)
         qdot_text_truncate(&plain, 0);
         qdot_text_format(&plain, "%*s", width, "...> ");
     }
-    /* readline does not count what stands between \001 and \002 */
+    /* readline does not count the characters between \001 and \002 */
     qdot_text_format(prompt, "%s%s%s", colours ? "\001" QDOT_BOLD QDOT_BLUE "\002" : "",
                      qdot_text_str(&plain), colours ? "\001" QDOT_COLOUR_END "\002" : "");
     qdot_text_clear(&plain);
@@ -171,14 +171,14 @@ read_statement(const qdot_session *session, qdot_text *text)
     qdot_text_clear(&prompt);
     if (text->n > 0 && text->at[text->n - 1] == '\n')
         qdot_text_truncate(text, text->n - 1); /* no line came behind it */
-    /* also of a statement given up: it may be recalled and mended */
+    /* also keep a statement that was given up: it may be recalled and corrected */
     if (!text->failed && text->n > 0)
         qdot_history_note(text->at);
-    /* Ctrl-D with a bracket open: let its error be told */
+    /* after Ctrl-D with a bracket open carry the text out, so that its error is reported */
     return kind == ENDED && text->n > 0 ? LINE : kind;
 }
 
-/* `?` is short for `help`: `?word` for `help word`, `??word` for `help search word`. */
+/* Write `?word` out as `help word`, and `??word` as `help search word`. */
 static void
 spell_out(qdot_text *text)
 {

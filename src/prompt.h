@@ -1,4 +1,4 @@
-/* prompt.h -- the conversation at a terminal. */
+/* prompt.h -- reads and carries out statements typed at a terminal. */
 #ifndef QDOT_PROMPT_H
 #define QDOT_PROMPT_H
 

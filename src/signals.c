@@ -22,7 +22,7 @@ on_interrupt(int signal_number)
         return;
     }
     if (computing && qdot_interrupt_flag) {
-        /* nobody listened to the first one */
+        /* a second Ctrl-C before the first one was handled ends the program */
         signal(signal_number, SIG_DFL);
         raise(signal_number);
         return;
@@ -35,7 +35,7 @@ qdot_signals_install(void)
 {
     struct sigaction action = {.sa_handler = on_interrupt};
 
-    /* No SA_RESTART: what waits for input or for gnuplot is to look up. */
+    /* No SA_RESTART, so that functions that wait for input or for gnuplot return. */
     sigemptyset(&action.sa_mask);
     if (qdot_rank() > 0)
         action.sa_handler = SIG_IGN; /* rank 0 ends it */

@@ -1,4 +1,5 @@
-/* signals.h -- what Ctrl-C means just now. */
+/* signals.h -- what Ctrl-C does: interrupts a computation, clears the line at the prompt, or ends
+ * the program. */
 #ifndef QDOT_SIGNALS_H
 #define QDOT_SIGNALS_H
 
@@ -8,16 +9,16 @@
  * (base/interrupt.h), a second one ends the program, unless it is patient. */
 void qdot_signals_install(void);
 
-/* A computation begins: an earlier Ctrl-C is forgotten. */
+/* Call when a computation begins: an earlier Ctrl-C is forgotten. */
 void qdot_signals_computing(void);
 
-/* Whether a second Ctrl-C only says how to end the program, which loses the session. */
+/* Choose whether a second Ctrl-C only tells how to end the program, as that would lose the session. */
 void qdot_signals_patient(bool on);
 
-/* The prompt waits: Ctrl-C is only noted. */
+/* Call when the prompt waits: Ctrl-C is only recorded. */
 void qdot_signals_waiting(void);
 
-/* Whether Ctrl-C came since the last question; forgets it. */
+/* Whether Ctrl-C was pressed since the last call; forgets it. */
 bool qdot_signals_take(void);
 
 #endif

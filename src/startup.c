@@ -1,4 +1,4 @@
-/* startup.c -- the startup file, read before the first prompt. */
+/* startup.c -- reads the startup file before the first prompt. */
 #include "startup.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* stream.c -- statements from a pipe, one after the other. */
+/* stream.c -- reads statements from a pipe and carries them out one after the other. */
 #include "stream.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include "lang/session/typed.h"
 #include "signals.h"
 
-/* A line, appended to `text`; false: there are no more. Ctrl-C interrupts the reading, not the line. */
+/* Append a line to `text`; false: there are no more. Ctrl-C interrupts the reading, not the line. */
 static bool
 stream_read_line(qdot_text *text)
 {

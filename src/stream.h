@@ -10,7 +10,7 @@
 
 #include "lang/workbench/script.h"
 
-/* To the end of standard input, or `quit`. */
+/* Carry out statements to the end of standard input, or to `quit`. */
 void qdot_stream_run(qdot_session *session);
 
 #endif
