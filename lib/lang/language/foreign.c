@@ -83,7 +83,7 @@ line_is_same(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text 
 /* Whether the line is of the same statement and keeps the unknown name that the error is about: then it would fail as
  * well. */
 static bool
-keeps_unknown(const qdot_cursor *c, const qdot_match *m, const char *line)
+keeps_unknown(const qdot_cursor *c, const qdot_pattern_match *m, const char *line)
 {
     const size_t n = strlen(m->from->text);
 

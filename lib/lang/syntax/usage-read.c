@@ -110,7 +110,7 @@ usage_take(qdot_usage *u, const qdot_token *token)
 
         u->operand = operand;
         if (at->kind == QDOT_USAGE_HOLE &&
-            (old[i].inside ? continues(u, at, token) : begins(u, at, token) && !word)) {
+            (old[i].inside ? continues_expression(u, at, token) : begins(u, at, token) && !word)) {
             u->operand = after;
             add_state(u, old[i].node, true, old[i].taken);
         } else if (is_next(u, &old[i], token)) {

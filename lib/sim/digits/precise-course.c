@@ -139,6 +139,16 @@ begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size
     return found;
 }
 
+static qdot_status
+beyond_doubles(double t)
+{
+    qdot_fail(QDOT_ELIMIT,
+              "what happens at t = %.15g cannot be told apart in doubles, which `digits` "
+              "follows through events and switches",
+              t);
+    return qdot_hint("a run that ends before t = %.6g", t);
+}
+
 qdot_status
 qdot_precise_course_init(qdot_precise_side *s)
 {
@@ -164,6 +174,9 @@ qdot_precise_course_init(qdot_precise_side *s)
             QDOT_TRY(qdot_precise_bind_new(mode_of(s, mode)->plan, s->order,
                                            s->start.bits, &s->binds[mode]));
     }
+    for (size_t i = 0; i < g->faded.n; i++)
+        if (g->faded.at[i].touched && qdot_staged_event_acts(&g->stage->events.at[g->faded.at[i].event]))
+            return beyond_doubles(g->faded.at[i].from);
     for (size_t i = 0; i < g->ends.n; i++) {
         const qdot_course_end *e = &g->ends.at[i];
         bool many;
@@ -192,16 +205,6 @@ length_of(const qdot_course *g, size_t piece)
     const qdot_trajectory *tr = &g->tr;
 
     return fabs(tr->t[qdot_trajectory_last_of(tr, piece)] - tr->t[tr->pieces.at[piece].first]);
-}
-
-static qdot_status
-beyond_doubles(double t)
-{
-    qdot_fail(QDOT_ELIMIT,
-              "what happens at t = %.15g cannot be told apart in doubles, which `digits` "
-              "follows through events and switches",
-              t);
-    return qdot_hint("a run that ends before t = %.6g", t);
 }
 
 /* Carry out the changes at the ends [n] of a piece, each on what those before it have made: s->course->y becomes the
@@ -372,7 +375,7 @@ does_not_rest(double t)
 
 /* Integrate one more flight in the present mode, to the next impact on the same surface. */
 static qdot_status
-fly(qdot_precise_side *s, size_t mode, const qdot_precise_formula *f, const qdot_course_end *end)
+integrate_flight(qdot_precise_side *s, size_t mode, const qdot_precise_formula *f, const qdot_course_end *end)
 {
     qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
     const size_t segment = s->segments.n;
