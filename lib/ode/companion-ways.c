@@ -211,6 +211,15 @@ first_of_size(size_t n, const double *y, size_t i)
     return k;
 }
 
+bool
+qdot_companion_has_alike(size_t n, const double *y)
+{
+    for (size_t i = 0; i < n; i++)
+        if (first_of_size(n, y, i) != i)
+            return true;
+    return false;
+}
+
 void
 qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, bool alike, double tol,
                       double *start, double *low)
@@ -221,7 +230,7 @@ qdot_companion_beside(const double *scales, size_t n, const double *y, size_t nu
 
         start[i] = low ? y[i] : way * qdot_companion_moved(way * y[i], in, as, number);
         if (low)
-            low[i] += way * aside(tol, fmax(in, fabs(y[i])), as, number);
+            low[i] += way * initial_shift(tol, fmax(in, fabs(y[i])), as, number);
     }
 }
 

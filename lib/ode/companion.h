@@ -259,5 +259,7 @@ double qdot_companion_moved(double y, double scale, size_t i, size_t number);
 #define QDOT_COMPANION_AIMS 0.125
 void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, bool alike, double tol,
                            double *start, double *low);
+/* Whether some coordinates of y [n], or some velocities, are of one size. */
+bool qdot_companion_has_alike(size_t n, const double *y);
 
 #endif

@@ -305,11 +305,12 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         status = begin_beside(run, &system, number, how, t0, y, y + n);
         if (status != QDOT_OK) {
             status = status == QDOT_ENOMEM ? status : QDOT_OK;
+            *has = false;
             break;
         }
-        qdot_progress_begin(t0, goal(run), "error of the run");
-        qdot_ode_meter_begin(meter, t0, goal(run));
-        status = qdot_course_run(c, by->method, &options, t0, goal(run), y);
+        qdot_progress_begin(t0, companion_end(run), "error of the run");
+        qdot_ode_meter_begin(meter, t0, companion_end(run));
+        status = qdot_course_run(c, by->method, &options, t0, companion_end(run), y);
         if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
@@ -326,6 +327,8 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         *spent += meter->work;
         meter->spent = *spent;
         options.carry = y + n;
+        if (how == EACH && !qdot_companion_has_alike(n, run->start))
+            how = ALIKE; /* it would be the same once more */
         c->exact = how + 1 == NOT && run->course.exact;
     }
     qdot_free(y);
