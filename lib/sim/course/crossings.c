@@ -95,6 +95,7 @@ search_piece(search *s)
         QDOT_TRY(qdot_watch_new(s->c->stage->modes.at[mode]->plan, 1, &s->zeros.u, s->c->shaken,
                                 s->c->touch_tol, &s->watches[mode]));
         w = s->watches[mode];
+        qdot_watch_may_be_flat(w, 0);
         QDOT_TRY(qdot_watch_turns(w, 0, s->zeros.turn, s->zeros.half));
     }
     qdot_watch_may_fade(w, 0, !qdot_sliding_is(&s->c->stage->switches, s->c->stage->modes.at[mode]->side));

@@ -37,9 +37,11 @@ qdot_piece_enter(qdot_piece *x)
         if (m->watched[i].kind == QDOT_WATCH_DOMAIN)
             qdot_watch_is_bound(c->watches.at[x->mode], i, m->watched[i].coordinate,
                                 m->watched[i].bound);
-    for (size_t i = 0; i < c->stage->events.n; i++)
+    for (size_t i = 0; i < c->stage->events.n; i++) {
+        qdot_watch_may_be_flat(c->watches.at[x->mode], i);
         QDOT_TRY(qdot_watch_turns(c->watches.at[x->mode], i, c->stage->events.at[i].turn,
                                   c->stage->events.at[i].half));
+    }
     return QDOT_OK;
 }
 

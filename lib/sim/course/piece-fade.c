@@ -1,5 +1,6 @@
 /* piece-fade.c -- stops the search for events whose function has decayed below the rounding error
  * of the run. */
+#include <float.h>
 #include <math.h>
 
 #include "sim/course/piece.h"
@@ -61,6 +62,32 @@ qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
         return QDOT_OK;
     }
     if (x->c->stage->events.at[w->index].undoing)
+        return QDOT_OK;
+    return qdot_vec_push(&x->c->faded, ((qdot_course_faded){w->index, root->t - blur, root->t + blur, true}));
+}
+
+/* Whether a root lies within what rounding hides about the occurrence of the event before it; one within the tolerance of a
+ * touch may be its other crossing, but no second touch. */
+static bool
+is_hidden_by_earlier(const qdot_piece *x, size_t event, const qdot_root *root)
+{
+    for (size_t k = x->c->occurrences.n; k-- > 0;) {
+        const qdot_occurrence *o = &x->c->occurrences.at[k];
+        const double apart = fabs(o->t - root->t);
+
+        if (o->event == event)
+            return (o->within == 0 || root->way == 0) && apart <= o->blur && apart > 16 * DBL_EPSILON * fabs(root->t);
+    }
+    return false;
+}
+
+qdot_status
+qdot_piece_doubt_root(qdot_piece *x, const qdot_root *root)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+    const double blur = x->direction * root->blur;
+
+    if (w->kind != QDOT_WATCH_EVENT || (!root->several && !is_hidden_by_earlier(x, w->index, root)))
         return QDOT_OK;
     return qdot_vec_push(&x->c->faded, ((qdot_course_faded){w->index, root->t - blur, root->t + blur, true}));
 }

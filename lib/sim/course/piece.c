@@ -405,6 +405,7 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
                     QDOT_TRY(qdot_vec_push(&x->roots, roots[k]));
                 }
         }
+        QDOT_TRY(qdot_piece_doubt_root(x, &roots[i]));
         QDOT_TRY(note(x, &roots[i]));
         if (x->intent == QDOT_PIECE_ENDS)
             QDOT_TRY(qdot_vec_push(&x->roots, roots[i]));

@@ -213,6 +213,8 @@ QDOT_MUST_CHECK qdot_status qdot_piece_take_faded(qdot_piece *x, double t);
 /* A root that is no occurrence, for it only touches where the event is to rise or fall: it may be two crossings that a
  * tighter tolerance (c->passed_over), or nothing in this run (c->faded), tells from a touch. */
 QDOT_MUST_CHECK qdot_status qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root);
+/* An occurrence so near others that rounding hides how many there are: c->faded has it, and the error is unknown. */
+QDOT_MUST_CHECK qdot_status qdot_piece_doubt_root(qdot_piece *x, const qdot_root *root);
 /* Record an event that is met at the start of a piece if its direction fits; also in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 

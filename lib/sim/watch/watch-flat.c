@@ -94,10 +94,27 @@ noise_at(qdot_watch *w, size_t i, double t, double *noise)
     return QDOT_OK;
 }
 
+qdot_status
+qdot_watch_noise_deep(qdot_watch *w, const qdot_watch_part *p, size_t i, double *noise)
+{
+    double end;
+
+    QDOT_TRY(noise_at(w, i, p->a, noise));
+    QDOT_TRY(noise_at(w, i, p->b, &end));
+    *noise = fmax(*noise, end);
+    return QDOT_OK;
+}
+
+void
+qdot_watch_may_be_flat(qdot_watch *w, size_t i)
+{
+    w->may_be_flat[i] = true;
+}
+
 static bool
 may_have_many(const qdot_watch *w, size_t i)
 {
-    return w->reader.alone && !w->accelerations && w->coordinate[i] == SIZE_MAX;
+    return w->may_be_flat[i] && w->reader.alone && !w->accelerations && w->coordinate[i] == SIZE_MAX;
 }
 
 static qdot_status
@@ -349,6 +366,27 @@ find_width(qdot_watch *w, const flat_range *of, qdot_root *root, double *noise)
     return QDOT_OK;
 }
 
+/* Take note of a crossing beside which the function has the other sign somewhere, as far as its operations in doubles round
+ * by `hidden`: it is one of several that doubles do not tell apart. */
+static qdot_status
+look_for_several(qdot_watch *w, const flat_range *of, double noise, double hidden, qdot_root *root)
+{
+    for (int side = 0; side < 2 && !root->several; side++) {
+        const double end = side == 0 ? of->from : of->to, way = end < root->t ? -1 : 1;
+        const int sign = side == 0 ? -root->way : root->way;
+        double at = root->t, g = 0;
+
+        for (double by = of->ulp; at != end && !root->several && sign * g <= 64 * hidden; by *= 1.5) {
+            at = way * (root->t + way * by - end) < 0 ? root->t + way * by : end;
+            QDOT_TRY(value_in_digits(w, root->function, at, &g));
+            root->several = sign * g < -noise;
+        }
+        if (root->several)
+            root->blur = fmax(root->blur, fabs(at - root->t));
+    }
+    return QDOT_OK;
+}
+
 static flat_range
 flat_range_of(const qdot_watch *w, const qdot_watch_part *p, double t)
 {
@@ -365,7 +403,7 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
     const size_t i = root->function;
     const double length = fabs(p->b - p->a);
     const flat_range of = flat_range_of(w, p, root->t);
-    double noise, lo, hi, room, h;
+    double noise, hidden, lo, hi, room, h;
     bool before, behind;
 
     *is = true;
@@ -391,6 +429,11 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
         return QDOT_OK;
     if (fabs(hi - lo) > 4 * of.ulp)
         QDOT_TRY(bisect(w, i, root->way, lo, hi, root));
+    QDOT_TRY(w->reader.read(root->t, w->in, w->reader.user));
+    QDOT_TRY(qdot_watch_operations(w, root->t, false, i, &hidden));
+    QDOT_TRY(look_for_several(w, &of, noise, hidden, root));
+    if (root->several)
+        return QDOT_OK;
     QDOT_TRY(find_width(w, &of, root, &noise));
     h = fmax(64 * of.ulp, 16 * root->flat);
     if (fmin(fabs(root->t - of.from), fabs(of.to - root->t)) > 2 * h)
@@ -405,6 +448,7 @@ qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qd
     const size_t i = root->function;
     const double length = fabs(p->b - p->a);
     const flat_range of = flat_range_of(w, p, root->t);
+    const qdot_root seen = *root;
     double noise, at;
     int sign[2] = {0, 0};
 
@@ -427,6 +471,13 @@ qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qd
     *is = sign[0] == sign[1];
     if (*is)
         QDOT_TRY(make_touch(w, &of, sign[0], root, is));
+    if (!*is && sign[0] == sign[1]) {
+        QDOT_TRY(value_in_digits(w, i, root->t, &at));
+        if (sign[0] * at < 0) { /* beyond the near sides the sign is the other one: two crossings */
+            *root = seen;
+            root->several = *is = true;
+        }
+    }
     *is = *is && !is_found_already(w, root);
     return QDOT_OK;
 }

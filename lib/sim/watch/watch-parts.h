@@ -59,6 +59,7 @@ struct qdot_watch {
     double *settled; /* [m] the time of the flat root located last; NaN: none */
     bool *deep;      /* [m] values are in many digits: the first step of a piece that starts on it */
     bool any_deep;
+    bool *may_be_flat; /* [m] roots are located in many digits where that is wanted */
     int *leaves;     /* [m] the sign of these just after the start */
     struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
     bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
@@ -339,6 +340,8 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin_deep(qdot_watch *w, const double *l
 QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w);
 QDOT_MUST_CHECK qdot_status qdot_watch_value_deep(qdot_watch *w, double t, double *g);
 void qdot_watch_end_deep(qdot_watch *w);
+/* What rounding of the state makes of a deep function at the ends of the part. */
+QDOT_MUST_CHECK qdot_status qdot_watch_noise_deep(qdot_watch *w, const qdot_watch_part *p, size_t i, double *noise);
 void qdot_watch_clear_flat(qdot_watch *w);
 
 /* --- touches (watch-touches.c) ------------------------------------------------------- */

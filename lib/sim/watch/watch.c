@@ -608,7 +608,7 @@ watch_make_room(qdot_watch *w)
                                  (DEEPEST + 2) * m + m,
                              sizeof *at);
     int *signs = qdot_calloc(7 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(14 * m + 1, sizeof *flags);
+    bool *flags = qdot_calloc(15 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -664,6 +664,7 @@ watch_make_room(qdot_watch *w)
     w->may_fade = flags + 11 * m;
     w->fading = flags + 12 * m;
     w->deep = flags + 13 * m;
+    w->may_be_flat = flags + 14 * m;
     return QDOT_OK;
 }
 

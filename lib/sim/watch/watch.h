@@ -54,6 +54,10 @@ void qdot_watch_free(qdot_watch *w);
 /* Declare that g_i is coordinate - bound: a step that stays far from the bound is not searched. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 
+/* Let roots of g_i at which it is flat be located in many digits: of an event, whose time counts. Not of a switch, which
+ * the motion may meet again at once. */
+void qdot_watch_may_be_flat(qdot_watch *w, size_t i);
+
 /* Declare that g_i stands for another function f, which at a zero of g_i changes its sign as g_i * turn does
  * (sim/model/repeated-zeros.h). `half`: f is not 0 where turn < 0; such a root of g_i is given as a pole. Errors: as
  * qdot_tape_new. */
