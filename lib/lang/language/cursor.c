@@ -98,16 +98,28 @@ joins_parts(const qdot_session *s, const qdot_token *t)
     return t->kind == QDOT_TOKEN_NAME && !t->glued && is_one_of(t, words) && !qdot_cursor_knows(s, t->text);
 }
 
-/* Whether the name has a meaning, also as a differential, du or δs, or as the member that a subscript denotes, l₃. */
+/* Whether the name is declared, and no function. */
 static bool
-knows_factor(const qdot_session *s, const char *name)
+is_declared_value(const qdot_session *s, const char *name)
+{
+    const qdot_name *n = qdot_names_find(s->names, name);
+
+    return n != NULL ? n->kind != QDOT_NAME_FUNCTION && n->kind != QDOT_NAME_UFUN
+                     : strcmp(name, "pi") == 0 || strcmp(name, "t") == 0;
+}
+
+/* Whether the name may be a factor: declared, also as a differential, du or δs, or as the member that a subscript denotes,
+ * l₃; within brackets one that nobody knows, such as the index of a sum. A word of the language, as `tol` or `size`, is
+ * none. */
+static bool
+is_factor(const qdot_session *s, const char *name, bool inside)
 {
     qdot_text member = {0};
-    bool known = qdot_cursor_knows(s, name) || (name[0] == 'd' && qdot_cursor_knows(s, name + 1)) ||
-                 (strncmp(name, "delta", 5) == 0 && qdot_cursor_knows(s, name + 5));
+    bool known = is_declared_value(s, name) || (inside && !qdot_cursor_knows(s, name)) || (name[0] == 'd' && is_declared_value(s, name + 1)) ||
+                 (strncmp(name, "delta", 5) == 0 && is_declared_value(s, name + 5));
 
     for (unsigned form = 0; !known && qdot_resolve_small(name, form, &member); form++)
-        known = qdot_cursor_knows(s, qdot_text_str(&member));
+        known = is_declared_value(s, qdot_text_str(&member));
     qdot_text_clear(&member);
     return known;
 }
@@ -115,11 +127,14 @@ knows_factor(const qdot_session *s, const char *name)
 bool
 qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside)
 {
-    if (!t->shown || t->glued || !token_ends_operand(t - 1))
+    if (!t->shown || t->glued || !token_ends_operand(t - 1) ||
+        (t[-1].kind == QDOT_TOKEN_NAME && !is_factor(s, t[-1].text, inside)))
         return false;
     if (t->kind != QDOT_TOKEN_NAME)
         return t->kind != QDOT_TOKEN_NUMBER && begins_operand(t);
-    return token_ends_operand(t) && (inside || (knows_factor(s, t->text) && !joins_parts(s, t)));
+    return is_factor(s, t->text, inside) ||
+           (qdot_cursor_knows(s, t->text) && t[1].glued &&
+            (qdot_token_bracket(t + 1) > 0 || qdot_token_is(t + 1, "^")));
 }
 
 /* --- errors ------------------------------------------------------------------------- */

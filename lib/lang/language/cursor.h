@@ -24,7 +24,7 @@ qdot_status qdot_cursor_expected(qdot_cursor *c, const char *what);
 QDOT_MUST_CHECK qdot_status qdot_cursor_expect_op(qdot_cursor *c, const char *op);
 QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
 /* Whether the blank before this token, which is not the first one, is a product, as in `½ m v²`: between two operands of
- * a statement that is written as the screen shows formulas. inside: within brackets, where no option word stands. */
+ * a statement that is written as the screen shows formulas, of which none is a word of the language. inside: within ( ) or [ ]. */
 bool qdot_cursor_is_shown_product(const qdot_session *s, const qdot_token *t, bool inside);
 /* The byte after the operand that begins with `t`, including its brackets and primes. */
 size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
