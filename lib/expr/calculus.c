@@ -360,6 +360,19 @@ by_from(const void *a, const void *b)
     return *x < *y ? -1 : *x > *y;
 }
 
+/* What if(...) chooses where the replacements decide it: what it does not choose need not be defined there. */
+static qdot_expr
+choose_branch(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const struct replacements *r = user;
+    qdot_expr c;
+
+    if (NODE(pool, node)->op != QDOT_IF)
+        return node;
+    c = qdot_subs(pool, ARGS(pool, node)[0], r->n, r->from, r->to);
+    return c == QDOT_NIL ? QDOT_NIL : c == QDOT_TRUE ? ARGS(pool, node)[1] : c == QDOT_FALSE ? ARGS(pool, node)[2] : node;
+}
+
 qdot_expr
 qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
           const qdot_expr *to)
@@ -375,6 +388,8 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
         if (NODE(pool, from[i])->touches == 0) /* a number, or of numbers only */
             holds = UINT32_MAX;
     }
+    if (pool->choices && e != QDOT_NIL && (NODE(pool, e)->holds & QDOT_HAS_FUN) != 0)
+        e = qdot_walk_replace(pool, e, QDOT_FUN, choose_branch, &r);
     if (n < 8)
         return qdot_walk_map_where(pool, e, holds, touches, replacement, &r);
     pairs = qdot_malloc(4 * n * sizeof *pairs);

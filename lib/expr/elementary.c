@@ -500,7 +500,10 @@ fold_if(qdot_pool *pool, const qdot_expr *args)
                                 "the condition of if must be a comparison such as x > 0");
     if (!qdot_pool_is_scalar(pool, args[1]) || !qdot_pool_is_scalar(pool, args[2]))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "if chooses between numbers");
-    return args[1] == args[2] ? args[1] : plain(pool, QDOT_IF, 3, args);
+    if (args[1] == args[2])
+        return args[1];
+    pool->choices = true;
+    return plain(pool, QDOT_IF, 3, args);
 }
 
 qdot_expr

@@ -27,6 +27,7 @@ struct qdot_pool {
     struct qdot_printed *printed; /* texts, a cache: printing leaves the pool as it is */
     qdot_memo *memo;              /* answers (expr/memo), NULL: none was kept yet */
     uint32_t domains;             /* how often the domain of a symbol changed */
+    bool choices;                 /* some expression holds if(...) */
 };
 
 /* The node with these args, created if new; args may point into the pool. Nil on failure. */

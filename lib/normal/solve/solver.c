@@ -8,6 +8,7 @@
 #include "expr/function.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"
@@ -78,6 +79,21 @@ vanishes_somewhere(const qdot_solver *s, qdot_expr e, const qdot_facts *facts, b
     return qdot_pool_check(s->pool);
 }
 
+/* Take note that f has no value at a place, with what it does not choose there: if(...) may choose otherwise for some
+ * parameters. */
+static qdot_status
+look_for_choices(qdot_solver *s)
+{
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(s->pool, s->f, &w));
+    for (size_t i = 0; i < w.n; i++)
+        if (qdot_expr_is_function(s->pool, w.at[i], QDOT_IF))
+            s->out->complete = false;
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
 /* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some
  * parameters only, no condition says for which: then these are not all. */
 static qdot_status
@@ -91,7 +107,7 @@ is_root(qdot_solver *s, qdot_expr value, const qdot_facts *facts, bool *yes)
     if (at == QDOT_NIL) { /* not defined there */
         qdot_status status = qdot_pool_check(s->pool);
 
-        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+        return status == QDOT_EDOMAIN ? look_for_choices(s) : status;
     }
     QDOT_TRY(qdot_decide_equal(s->pool, at, QDOT_ZERO, facts, &d));
     *yes = d.verdict != QDOT_REFUTED;

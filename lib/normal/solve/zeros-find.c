@@ -1,6 +1,8 @@
 /* zeros-find.c -- finds all zeros in a box: splits equations into systems, treats infinity and
  * ends, merges results. */
 #include "expr/build.h"
+#include "expr/elementary.h"
+#include "expr/function.h"
 #include "expr/node.h"
 #include "normal/solve/zeros.h"
 
@@ -414,7 +416,7 @@ look_at_base(qdot_zeros_task *t, qdot_expr base)
     QDOT_TRY(qdot_enclosure_new(t->pool, 1, &base, t->n, t->x, &bounds));
     qdot_enclosure_eval(bounds, t->bounds, false);
     v = qdot_enclosure_get(bounds, 0);
-    if (v->state != QDOT_ENCLOSURE_NOWHERE && v->y.lo < 0) {
+    if (v->state != QDOT_ENCLOSURE_NOWHERE && (t->n > 1 ? v->y.hi : v->y.lo) < 0) {
         t->single = true;
         t->nowhere = t->nowhere || v->y.hi < 0;
     }
@@ -428,12 +430,14 @@ static qdot_status
 find_single(qdot_zeros_task *t)
 {
     qdot_status status = QDOT_OK;
+    bool chosen = false;
     qdot_walk w;
 
     QDOT_TRY(qdot_walk_begin_n(t->pool, t->n, t->F, &w));
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
         const uint32_t n = qdot_expr_kind(t->pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(t->pool, w.at[i]) : 0;
 
+        chosen = chosen || qdot_expr_is_function(t->pool, w.at[i], QDOT_IF);
         for (uint32_t k = 1; k + 1 < n && status == QDOT_OK; k += 2) {
             const qdot_expr power = qdot_expr_arg(t->pool, w.at[i], k + 1);
             bool varies = false;
@@ -445,6 +449,7 @@ find_single(qdot_zeros_task *t)
         }
     }
     qdot_walk_end(&w);
+    t->nowhere = t->nowhere && !chosen; /* if(...) may not choose the power */
     return status;
 }
 
