@@ -117,18 +117,19 @@ struct numbers {
     bool fraction, decimal, long_decimal;
 };
 
-enum { SHORT_DENOMINATOR = 10000 };
+enum { LARGEST_SHORT = 20 }; /* in numerator and denominator: 1/5 and 3/20, but 9.81 stays */
 
 static void
 note_number(const fmpq_t x, struct numbers *seen)
 {
+    static const fmpz largest[1] = {LARGEST_SHORT};
     ulong fives, twos;
 
     if (fmpz_is_one(fmpq_denref(x)))
         return;
     if (is_decimal(x)) {
         seen->decimal = true;
-        seen->long_decimal |= COEFF_IS_MPZ(*fmpq_denref(x)) || *fmpq_denref(x) > SHORT_DENOMINATOR;
+        seen->long_decimal |= fmpz_cmpabs(fmpq_numref(x), largest) > 0 || fmpz_cmp(fmpq_denref(x), largest) > 0;
     } else {
         seen->fraction |= !fives_and_twos(fmpq_denref(x), &fives, &twos);
     }
@@ -167,7 +168,7 @@ qdot_print_wants_fractions(const qdot_pool *pool, qdot_expr e, bool *wants)
 bool
 qdot_print_is_compact(const printer *p, const fmpq_t x)
 {
-    return fmpz_is_one(fmpq_denref(x)) || glyph(x) != NULL || qdot_print_says_decimal(p, x);
+    return fmpz_is_one(fmpq_denref(x)) || fraction_character(x) != NULL || qdot_print_says_decimal(p, x);
 }
 
 static void

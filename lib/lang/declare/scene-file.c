@@ -302,6 +302,8 @@ qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file wh
     qdot_text text = {0};
     qdot_status status;
 
+    if (dot != NULL && strchr(dot, '/') != NULL) /* of a folder */
+        dot = NULL;
     if (!qdot_scene_file_is(name)) {
         c->error_at = name->start;
         (void)qdot_fail(QDOT_ESYNTAX, "`%.200s`: statements are written to a file whose name ends in `.lag`", path);
