@@ -278,13 +278,16 @@ unknown_name(const matcher *m)
 {
     for (size_t k = 0; k < m->r->parts.n; k++) {
         const qdot_filled *part = &m->r->parts.at[k];
+        int depth = 0; /* the index of a sum means something within its brackets */
 
         if (part->node->kind != QDOT_USAGE_HOLE || !qdot_hole_is_expression(part->node))
             continue;
-        for (const qdot_token *t = part->from; t < part->to; t++)
-            if (t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t - 1, ".") && !qdot_token_is(t + 1, ".") &&
+        for (const qdot_token *t = part->from; t < part->to; t++) {
+            depth += qdot_token_bracket(t);
+            if (depth == 0 && t->kind == QDOT_TOKEN_NAME && !qdot_token_is(t - 1, ".") && !qdot_token_is(t + 1, ".") &&
                 !qdot_token_is(t + 1, "[") && !qdot_token_is(t + 1, "(") && !qdot_cursor_knows(m->c->session, t->text))
                 return t;
+        }
     }
     return NULL;
 }
