@@ -8,8 +8,8 @@
 #include "base/spelling.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
-#include "lang/language/evaluator.h"
 #include "lang/session/names.h"
+#include "lang/source/letters.h"
 #include "mech/scene/scene.h"
 
 bool
@@ -118,7 +118,7 @@ is_factor(const qdot_session *s, const char *name, bool inside)
     bool known = is_declared_value(s, name) || (inside && !qdot_cursor_knows(s, name)) || (name[0] == 'd' && is_declared_value(s, name + 1)) ||
                  (strncmp(name, "delta", 5) == 0 && is_declared_value(s, name + 5));
 
-    for (unsigned form = 0; !known && qdot_resolve_small(name, form, &member); form++)
+    for (unsigned form = 0; !known && qdot_subscript_means(name, form, &member); form++)
         known = is_declared_value(s, qdot_text_str(&member));
     qdot_text_clear(&member);
     return known;

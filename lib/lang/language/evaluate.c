@@ -18,6 +18,7 @@
 #include "lang/session/history.h"
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
+#include "lang/source/letters.h"
 #include "lang/source/lex.h"
 
 /* --- sums and products -------------------------------------------------------------- */
@@ -339,7 +340,7 @@ small_label(const qdot_scene *scene, const qdot_token *token, qdot_text *spelled
 {
     if (token->length == strlen(token->text) || qdot_scene_has_label(scene, token->text))
         return false;
-    for (unsigned form = 0; qdot_resolve_small(token->text, form, spelled); form++)
+    for (unsigned form = 0; qdot_subscript_means(token->text, form, spelled); form++)
         if (qdot_scene_has_label(scene, qdot_text_str(spelled)))
             return true;
     qdot_text_truncate(spelled, 0);

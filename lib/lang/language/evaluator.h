@@ -80,9 +80,6 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
 
 /* --- meaning of names and calls ----------------------------------------------------- */
 
-/* What a name with a subscript such as `x₁` may stand for if x1 is not declared: form 0 "x[1]",
- * form 1 "x_1". False: neither. */
-bool qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled);
 /* Evaluate a name with `primes` primes. *over: the coordinates by which its entries are indexed, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_name(qdot_cursor *c, const qdot_token *token,
                                               unsigned primes, qdot_expr *value,

@@ -274,22 +274,6 @@ member(qdot_session *s, const char *spelled, unsigned primes, bool *found,
     return differential(s, spelled, found, value);
 }
 
-bool
-qdot_resolve_small(const char *name, unsigned form, qdot_text *spelled)
-{
-    static const char *const forms[] = {"[%s]", "_%s"};
-    size_t n = strlen(name), digits = 0;
-
-    while (digits < n && strchr("0123456789", name[n - digits - 1]) != NULL)
-        digits++;
-    if (digits == 0 || digits == n || form >= sizeof forms / sizeof *forms)
-        return false;
-    qdot_text_truncate(spelled, 0);
-    qdot_text_add_n(spelled, name, n - digits);
-    qdot_text_format(spelled, forms[form], name + n - digits);
-    return true;
-}
-
 /* Whether a token is written with subscripts: x₁. */
 static bool
 is_small(const qdot_source *source, const qdot_token *token)
@@ -316,7 +300,7 @@ resolve_subscript(qdot_cursor *c, const qdot_token *token, unsigned primes, bool
     if (!is_small(c->source, token))
         return QDOT_OK;
     for (unsigned form = 0; status == QDOT_OK && !*found &&
-                            qdot_resolve_small(token->text, form, &spelled); form++) {
+                            qdot_subscript_means(token->text, form, &spelled); form++) {
         const char *name = qdot_text_str(&spelled);
 
         status = qdot_text_status(&spelled);

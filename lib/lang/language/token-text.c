@@ -6,6 +6,7 @@
 #include "expr/print-name.h"
 #include "expr/print.h"
 #include "lang/language/evaluator.h"
+#include "lang/source/letters.h"
 
 /* Whether a sign after this token stands between two operands. */
 static bool
@@ -69,7 +70,7 @@ add_small(const qdot_session *session, const qdot_token *token, qdot_text *out)
     if (token->kind == QDOT_TOKEN_NAME && token->length != strlen(token->text) &&
         qdot_names_find(session->names, token->text) == NULL)
         for (unsigned form = 0;
-             !is && qdot_resolve_small(token->text, form, &spelled); form++)
+             !is && qdot_subscript_means(token->text, form, &spelled); form++)
             is = qdot_names_find(session->names, qdot_text_str(&spelled)) != NULL;
     qdot_text_add(out, is ? qdot_text_str(&spelled) : "");
     qdot_text_clear(&spelled);

@@ -91,3 +91,19 @@ qdot_letters_dotted(const char *text, const char **letter)
         }
     return 0;
 }
+
+bool
+qdot_subscript_means(const char *name, unsigned form, qdot_text *spelled)
+{
+    static const char *const forms[] = {"[%s]", "_%s"};
+    size_t n = strlen(name), digits = 0;
+
+    while (digits < n && strchr("0123456789", name[n - digits - 1]) != NULL)
+        digits++;
+    if (digits == 0 || digits == n || form >= sizeof forms / sizeof *forms)
+        return false;
+    qdot_text_truncate(spelled, 0);
+    qdot_text_add_n(spelled, name, n - digits);
+    qdot_text_format(spelled, forms[form], name + n - digits);
+    return true;
+}

@@ -92,7 +92,7 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"start theta = 2 ", "exactly for"},
         {"set p", "part party"},
         {"set w", "wire"},
-        {"plot theta | plot theta vs phi ", "for from keep labels log range size title to"},
+        {"plot theta | plot theta vs phi ", "equal for from keep labels legend log points range size title to"},
         {"plot theta log x ti", "title"},
         {"plot theta log ", "x xy y"},
         {"style ", "flat latex mathml plain unicode"},
