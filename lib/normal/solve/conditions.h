@@ -50,6 +50,11 @@ qdot_expr qdot_conditions_of_function(qdot_pool *pool, qdot_expr function);
 /* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0.
  * (definedness.c) */
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
+/* A LIST of the bases of all powers in F [n] whose exponents contain one of the x [m]. Where such a base is negative the power
+ * is real at single places only. Nil: the pool failed. (definedness.c) */
+qdot_expr qdot_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x);
+/* Whether F [n] holds if(...): what it does not choose need not be defined. (definedness.c) */
+QDOT_MUST_CHECK qdot_status qdot_holds_choice(qdot_pool *pool, size_t n, const qdot_expr *F, bool *yes);
 /* u if the relation is 0 < |u|; else nil. */
 qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
 /* A relation with the two sides of u != 0, where negative terms are moved to the other side. */

@@ -62,23 +62,16 @@ solve_guarded(void *user)
         s->status = qdot_solve_sort(s->pool, s->out->root.n, s->out->root.at);
 }
 
-/* Find a power with x in its exponent and a negative base: it is real at single x, of which no formula tells. */
-static qdot_status
-find_negative_base(const qdot_pool *pool, qdot_expr f, qdot_expr x, bool *found)
+/* Whether some base of a power with x in its exponent is negative: no formula tells of the single x at which it is real. */
+static bool
+has_negative_base(qdot_pool *pool, qdot_expr f, qdot_expr x)
 {
-    qdot_walk w;
+    const qdot_expr bases = qdot_bases_of_powers(pool, 1, &f, 1, &x);
 
-    *found = false;
-    QDOT_TRY(qdot_walk_begin(pool, f, &w));
-    for (size_t i = 0; i < w.n; i++) {
-        const uint32_t n = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
-
-        for (uint32_t k = 1; k + 1 < n; k += 2)
-            *found = *found || ((qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_NEG) == QDOT_NEG
-                                && qdot_expr_contains(pool, qdot_expr_arg(pool, w.at[i], k + 1), x));
-    }
-    qdot_walk_end(&w);
-    return QDOT_OK;
+    for (uint32_t i = 0; bases != QDOT_NIL && i < qdot_expr_count(pool, bases); i++)
+        if ((qdot_expr_sign(pool, qdot_expr_arg(pool, bases, i)) & QDOT_NEG) == QDOT_NEG)
+            return true;
+    return false;
 }
 
 static qdot_status
@@ -87,12 +80,9 @@ solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *writt
 {
     qdot_solver s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .out = out};
     qdot_status status;
-    bool negative;
 
-    *out = (qdot_solutions){.complete = true};
+    *out = (qdot_solutions){.complete = !has_negative_base(pool, f, x)};
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(find_negative_base(pool, f, x, &negative));
-    out->complete = !negative;
     if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);

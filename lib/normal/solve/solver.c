@@ -9,7 +9,6 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/elementary.h"
-#include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/inequality/less.h"
@@ -84,13 +83,10 @@ vanishes_somewhere(const qdot_solver *s, qdot_expr e, const qdot_facts *facts, b
 static qdot_status
 look_for_choices(qdot_solver *s)
 {
-    qdot_walk w;
+    bool chosen;
 
-    QDOT_TRY(qdot_walk_begin(s->pool, s->f, &w));
-    for (size_t i = 0; i < w.n; i++)
-        if (qdot_expr_is_function(s->pool, w.at[i], QDOT_IF))
-            s->out->complete = false;
-    qdot_walk_end(&w);
+    QDOT_TRY(qdot_holds_choice(s->pool, 1, &s->f, &chosen));
+    s->out->complete = s->out->complete && !chosen;
     return QDOT_OK;
 }
 

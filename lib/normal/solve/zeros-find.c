@@ -1,14 +1,13 @@
 /* zeros-find.c -- finds all zeros in a box: splits equations into systems, treats infinity and
  * ends, merges results. */
 #include "expr/build.h"
-#include "expr/elementary.h"
-#include "expr/function.h"
 #include "expr/node.h"
 #include "normal/solve/zeros.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "normal/solve/conditions.h"
 #include "normal/solve/zeros-task.h"
 
 enum {
@@ -429,28 +428,17 @@ look_at_base(qdot_zeros_task *t, qdot_expr base)
 static qdot_status
 find_single(qdot_zeros_task *t)
 {
-    qdot_status status = QDOT_OK;
-    bool chosen = false;
-    qdot_walk w;
+    const qdot_expr bases = qdot_bases_of_powers(t->pool, t->n, t->F, t->n, t->x);
+    bool chosen;
 
-    QDOT_TRY(qdot_walk_begin_n(t->pool, t->n, t->F, &w));
-    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
-        const uint32_t n = qdot_expr_kind(t->pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(t->pool, w.at[i]) : 0;
-
-        chosen = chosen || qdot_expr_is_function(t->pool, w.at[i], QDOT_IF);
-        for (uint32_t k = 1; k + 1 < n && status == QDOT_OK; k += 2) {
-            const qdot_expr power = qdot_expr_arg(t->pool, w.at[i], k + 1);
-            bool varies = false;
-
-            for (size_t j = 0; j < t->n; j++)
-                varies = varies || qdot_expr_contains(t->pool, power, t->x[j]);
-            if (varies)
-                status = look_at_base(t, qdot_expr_arg(t->pool, w.at[i], k));
-        }
-    }
-    qdot_walk_end(&w);
-    t->nowhere = t->nowhere && !chosen; /* if(...) may not choose the power */
-    return status;
+    QDOT_TRY(qdot_pool_check(t->pool));
+    for (uint32_t i = 0; i < qdot_expr_count(t->pool, bases); i++)
+        QDOT_TRY(look_at_base(t, qdot_expr_arg(t->pool, bases, i)));
+    if (!t->nowhere)
+        return QDOT_OK;
+    QDOT_TRY(qdot_holds_choice(t->pool, t->n, t->F, &chosen));
+    t->nowhere = !chosen; /* if(...) may not choose the power */
+    return QDOT_OK;
 }
 
 static qdot_status
