@@ -49,11 +49,19 @@ forget_since(qdot_piece *x, size_t event, double since)
     x->c->faded.n = n_faded;
 }
 
+/* Note that rounding hides whether event `event` occurs at the root. */
+static qdot_status
+add_faded(qdot_piece *x, size_t event, const qdot_root *root)
+{
+    const double blur = x->direction * root->blur;
+
+    return qdot_vec_push(&x->c->faded, ((qdot_course_faded){event, root->t - blur, root->t + blur, true}));
+}
+
 qdot_status
 qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    const double blur = x->direction * root->blur;
 
     if (root->way != 0 || root->pole || w->kind != QDOT_WATCH_EVENT)
         return QDOT_OK;
@@ -61,9 +69,7 @@ qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
         x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY, root->within);
         return QDOT_OK;
     }
-    if (x->c->stage->events.at[w->index].undoing)
-        return QDOT_OK;
-    return qdot_vec_push(&x->c->faded, ((qdot_course_faded){w->index, root->t - blur, root->t + blur, true}));
+    return x->c->stage->events.at[w->index].undoing ? QDOT_OK : add_faded(x, w->index, root);
 }
 
 /* Whether a root lies within what rounding hides about the occurrence of the event before it; one within the tolerance of a
@@ -85,11 +91,10 @@ qdot_status
 qdot_piece_doubt_root(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    const double blur = x->direction * root->blur;
+    const bool doubtful =
+        w->kind == QDOT_WATCH_EVENT && (root->several || is_hidden_by_earlier(x, w->index, root));
 
-    if (w->kind != QDOT_WATCH_EVENT || (!root->several && !is_hidden_by_earlier(x, w->index, root)))
-        return QDOT_OK;
-    return qdot_vec_push(&x->c->faded, ((qdot_course_faded){w->index, root->t - blur, root->t + blur, true}));
+    return doubtful ? add_faded(x, w->index, root) : QDOT_OK;
 }
 
 qdot_status

@@ -302,6 +302,11 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
      * it stays on it; so may what touches. Where what is only seen differs the first one is as good for states. A
      * switch that is crossed here and not there is doubt of the run. */
     for (move how = EACH; how < MOVES; how++) {
+        if (how == ALIKE && !qdot_companion_has_alike(n, run->start))
+            continue; /* it would be the same once more */
+        if (how != EACH)
+            options.carry = y + n;
+        c->exact = how == NOT && run->course.exact;
         status = begin_beside(run, &system, number, how, t0, y, y + n);
         if (status != QDOT_OK) {
             status = status == QDOT_ENOMEM ? status : QDOT_OK;
@@ -314,9 +319,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
-        if (!*has || met_the_same(run, c, false) || (!run->course.began_on && run->stage.events.n == 0))
-            break;
-        if (how + 1 == MOVES)
+        if (!*has || met_the_same(run, c, false) || (!run->course.began_on && run->stage.events.n == 0) || how == NOT)
             break;
         if (first.tr.count == 0 && met_the_same(run, c, true)) {
             first = *c;
@@ -326,10 +329,6 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         }
         *spent += meter->work;
         meter->spent = *spent;
-        options.carry = y + n;
-        if (how == EACH && !qdot_companion_has_alike(n, run->start))
-            how = ALIKE; /* it would be the same once more */
-        c->exact = how + 1 == NOT && run->course.exact;
     }
     qdot_free(y);
     if (first.tr.count > 0 && qdot_grave(status) == QDOT_OK
