@@ -89,15 +89,6 @@ qdot_cursor_knows(const qdot_session *s, const char *name)
 
 /* --- products as the screen shows them ------------------------------------------------ */
 
-/* Whether the word joins parts of a statement, as in `2 on bob`, and is no missing factor. */
-static bool
-joins_parts(const qdot_session *s, const qdot_token *t)
-{
-    static const char *const words[] = {"on", "at", "from", "to", "between", "of", "with", "when", "then", "in", NULL};
-
-    return t->kind == QDOT_TOKEN_NAME && !t->glued && is_one_of(t, words) && !qdot_cursor_knows(s, t->text);
-}
-
 /* Whether the name is declared, and no function. */
 static bool
 is_declared_value(const qdot_session *s, const char *name)
@@ -228,6 +219,15 @@ qdot_cursor_is_call(const qdot_cursor *c, const qdot_token *t)
     return t->kind == QDOT_TOKEN_NAME && t[1].glued && qdot_token_is(t + 1, "(") && qdot_cursor_knows(c->session, t->text);
 }
 
+/* Whether the word joins parts of a statement, as in `2 on bob`, and is no missing factor. */
+static bool
+joins_parts(const qdot_cursor *c, const qdot_token *t)
+{
+    static const char *const words[] = {"on", "at", "from", "to", "between", "of", "with", "when", "then", "in", NULL};
+
+    return t->kind == QDOT_TOKEN_NAME && !t->glued && is_one_of(t, words) && !qdot_cursor_knows(c->session, t->text);
+}
+
 static qdot_status
 found(const char *what, const qdot_token *t)
 {
@@ -305,7 +305,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         found(what, t); /* `2 tol` among words is no product */
         return hint_word(what, t->text);
     }
-    if (joins_parts(c->session, t)) {
+    if (joins_parts(c, t)) {
         found(what, t);
         return hint_foreign(t);
     }
