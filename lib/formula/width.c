@@ -14,6 +14,8 @@ sign_letters(unsigned sign)
     case QDOT_SIGN_TIMES:
     case QDOT_SIGN_BESIDE:
     case QDOT_SIGN_BLANK: return 0;
+    case QDOT_SIGN_VERSUS:
+    case QDOT_SIGN_IN: return 2;
     case QDOT_SIGN_LEFT: return strlen("left");
     case QDOT_SIGN_RIGHT: return strlen("right");
     default: return 1;

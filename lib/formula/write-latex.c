@@ -45,7 +45,11 @@ latex_add_roman(qdot_text *out, const char *name, size_t n)
 {
     qdot_text_add(out, "\\mathrm{");
     for (size_t i = 0; i < n; i++) {
-        qdot_text_add(out, name[i] == '_' ? "\\" : "");
+        if (strchr("\\^~", name[i]) != NULL) {
+            qdot_text_add(out, name[i] == '^' ? "\\textasciicircum{}" : name[i] == '~' ? "\\textasciitilde{}" : "\\backslash ");
+            continue;
+        }
+        qdot_text_add(out, strchr("_%#&${}", name[i]) != NULL ? "\\" : "");
         qdot_text_char(out, name[i]);
     }
     qdot_text_char(out, '}');

@@ -17,6 +17,10 @@ QDOT_MUST_CHECK qdot_status qdot_formula_write_line(const qdot_formula *f, qdot_
 /* Write a formula in LaTeX, for its mathematics mode. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
 
+/* Write a drawn formula as gnuplot's enhanced text: indices, powers and dots stand where they belong, fractions in a
+ * line, a/(b·c). */
+QDOT_MUST_CHECK qdot_status qdot_formula_write_gnuplot(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
+
 /* Write a formula in presentation MathML, the contents of <math>. */
 QDOT_MUST_CHECK qdot_status qdot_formula_write_mathml(const qdot_formula *f, qdot_formula_id id, qdot_text *out);
 

@@ -21,8 +21,8 @@ void qdot_figure_add_quoted(qdot_text *script, const char *text);
 void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
 /* Append the label in gnuplot's markup, without quotes. */
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
-/* Append a formula in plain style as Unicode, for a sketch; with `markup` in gnuplot's markup. */
-void qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup);
+/* Append a formula that was typed as a line for the eye, for a sketch. */
+void qdot_figure_add_line(qdot_text *out, const char *formula);
 /* What curve k is called in the key. */
 qdot_figure_label qdot_figure_curve_label(const qdot_panel *panel, size_t k);
 /* The approximate width of the label in characters. */

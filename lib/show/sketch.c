@@ -147,7 +147,7 @@ static void
 add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
 {
     if (label->formula && !ascii)
-        qdot_figure_add_formula(out, label->text, false);
+        qdot_figure_add_line(out, label->text);
     else
         qdot_text_add(out, label->text != NULL ? label->text : "");
 }
