@@ -8,7 +8,7 @@
 #include "formula/name.h"
 
 /* What an open bracket becomes. */
-typedef enum { WHOLE, ROUND, SQUARE, CALL, ROOT } group_kind; /* WHOLE: all of the text */
+typedef enum { WHOLE, ROUND, SQUARE, BARS, CALL, ROOT } group_kind; /* WHOLE: all of the text */
 
 /* The text between two brackets: a row of terms, each a product of factors. The last factor waits for an exponent, for
  * primes; the last product waits for a `/`, which makes it a numerator. */
@@ -177,7 +177,9 @@ static void
 open_group(reader *r, group_kind kind, qdot_formula_id head, qdot_formula_id power)
 {
     const qdot_formula_kind as = kind == ROOT ? QDOT_FORMULA_ROOT : QDOT_FORMULA_BRACKET;
-    const unsigned shape = kind == SQUARE ? QDOT_BRACKET_SQUARE : QDOT_BRACKET_ROUND;
+    const unsigned shape = kind == SQUARE ? QDOT_BRACKET_SQUARE
+                           : kind == BARS ? QDOT_BRACKET_BARS
+                                          : QDOT_BRACKET_ROUND;
 
     if (power == 0)
         end_factor(r);
@@ -251,8 +253,8 @@ read_name(reader *r, qdot_formula_id power)
     while (continues_name(r->at))
         r->at++;
     n = (size_t)(r->at - start);
-    if (*r->at == '(' && n == 4 && strncmp(start, "sqrt", n) == 0) {
-        open_group(r, ROOT, 0, power);
+    if (strncmp(start, "sqrt(", n + 1) == 0 || strncmp(start, "abs(", n + 1) == 0) {
+        open_group(r, *start == 's' ? ROOT : BARS, 0, power);
         return;
     }
     end = *r->at == '[' ? index_end(r->at) : NULL;

@@ -77,6 +77,17 @@ primes_of(const qdot_formula *f, const qdot_formula_node *accent)
                : accent->n;
 }
 
+/* Whether a root needs no brackets, as √2 and √θ₁. */
+static bool
+stands_bare(const qdot_formula *f, const qdot_formula_node *root)
+{
+    const qdot_formula_node *first = qdot_formula_at(f, kth_child(f, root, 0));
+
+    first = first->kind == QDOT_FORMULA_SPAN ? alone(f, kth_child(f, root, 0)) : first;
+    return kth_child(f, root, 1) == 0 &&
+           (first->kind == QDOT_FORMULA_TEXT || first->kind == QDOT_FORMULA_INDEX || first->kind == QDOT_FORMULA_ACCENT);
+}
+
 /* Whether the power is set above the index of its base. */
 static bool
 stands_above(const qdot_formula *f, const qdot_formula_node *power)
@@ -229,7 +240,7 @@ gnuplot_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     case QDOT_FORMULA_TEXT: gnuplot_add_text(walk, node); break;
     case QDOT_FORMULA_SIGN: gnuplot_add_sign(w, node->what); break;
     case QDOT_FORMULA_FRACTION: return gnuplot_add_bracket(w, walk->formula, node, 0, '(');
-    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, "sqrt("); break;
+    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, stands_bare(walk->formula, node) ? "√" : "√("); break;
     case QDOT_FORMULA_BRACKET: qdot_text_add(w->out, opening[node->what]); break;
     case QDOT_FORMULA_TABLE: qdot_text_char(w->out, '['); break;
     default: break;
@@ -338,7 +349,7 @@ gnuplot_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
         break;
     case QDOT_FORMULA_ACCENT: end_accent(walk, node); break;
     case QDOT_FORMULA_PRIMES: gnuplot_add_primes(w, node->n); break;
-    case QDOT_FORMULA_ROOT: qdot_text_char(w->out, ')'); break;
+    case QDOT_FORMULA_ROOT: qdot_text_add(w->out, stands_bare(walk->formula, node) ? "" : ")"); break;
     case QDOT_FORMULA_BRACKET: qdot_text_add(w->out, closing[node->what]); break;
     case QDOT_FORMULA_TABLE: qdot_text_char(w->out, ']'); break;
     case QDOT_FORMULA_TENSOR: qdot_text_char(w->out, '}'); break;

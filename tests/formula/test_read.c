@@ -68,8 +68,10 @@ functions_and_roots_have_their_argument(void **state)
     (void)state;
     reads("atan2(y, x)", "atan2(y, x)", "atan2(y, x)", "\\operatorname{atan2}\\left(y, x\\right)");
     reads("f1(x)", "f₁(x)", "f₁(x)", "f_{1}\\left(x\\right)");
-    reads("sqrt(x + 1)/2", "√(x + 1)/2", "sqrt(x + 1)/2", "\\frac{\\sqrt{x + 1}}{2}");
-    reads("√2", "√2", "sqrt(2)", "\\sqrt{2}");
+    reads("sqrt(x + 1)/2", "√(x + 1)/2", "√(x + 1)/2", "\\frac{\\sqrt{x + 1}}{2}");
+    reads("√2", "√2", "√2", "\\sqrt{2}");
+    reads("sqrt(theta_1')", "√(θ\u0307₁)", "√θ\u0307₁", "\\sqrt{\\dot{\\theta}_{1}}");
+    reads("abs(x - y)^2", "|x − y|²", "|x − y|^{2}", "\\left|x - y\\right|^{2}");
     reads("e^sin(x)", "e^sin(x)", "e^{sin(x)}", "e^{\\sin\\left(x\\right)}");
     reads("[x', y]'", "[x\u0307, y]′", "[x\u0307, y]′", "\\left[\\dot{x}, y\\right]'");
 }
