@@ -514,26 +514,47 @@ qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *te
     return status;
 }
 
+/* Give the notice, unless it is in the list, which it enters. */
+static qdot_status
+notice_unless_told(qdot_session *session, qdot_text_list *told, const char *message)
+{
+    char *copy;
+
+    for (size_t i = 0; i < told->n; i++)
+        if (strcmp(told->at[i], message) == 0)
+            return QDOT_OK;
+    copy = qdot_strdup(message);
+    if (copy == NULL)
+        return QDOT_ENOMEM;
+    if (qdot_vec_push(told, copy) != QDOT_OK) {
+        qdot_free(copy);
+        return QDOT_ENOMEM;
+    }
+    return put_notice(session, message);
+}
+
 qdot_status
 qdot_answer_notice_once(qdot_session *session, const char *format, ...)
 {
-    char message[NOTICE], *copy;
+    char message[NOTICE];
     va_list ap;
 
     va_start(ap, format);
     vsnprintf(message, sizeof message, format, ap);
     va_end(ap);
-    for (size_t i = 0; i < session->told->n; i++)
-        if (strcmp(session->told->at[i], message) == 0)
-            return QDOT_OK;
-    copy = qdot_strdup(message);
-    if (copy == NULL)
-        return QDOT_ENOMEM;
-    if (qdot_vec_push(session->told, copy) != QDOT_OK) {
-        qdot_free(copy);
-        return QDOT_ENOMEM;
-    }
-    return put_notice(session, message);
+    return notice_unless_told(session, session->told, message);
+}
+
+qdot_status
+qdot_answer_condition(qdot_session *session, const char *format, ...)
+{
+    char message[NOTICE];
+    va_list ap;
+
+    va_start(ap, format);
+    vsnprintf(message, sizeof message, format, ap);
+    va_end(ap);
+    return notice_unless_told(session, &session->evaluation->told, message);
 }
 
 static void

@@ -64,6 +64,9 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
                                                     const char *format, ...)
     QDOT_PRINTF(2, 3);
+/* Give a notice that belongs to the answers of the present statement, as the condition of a solution, unless this
+ * statement has already given it. */
+QDOT_MUST_CHECK qdot_status qdot_answer_condition(qdot_session *session, const char *format, ...) QDOT_PRINTF(2, 3);
 
 /* The last failure: reported with line, caret and hint on session->output->err and, with
  * --json, as {"kind":"error"} on session->output->out. `at`: the byte of the source. source

@@ -105,7 +105,7 @@ qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e)
     if (status == QDOT_OK)
         status = qdot_text_status(&text);
     if (status == QDOT_OK)
-        status = qdot_answer_notice_once(session, "%s", qdot_text_str(&text));
+        status = qdot_answer_condition(session, "%s", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }
@@ -233,7 +233,7 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     if (status == QDOT_OK)
         status = qdot_text_status(&place);
     if (status == QDOT_OK && qdot_text_str(&text)[0] != 0)
-        status = qdot_answer_notice_once(session, "%s%s%s", qdot_text_str(&place), qdot_text_str(&text),
+        status = qdot_answer_condition(session, "%s%s%s", qdot_text_str(&place), qdot_text_str(&text),
                                          never ? ": not with the values of `set`" : "");
     qdot_text_clear(&place);
     qdot_text_clear(&text);
@@ -254,7 +254,7 @@ modes_notice_unknown(qdot_session *session, const qdot_modes *modes)
         QDOT_TRY(qdot_pool_check(session->pool));
         QDOT_TRY(qdot_decide_less(session->pool, QDOT_ZERO, square, false, &facts, &d));
         if (d.verdict != QDOT_PROVED)
-            status = qdot_answer_notice_once(session, "modes[%zu] is real only where its square is not negative", k + 1);
+            status = qdot_answer_condition(session, "modes[%zu] is real only where its square is not negative", k + 1);
     }
     return status;
 }

@@ -49,7 +49,7 @@ qdot_solve_notice_conditions(qdot_session *session, qdot_expr solution, qdot_exp
     if (status == QDOT_OK)
         status = qdot_solve_print_conditions(pool, " exists when ", conditions, &text);
     if (status == QDOT_OK && conditions != QDOT_NIL)
-        status = qdot_answer_notice_once(session, "%s", qdot_text_str(&text));
+        status = qdot_answer_condition(session, "%s", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }

@@ -233,7 +233,7 @@ notice_free(const question *q, const qdot_simultaneous_solution *one)
     if (status == QDOT_OK)
         status = qdot_text_status(&text);
     if (status == QDOT_OK && free > 0)
-        status = qdot_answer_notice_once(q->session, "%s", qdot_text_str(&text));
+        status = qdot_answer_condition(q->session, "%s", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }
@@ -241,7 +241,7 @@ notice_free(const question *q, const qdot_simultaneous_solution *one)
 static qdot_status
 notice_turns(const question *q)
 {
-    return qdot_answer_notice_once(q->session, "these are the solutions of one turn: within "
+    return qdot_answer_condition(q->session, "these are the solutions of one turn: within "
                                                "the declared domains each recurs after "
                                                "every whole turn");
 }

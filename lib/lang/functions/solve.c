@@ -261,7 +261,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
             "numbers within a range: solve(A = B, x, 0..1)");
     }
     if (status == QDOT_OK && found.recurs)
-        status = qdot_answer_notice_once(session,
+        status = qdot_answer_condition(session,
                                          "these are the solutions of one turn: within "
                                          "the domain of %s each recurs after "
                                          "every whole turn",

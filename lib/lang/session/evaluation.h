@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "lang/session/parts.h"
+#include "lang/session/text-list.h"
 
 /* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
 typedef struct {
@@ -23,6 +24,7 @@ typedef struct qdot_evaluation {
     bool declares;     /* the present statement declares part of a scene */
     const char *claim; /* while a check is answered, its text; else NULL */
     const char *taken; /* short name of a value that it read (lang/functions/short-names); NULL */
+    qdot_text_list told; /* notices that the present statement has given */
     unsigned calls;    /* depth of nested function calls */
     bool placed;       /* the present error already names its place in a body */
     qdot_vec(qdot_held) held; /* by the loops under way, innermost last */

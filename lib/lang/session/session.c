@@ -86,14 +86,6 @@ values_clear(qdot_values *values)
     qdot_free(values->scale_values.at);
 }
 
-static void
-text_list_clear(qdot_text_list *list)
-{
-    for (size_t i = 0; i < list->n; i++)
-        qdot_free(list->at[i]);
-    qdot_free(list->at);
-}
-
 void
 qdot_session_free(qdot_session *session)
 {
@@ -117,9 +109,10 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->members->at);
     qdot_free(session->evaluation->held.at);
     qdot_free(session->evaluation->partial_sums.at);
-    text_list_clear(session->told);
-    text_list_clear(session->remarks);
-    text_list_clear(session->including);
+    qdot_text_list_clear(session->told);
+    qdot_text_list_clear(&session->evaluation->told);
+    qdot_text_list_clear(session->remarks);
+    qdot_text_list_clear(session->including);
     qdot_text_clear(&session->typed->all);
     if (session->output->block != NULL)
         qdot_formula_page_clear(session->output->block);

@@ -487,6 +487,7 @@ carry_out_simple(engine *x, size_t i, size_t *next)
 
     *next = find_end(x, end);
     x->session->evaluation->placed = false;
+    qdot_text_list_clear(&x->session->evaluation->told);
     status = qdot_definition_check(&c, &x->tokens[*next]);
     if (status != QDOT_OK) {
         x->error_at = c.error_at;
