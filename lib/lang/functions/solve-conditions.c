@@ -67,17 +67,14 @@ relation_value(qdot_pool *pool, qdot_expr relation)
 }
 
 qdot_status
-qdot_solve_root_value(qdot_session *session, qdot_expr x, const qdot_root *root,
-                      qdot_expr *value)
+qdot_solve_root_value(qdot_pool *pool, qdot_expr x, const qdot_root *root, qdot_expr *value)
 {
-    qdot_pool *pool = session->pool;
     uint32_t n = root->condition == QDOT_NIL ? 0 : qdot_expr_count(pool, root->condition);
     qdot_expr all[QDOT_CONDITIONS_MOST];
 
     *value = root->value;
     if (root->value != x)
-        return qdot_solve_notice_conditions(session, qdot_rel(pool, QDOT_EQ, x, root->value),
-                                            root->condition);
+        return QDOT_OK;
     if (n == 0)
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     if (n > QDOT_CONDITIONS_MOST)

@@ -23,9 +23,8 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_e
 /* Notice `WORDS C and D` for conditions that concern all solutions; nothing if nil. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
 
-/* Give a root as a value: x, or relations that say which x are roots; with a notice of its conditions. */
-QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_session *session, qdot_expr x,
-                                                  const qdot_root *root, qdot_expr *value);
+/* Give a root as a value, without its conditions; relations that say which x are roots, where the root is x itself. */
+QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_pool *pool, qdot_expr x, const qdot_root *root, qdot_expr *value);
 
 /* Print conditions joined by ` and `, the first one after `word`. */
 QDOT_MUST_CHECK qdot_status qdot_solve_print_conditions(qdot_pool *pool, const char *word,

@@ -403,7 +403,7 @@ value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
     if (named.condition != QDOT_NIL)
         named.condition = qdot_subs(q->session->pool, named.condition, 1, q->x, q->name);
     QDOT_TRY(qdot_pool_check(q->session->pool));
-    return qdot_solve_root_value(q->session, q->name[0], &named, value);
+    return qdot_solve_root_value(q->session->pool, q->name[0], &named, value);
 }
 
 /* The conditions of the domain in terms of the internal symbol, with the session's values inserted. */

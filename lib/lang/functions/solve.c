@@ -98,7 +98,31 @@ solve_list_add(solve_list *l, qdot_solve_zero one)
     return QDOT_OK;
 }
 
-/* Append the exact roots to the list, with notices of their conditions. */
+/* Whether every x is a solution under a condition on parameters. */
+static bool
+is_every_value(const qdot_pool *pool, qdot_expr x, const qdot_root *root)
+{
+    return root->value == x && root->condition != QDOT_NIL && !qdot_expr_contains(pool, root->condition, x);
+}
+
+/* Tell the conditions of the exact roots. */
+static qdot_status
+notice_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found)
+{
+    qdot_pool *pool = session->pool;
+
+    for (size_t i = 0; i < found->root.n; i++) {
+        const qdot_root *root = &found->root.at[i];
+
+        if (is_every_value(pool, x, root))
+            QDOT_TRY(qdot_solve_notice_all(session, "every value is a solution when ", root->condition));
+        else if (root->value != x)
+            QDOT_TRY(qdot_solve_notice_conditions(session, qdot_rel(pool, QDOT_EQ, x, root->value), root->condition));
+    }
+    return QDOT_OK;
+}
+
+/* Append the exact roots to the list. */
 static qdot_status
 add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
           solve_list *list)
@@ -109,16 +133,14 @@ add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
         const qdot_root *root = &found->root.at[i];
         qdot_solve_zero one = {.value = root->value, .at = NAN};
 
-        if (root->value == x && root->condition != QDOT_NIL && !qdot_expr_contains(pool, root->condition, x)) {
-            QDOT_TRY(qdot_solve_notice_all(session, "every value is a solution when ", root->condition));
+        if (is_every_value(pool, x, root))
             continue;
-        }
         list->constant =
             list->constant && qdot_ball_double(pool, one.value, NULL, NULL, &one.at);
         QDOT_TRY(qdot_pool_check(pool));
         if (!list->constant)
             one.at = NAN;
-        QDOT_TRY(qdot_solve_root_value(session, x, root, &one.value));
+        QDOT_TRY(qdot_solve_root_value(pool, x, root, &one.value));
         QDOT_TRY(qdot_vec_push(&list->at, one));
     }
     return QDOT_OK;
@@ -200,7 +222,7 @@ notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_wr
     status = qdot_solve_specials(pool, f, x, written, facts, found, &specials);
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && set != QDOT_FALSE) /* there are single ones at most */
         status = qdot_solve_notice_all(session, "solutions exist when ", set);
     qdot_specials_clear(&specials);
     return status;
@@ -251,6 +273,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
         status = add_exact(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
         status = add_numbers(session, f, x, &written, &assumed.facts, &list, &found.recurs, &known);
+    if (status == QDOT_OK && known)
+        status = notice_exact(session, x, &found);
     if (status == QDOT_OK && !complete && known)
         status = notice_parameters(session, f, x, &written, &assumed.facts, &found);
     if (status == QDOT_OK && !known) {
