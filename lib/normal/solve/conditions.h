@@ -53,6 +53,10 @@ qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
 /* A LIST of the bases of all powers in F [n] whose exponents contain one of the x [m]. Where such a base is negative the power
  * is real at single places only. Nil: the pool failed. (definedness.c) */
 qdot_expr qdot_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x);
+/* Whether the base of such a power is not proved to be positive or 0: then the solutions of F = 0 that a formula gives need
+ * not be all. facts may be NULL. (definedness.c) */
+QDOT_MUST_CHECK qdot_status qdot_has_single_places(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m,
+                                                   const qdot_expr *x, const qdot_facts *facts, bool *yes);
 /* Whether F [n] holds if(...): what it does not choose need not be defined. (definedness.c) */
 QDOT_MUST_CHECK qdot_status qdot_holds_choice(qdot_pool *pool, size_t n, const qdot_expr *F, bool *yes);
 /* u if the relation is 0 < |u|; else nil. */

@@ -263,6 +263,26 @@ qdot_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, co
 }
 
 qdot_status
+qdot_has_single_places(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x,
+                       const qdot_facts *facts, bool *yes)
+{
+    const qdot_expr bases = qdot_bases_of_powers(pool, n, F, m, x);
+
+    *yes = false;
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, bases) && !*yes; i++) {
+        const qdot_expr base = qdot_expr_arg(pool, bases, i);
+        qdot_decision d;
+
+        if ((qdot_expr_sign(pool, base) & QDOT_GE0) != 0)
+            continue;
+        QDOT_TRY(qdot_decide_less(pool, QDOT_ZERO, base, false, facts, &d));
+        *yes = d.verdict != QDOT_PROVED;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_holds_choice(qdot_pool *pool, size_t n, const qdot_expr *F, bool *yes)
 {
     qdot_walk w;

@@ -244,12 +244,15 @@ solve_aliased(const alias *a, const qdot_expr *f, qdot_expr conditions, const qd
     qdot_pool *pool = a->pool;
     qdot_simultaneous_branch first = {.known = qdot_list(pool, 0, NULL),
                                       .conditions = aliased(a, conditions)};
+    bool single;
 
     s->facts = *facts;
     s->equations = first.equations = aliased(a, qdot_list(pool, (uint32_t)a->n, f));
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < a->n; i++)
         QDOT_TRY(qdot_vec_push(&s->unknowns, a->symbol[i]));
+    QDOT_TRY(qdot_has_single_places(pool, 1, &s->equations, a->n, a->symbol, &s->facts, &single));
+    s->complete = !single;
     if (first.conditions != QDOT_FALSE)
         QDOT_TRY(qdot_vec_push(&s->todo, first));
     QDOT_TRY(qdot_simultaneous_solve(s));

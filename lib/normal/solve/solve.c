@@ -62,27 +62,17 @@ solve_guarded(void *user)
         s->status = qdot_solve_sort(s->pool, s->out->root.n, s->out->root.at);
 }
 
-/* Whether some base of a power with x in its exponent is negative: no formula tells of the single x at which it is real. */
-static bool
-has_negative_base(qdot_pool *pool, qdot_expr f, qdot_expr x)
-{
-    const qdot_expr bases = qdot_bases_of_powers(pool, 1, &f, 1, &x);
-
-    for (uint32_t i = 0; bases != QDOT_NIL && i < qdot_expr_count(pool, bases); i++)
-        if ((qdot_expr_sign(pool, qdot_expr_arg(pool, bases, i)) & QDOT_NEG) == QDOT_NEG)
-            return true;
-    return false;
-}
-
 static qdot_status
 solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
             qdot_solutions *out)
 {
     qdot_solver s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .out = out};
     qdot_status status;
+    bool single;
 
-    *out = (qdot_solutions){.complete = !has_negative_base(pool, f, x)};
-    QDOT_TRY(qdot_pool_check(pool));
+    *out = (qdot_solutions){0};
+    QDOT_TRY(qdot_has_single_places(pool, 1, &f, 1, &x, facts, &single));
+    out->complete = !single;
     if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);
