@@ -1,7 +1,10 @@
 /* stability-roots.c -- decides whether the linear motion near an equilibrium grows, decays or stays bounded. */
 #include "expr/build.h"
+#include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
+#include "expr/tensor.h"
 #include "mech/scene/access.h"
 #include "mech/study/stability-parts.h"
 #include "normal/inequality/half-plane.h"
@@ -151,6 +154,38 @@ completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
     return QDOT_OK;
 }
 
+enum { MOST_UNBALANCED = 3 }; /* coordinates */
+
+/* Whether the roots s of p = det(M s^2 + Gamma s + H) have the sum 0 and are not symmetric to 0: p has no term in
+ * s^(2n-1), but another odd one that is proved not to be 0. Then one of them has a positive real part, for imaginary
+ * roots alone, with their conjugates, are symmetric. */
+static qdot_status
+is_unbalanced(qdot_judgement *j, const block *x, bool *yes)
+{
+    qdot_pool *pool = j->s->pool;
+    const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "s"), zero = QDOT_ZERO;
+    qdot_expr entry[MOST_UNBALANCED * MOST_UNBALANCED], p, odd[2 * MOST_UNBALANCED];
+
+    *yes = false;
+    if (x->n > MOST_UNBALANCED)
+        return QDOT_OK;
+    for (size_t i = 0; i < x->n * x->n; i++)
+        entry[i] = qdot_sum(pool, 3,
+                            (qdot_expr[]){qdot_mul(pool, x->M[i], qdot_pow_int(pool, s, 2)),
+                                          qdot_mul(pool, x->Gamma[i], s), x->H[i]});
+    p = qdot_det(pool, qdot_matrix(pool, (uint32_t)x->n, (uint32_t)x->n, entry));
+    for (size_t k = 0; k < 2 * x->n; k++) { /* odd[k]: the coefficient of s^k, times k! */
+        odd[k] = k % 2 == 0 ? QDOT_NIL : qdot_simplify(pool, qdot_subs(pool, p, 1, &s, &zero), &j->facts);
+        p = qdot_diff(pool, p, s);
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    if (!qdot_is_zero(pool, odd[2 * x->n - 1], &j->facts))
+        return qdot_pool_check(pool);
+    for (size_t k = 1; k + 1 < 2 * x->n && !*yes; k += 2)
+        QDOT_TRY(is_nonzero(j, odd[k], yes));
+    return qdot_pool_check(pool);
+}
+
 /* --- motion of one block ------------------------------------------------------------------ */
 
 static bool
@@ -208,6 +243,14 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
     motion_settle(j, before, how, DECAYS, what);
     if (*what != OPEN || !mass)
         return QDOT_OK;
+    if (!undamped || !potential) {
+        bool unbalanced;
+
+        QDOT_TRY(is_unbalanced(j, x, &unbalanced));
+        *what = unbalanced ? GROWS : OPEN;
+        if (unbalanced)
+            return QDOT_OK;
+    }
     how = QDOT_DEFINITE_UNKNOWN;
     if (potential && qdot_judgement_is_damping(j, x->n, x->Gamma))
         QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));

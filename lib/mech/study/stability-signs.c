@@ -193,13 +193,26 @@ qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma)
     return fine;
 }
 
+/* That no divisor of the places is 0, as a set of conditions. */
+static qdot_expr
+divisors_differ_from_zero(const qdot_judgement *j)
+{
+    const qdot_expr nonzero = j->judge->nonzero;
+    qdot_expr set = QDOT_NIL;
+
+    for (uint32_t i = 0; nonzero != QDOT_NIL && i < qdot_expr_count(j->s->pool, nonzero); i++)
+        set = qdot_conditions_and_nonzero(j->s->pool, set, qdot_expr_arg(j->s->pool, nonzero, i));
+    return set;
+}
+
 /* Ask that all are positive, one after another. *how: QDOT_DEFINITE_POSITIVE, QDOT_DEFINITE_CONDITIONAL; QDOT_NEGATIVE_SOMEWHERE
- * where one is proved below 0 whatever the parameters; else QDOT_DEFINITE_UNKNOWN. */
+ * where one is proved below 0 whatever the parameters, or wherever those before it are not; else QDOT_DEFINITE_UNKNOWN. */
 qdot_status
 qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e, qdot_definite *how)
 {
     qdot_pool *pool = j->s->pool;
     qdot_judgement_point before = qdot_judgement_mark(j);
+    qdot_expr not_negative = divisors_differ_from_zero(j); /* with 0 <= e for those before the present one */
 
     for (size_t k = 0; k < n; k++) {
         qdot_expr below;
@@ -215,10 +228,18 @@ qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e, qdot_defi
     *how = QDOT_DEFINITE_UNKNOWN;
     for (size_t k = 0; k < n; k++) {
         qdot_expr answer;
+        bool never;
 
         QDOT_TRY(qdot_judgement_ask(j, e[k], &answer));
-        if (answer == QDOT_FALSE)
+        if (answer == QDOT_FALSE) {
+            QDOT_TRY(is_never_definite(j, not_negative, e[k], &never));
+            if (never) {
+                qdot_judgement_back_to(j, before);
+                *how = QDOT_NEGATIVE_SOMEWHERE;
+            }
             return QDOT_OK;
+        }
+        not_negative = qdot_conditions_and(pool, not_negative, qdot_rel(pool, QDOT_LE, QDOT_ZERO, e[k]));
     }
     *how = j->when.n > before.when ? QDOT_DEFINITE_CONDITIONAL : QDOT_DEFINITE_POSITIVE;
     return QDOT_OK;
