@@ -8,9 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/utf8.h"
 #include "show/figure-parts.h"
 
 enum { EXACT = 17, TIC = 12, MOST_TICS = 40 };
+
+static const double pi = 3.14159265358979323846;
 
 /* A tic distance, 1, 2 or 5 times a power of ten, that divides `span` into about `steps`; 0 if
  * there is none. */
@@ -24,6 +27,59 @@ nice_step(double span, double steps)
            : times < 3.5              ? 2 * ten
            : times < 7.5              ? 5 * ten
                                       : 10 * ten;
+}
+
+/* The distances of tics on an axis of angles, as parts of pi: those at which one reads an angle. */
+static const struct {
+    int times, over;
+} angles[] = {{1, 12}, {1, 6}, {1, 4}, {1, 2}, {1, 1}, {2, 1}, {4, 1}, {10, 1}, {20, 1}, {50, 1}, {100, 1}};
+
+/* Set the tic distance of an axis of angles, the nearest to `steps` in the span; false: the span is too small, or so
+ * large that turns are not counted any more. */
+static bool
+set_angle_step(qdot_figure_axis *a, double steps)
+{
+    const double wanted = (a->most - a->least) / steps;
+    enum { ANGLES = sizeof angles / sizeof *angles };
+    size_t best = 0;
+
+    if (wanted < pi / 20 || wanted > 150 * pi)
+        return false;
+    for (size_t i = 1; i < ANGLES; i++)
+        if (fabs(log(angles[i].times * pi / (angles[i].over * wanted))) <
+            fabs(log(angles[best].times * pi / (angles[best].over * wanted))))
+            best = i;
+    a->times = angles[best].times;
+    a->over = angles[best].over;
+    a->step = a->times * pi / a->over;
+    return true;
+}
+
+bool
+qdot_figure_add_pi(qdot_text *out, double x)
+{
+    enum { PARTS = 12 };
+    const double parts = round(x * PARTS / pi);
+    long above = labs((long)parts), below = PARTS;
+
+    if (!(fabs(parts) < 1e9) || fabs(x * PARTS / pi - parts) > 1e-9 * fmax(1, fabs(parts)))
+        return false;
+    for (long k = PARTS; k > 1; k--)
+        if (above % k == 0 && below % k == 0) {
+            above /= k;
+            below /= k;
+        }
+    if (above == 0) {
+        qdot_text_char(out, '0');
+        return true;
+    }
+    qdot_text_add(out, parts < 0 ? "−" : "");
+    if (above > 1)
+        qdot_text_format(out, "%ld", above);
+    qdot_text_add(out, "π");
+    if (below > 1)
+        qdot_text_format(out, "/%ld", below);
+    return true;
 }
 
 /* Write a number as printf does, but with a decimal point in every locale. */
@@ -93,12 +149,14 @@ qdot_figure_power(double least, double most)
 }
 
 qdot_figure_axis
-qdot_figure_axis_of(double least, double most, bool log, double steps, const int *power)
+qdot_figure_axis_of(double least, double most, qdot_figure_tics tics, double steps, const int *power)
 {
-    qdot_figure_axis a = {.least = least, .most = most, .log = log};
+    qdot_figure_axis a = {.least = least, .most = most, .log = tics == QDOT_TICS_LOG};
     double largest = fmax(fabs(least), fabs(most));
 
-    if (log || !isfinite(most - least) || !(most > least))
+    if (a.log || !isfinite(most - least) || !(most > least))
+        return a;
+    if (tics == QDOT_TICS_PI && set_angle_step(&a, steps))
         return a;
     if (nice_step(most - least, steps) < 2e-5 * largest && (least > 0) == (most > 0)) {
         choose_offset(&a);
@@ -141,15 +199,18 @@ add_linear_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t 
     for (double k = first; k <= last && k < first + MOST_TICS; k++) {
         char number[64];
         qdot_text label = {0};
+        size_t letters;
 
         print_number(number, sizeof number, "%.*f", decimals, k == 0 ? 0 : k * a->step);
-        add_signed(&label, number);
+        if (a->over == 0 || !qdot_figure_add_pi(&label, k * a->step))
+            add_signed(&label, number);
+        letters = qdot_utf8_columns(qdot_text_str(&label), label.n);
         qdot_text_add(script, k > first ? ", " : "");
         qdot_figure_add_quoted(script, bare ? "" : qdot_text_str(&label));
         qdot_text_char(script, ' ');
         qdot_text_double(script, k == 0 ? 0 : k * a->step, TIC);
-        if (strlen(number) > *width)
-            *width = strlen(number);
+        if (letters > *width)
+            *width = letters;
         script->failed = script->failed || label.failed;
         qdot_text_clear(&label);
     }

@@ -11,7 +11,11 @@ typedef struct {
     char offset_text[64]; /* in gnuplot's markup; "": there is none */
     int power;
     bool log;
+    int times, over; /* step = times pi / over; over 0: a decimal number */
 } qdot_figure_axis;
+
+/* What the tics of an axis are: decimal numbers, powers of ten, multiples of pi. */
+typedef enum { QDOT_TICS_DECIMAL, QDOT_TICS_LOG, QDOT_TICS_PI } qdot_figure_tics;
 
 /* --- writing labels ----------------------------------------------------------------- */
 
@@ -33,8 +37,9 @@ size_t qdot_figure_label_width(const qdot_figure_label *label);
 /* The power of ten by which the numbers of an axis are divided; 0 if they are short anyway. */
 int qdot_figure_power(double least, double most);
 /* An axis that shows least..most with about `steps` tics. power NULL: choose the power of ten. */
-qdot_figure_axis qdot_figure_axis_of(double least, double most, bool log, double steps,
-                                     const int *power);
+qdot_figure_axis qdot_figure_axis_of(double least, double most, qdot_figure_tics tics, double steps, const int *power);
+/* Append x, -x/2 ... as -3π/4; false, and nothing appended, if x is no multiple of pi/12. */
+bool qdot_figure_add_pi(qdot_text *out, double x);
 /* The number of tics of a linear axis; 0: gnuplot chooses them, or it is logarithmic. */
 int qdot_figure_count_tics(const qdot_figure_axis *axis);
 /* Append `set xrange` and `set xtics`; bare: tics without numbers. *width: characters of the widest. */

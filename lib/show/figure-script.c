@@ -146,15 +146,16 @@ choose_axis(const qdot_figure_drawing *d, const qdot_figure_view *v, int k, doub
             const int *power)
 {
     const double length = v->length[k];
-    qdot_figure_axis a = qdot_figure_axis_of(v->least[k], v->most[k], v->log[k], steps, power);
+    const qdot_figure_tics tics = v->log[k] ? QDOT_TICS_LOG : v->pi[k] ? QDOT_TICS_PI : QDOT_TICS_DECIMAL;
+    qdot_figure_axis a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
 
     while (a.step > 0 && qdot_figure_count_tics(&a) < 3 &&
            length > (steps + 1) * room_of_tic(d, v, k, &a))
-        a = qdot_figure_axis_of(v->least[k], v->most[k], v->log[k], ++steps, power);
+        a = qdot_figure_axis_of(v->least[k], v->most[k], tics, ++steps, power);
     while (a.step > 0 && steps > 1 &&
            length * a.step < room_of_tic(d, v, k, &a) * (a.most - a.least)) {
         steps = fmax(steps - 1, 1);
-        a = qdot_figure_axis_of(v->least[k], v->most[k], v->log[k], steps, power);
+        a = qdot_figure_axis_of(v->least[k], v->most[k], tics, steps, power);
     }
     return a;
 }
@@ -316,7 +317,8 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
     for (int k = 0; k < n; k++) {
         size_t width = 0;
         const char name = "xyz"[k];
-        const bool plain = !axes[k].log && axes[k].offset_text[0] == '\0' && axes[k].power == 0;
+        const bool plain =
+            !axes[k].log && axes[k].over == 0 && axes[k].offset_text[0] == '\0' && axes[k].power == 0;
 
         qdot_figure_add_axis(d->script, name, &axes[k], k == 0 && shared, &width);
         if (d->kind == NULL && plain && !(k == 0 && shared)) /* one can zoom a window */

@@ -53,6 +53,7 @@ typedef struct {
     size_t n;
     qdot_figure_range range[2]; /* of x and y */
     bool log[2];                /* x and y by powers of ten */
+    bool pi[2];                 /* x and y are angles, with tics at multiples of pi */
     bool equal;                 /* one scale for all axes: paths */
     bool marks;                 /* a mark at every point, joined by lines */
     bool points;                /* points that are not joined */
@@ -72,7 +73,7 @@ typedef struct {
  * value, and the length in cm that lies between them. */
 typedef struct {
     double least[3], most[3], length[3];
-    bool log[3];
+    bool log[3], pi[3];
 } qdot_figure_view;
 
 /* Type by ending: .svg .png .pdf .eps. path NULL: a window of gnuplot that persists.

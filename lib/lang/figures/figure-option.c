@@ -108,6 +108,13 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         p->logs = true;
         p->log[0] = !qdot_filled_is(hole, "y");
         p->log[1] = !qdot_filled_is(hole, "x");
+    } else if (qdot_filled_is(word, "ticks")) {
+        p->angles = true;
+        hole = word + 2; /* behind `pi` */
+        if (hole < r->parts.at + r->parts.n) {
+            p->pi[0] = qdot_filled_is(hole, "x") || qdot_filled_is(hole, "xy");
+            p->pi[1] = qdot_filled_is(hole, "y") || qdot_filled_is(hole, "xy");
+        }
     } else if (qdot_filled_is(word, "title")) {
         p->title = qdot_record_text(hole);
     } else if (qdot_filled_is(word, "equal")) {
@@ -132,12 +139,20 @@ qdot_figure_option_find(qdot_record *r, const qdot_filled *from, const qdot_fill
     return QDOT_OK;
 }
 
+/* Whether the abscissa is the time: then it is the ordinate that shows an angle. */
+static bool
+is_over_time(const qdot_panel *panel)
+{
+    return panel->axis[0].formula && panel->axis[0].text != NULL && strcmp(panel->axis[0].text, "t") == 0;
+}
+
 void
 qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
 {
     for (int k = 0; k < 2; k++) {
         panel->range[k] = choice->range[k];
         panel->log[k] = choice->logs ? choice->log[k] : panel->log[k];
+        panel->pi[k] = choice->angles && (choice->pi[k] || (!choice->pi[1 - k] && k == is_over_time(panel)));
     }
     panel->equal = panel->equal || choice->equal;
     panel->points = panel->points || choice->points;
