@@ -18,6 +18,7 @@ typedef struct {
      * run: not negative. */
     double late, blur;
     bool cubic;  /* g grows around it like an odd power above the first: the motion crosses, however slowly */
+    bool deep;   /* it is located in many digits */
     bool several; /* other crossings lie so near that doubles do not show them */
     double flat; /* so far around it rounding of the state hides g; 0: less than a few doubles of t */
     double rounding; /* of a function of t alone: so far rounding of its operations may move the root */

@@ -18,6 +18,10 @@ keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *en
     return box->lo > 0 || box->hi < 0;
 }
 
+/* Discs of a function that is in many digits are in doubles: their size is so many times the rounding of its operations where
+ * that is all there is. */
+static const double of_rounding = 256;
+
 qdot_watch_verdict
 qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
 {
@@ -30,7 +34,7 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
         const double miss = w->bounds.miss[i];
         qdot_watch_verdict v = isnan(miss) ? QDOT_PART_PARTED : QDOT_PART_HALVED;
 
-        if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) ||
+        if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) || miss <= of_rounding * w->hidden[i] ||
             qdot_polynomial_bounds_is_hollow(&w->bounds, i, part) ||
             keeps_off(w, p, nodes, i, &enclosed))
             continue;

@@ -128,9 +128,14 @@ make_many(qdot_watch *w)
 qdot_status
 qdot_watch_begin_deep(qdot_watch *w, const double *low)
 {
+    const double near = 4 * DBL_EPSILON * fabs(w->t);
+
     w->any_deep = false;
+    for (size_t k = 0; k < w->roots.n; k++) /* of the step that ended here: of several it may not be the last one */
+        if (w->roots.at[k].deep && fabs(w->t - w->roots.at[k].t) <= near)
+            w->settled[w->roots.at[k].function] = w->roots.at[k].t;
     for (size_t i = 0; i < w->m; i++) {
-        w->deep[i] = fabs(w->t - w->settled[i]) <= 4 * DBL_EPSILON * fabs(w->t);
+        w->deep[i] = fabs(w->t - w->settled[i]) <= near;
         w->any_deep = w->any_deep || w->deep[i];
     }
     for (size_t k = 0; k < 2 * w->n && w->any_deep; k++)
@@ -267,7 +272,7 @@ leave_residual(qdot_watch *w, double noise, qdot_root *root)
 {
     double operations;
 
-    w->settled[root->function] = root->t;
+    root->deep = true;
     QDOT_TRY(w->reader.read(root->t, w->in, w->reader.user));
     QDOT_TRY(qdot_watch_operations(w, root->t, false, root->function, &operations));
     root->residual = fmax(root->residual, noise + operations);
@@ -443,7 +448,7 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
 }
 
 qdot_status
-qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qdot_root *root, bool *is)
+qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, bool hidden, qdot_root *root, bool *is)
 {
     const size_t i = root->function;
     const double length = fabs(p->b - p->a);
@@ -454,7 +459,7 @@ qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qd
 
     *is = true;
     if (w->coarse || !may_have_many(w, i)
-        || fabs(bend) * length * length > hardly_any * qdot_chebyshev_size(p->n, p->c))
+        || (!hidden && fabs(bend) * length * length > hardly_any * qdot_chebyshev_size(p->n, p->c)))
         return QDOT_OK;
     QDOT_TRY(make_many(w));
     QDOT_TRY(noise_at(w, i, root->t, &noise));
@@ -462,11 +467,12 @@ qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qd
         double g;
         bool found;
 
-        QDOT_TRY(seek_sign(w, i, root->t, side == 0 ? of.from : of.to, 0, noise, &at, &found));
+        QDOT_TRY(seek_sign(w, i, root->t, side == 0 ? of.from : of.to, 0, 4 * noise, &at, &found));
         QDOT_TRY(value_in_digits(w, i, at, &g));
         sign[side] = found ? qdot_watch_sign(g) : 0;
     }
-    if (sign[0] == 0 || sign[1] == 0) /* at an end of the step, or it stays 0 */
+    *is = sign[0] != 0 || !w->deep[i] || of.from != w->t; /* else it is the zero that the piece starts on */
+    if (sign[0] == 0 || sign[1] == 0)                     /* at an end of the step, or it stays 0 */
         return QDOT_OK;
     *is = sign[0] == sign[1];
     if (*is)

@@ -209,8 +209,10 @@ qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p)
         w->noise[i] = qdot_watch_is_fine(w, i) || w->deep[i] ? 0 : w->first_noise[i];
         if (w->live[i] && !w->deep[i] && w->clock[i] && qdot_watch_is_fine(w, i)) /* no state makes it grow along the step */
             QDOT_TRY(qdot_watch_operations_within(w, p, true, i, w->noise + i));
-        if (w->live[i] && w->deep[i])
-            QDOT_TRY(qdot_watch_noise_deep(w, p, i, w->noise + i));
+        if (!w->live[i] || !w->deep[i])
+            continue;
+        QDOT_TRY(qdot_watch_noise_deep(w, p, i, w->noise + i));
+        QDOT_TRY(qdot_watch_operations_within(w, p, false, i, w->hidden + i));
     }
     if (p->a != w->t) {
         QDOT_TRY(w->reader.read(p->a, w->z, w->reader.user));

@@ -56,9 +56,10 @@ struct qdot_watch {
     qdot_tape_two *two;   /* the tape of g in two doubles; NULL until it is needed */
     qdot_two *state_two;  /* [2n] scratch */
     struct qdot_precise *many; /* g in many digits (watch-flat.c); NULL until it is needed */
-    double *settled; /* [m] the time of the flat root located last; NaN: none */
+    double *settled; /* [m] the time of the flat root at which a piece began; NaN: none */
     bool *deep;      /* [m] values are in many digits: the first step of a piece that starts on it */
     bool any_deep;
+    double *hidden; /* [m] of these: what rounding of their operations hides of the bounds on the part; 0: not computed */
     bool *may_be_flat; /* [m] roots are located in many digits where that is wanted */
     int *leaves;     /* [m] the sign of these just after the start */
     struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
@@ -332,9 +333,10 @@ bool qdot_watch_join_instants(qdot_watch *w);
  * it is none, but made by rounding. It may become a touch. */
 QDOT_MUST_CHECK qdot_status qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qdot_root *root,
                                                    bool *is);
-/* Likewise a touch, at which g'' is `bend`. */
-QDOT_MUST_CHECK qdot_status qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, qdot_root *root,
-                                                    bool *is);
+/* Likewise a touch, at which g'' is `bend`; `hidden`: rounding of the operations is all that is seen there, however large
+ * that is. */
+QDOT_MUST_CHECK qdot_status qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, bool hidden,
+                                                    qdot_root *root, bool *is);
 /* Where a piece starts: set w->deep [m], and w->start.g0 of these. Then values at t within the step, into g [m]. */
 QDOT_MUST_CHECK qdot_status qdot_watch_begin_deep(qdot_watch *w, const double *low);
 QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w);

@@ -511,13 +511,13 @@ is_start_again(const qdot_watch_part *p, double t)
 }
 
 /* Whether the part ends on an extremum that is 0, or so near to one that rounding would make two
- * crossings of it. */
+ * crossings of it; not where function i is known in many digits. */
 static bool
-grazes_at_end(const qdot_watch_part *p)
+grazes_at_end(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double d[QDOT_WATCH_NODES], size = qdot_chebyshev_size(p->n, p->c);
 
-    if (fabs(p->at_end) > 0x1p-46 * size)
+    if (fabs(p->at_end) > 0x1p-46 * size || (w->deep[i] && p->at_end != 0))
         return false;
     qdot_chebyshev_derivative(p->n, p->c, d);
     return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
@@ -604,7 +604,7 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
         w->slow[i] = true;
     if (qdot_watch_vanishes(w, p, i))
         return be_zero(w, p, i);
-    grazes = grazes_at_end(p);
+    grazes = grazes_at_end(w, p, i);
     if (!grazes)
         QDOT_TRY(qdot_watch_sharpen_end(w, p, i));
     if (p->from_zero) {

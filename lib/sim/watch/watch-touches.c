@@ -3,9 +3,22 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* At an extremum below this fraction of its size, a function may be 0. */
 static const double small_of_size = 1e-3;
+
+/* What rounding of the operations of function i hides of it at t, with the state there in w->z; 0 if its roots are not
+ * located in many digits. */
+static qdot_status
+hidden_by_operations(qdot_watch *w, size_t i, double t, double *noise)
+{
+    *noise = 0;
+    if (!w->may_be_flat[i])
+        return QDOT_OK;
+    memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
+    return qdot_watch_operations(w, t, false, i, noise);
+}
 
 qdot_status
 qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch,
@@ -37,6 +50,10 @@ qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
     *touch = v <= noise;
     if (*touch && v * by > noise * rounding)
         *within = v / noise * by;
+    if (!*touch) {
+        QDOT_TRY(hidden_by_operations(w, i, t, &noise));
+        *touch = v <= noise;
+    }
     return QDOT_OK;
 }
 
@@ -52,15 +69,17 @@ bend_at(const qdot_watch_part *p, const double *d, double x)
 }
 
 /* How far from an extremum of value v at t two crossings may lie that cannot be told from a touch there: as far as
- * rounding of g makes two of it. */
+ * rounding of g makes two of it. *hidden: that of its operations is all that is seen of v. */
 static qdot_status
-most_apart(qdot_watch *w, size_t i, double t, double v, double bend, double *apart)
+most_apart(qdot_watch *w, size_t i, double t, double v, double bend, double *apart, bool *hidden)
 {
-    double noise;
+    double noise, operations;
 
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
     QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, &noise));
-    *apart = bend != 0 ? sqrt(2 * (fabs(v) + noise) / fabs(bend)) : 0;
+    QDOT_TRY(hidden_by_operations(w, i, t, &operations));
+    *hidden = noise < fabs(v) && fabs(v) <= operations;
+    *apart = bend != 0 ? sqrt(2 * (fabs(v) + noise + (*hidden ? operations : 0)) / fabs(bend)) : 0;
     return QDOT_OK;
 }
 
@@ -89,17 +108,18 @@ qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, do
 {
     const double t = qdot_watch_time(p, x);
     double d[QDOT_WATCH_NODES], bend, apart;
+    bool hidden;
 
     qdot_chebyshev_derivative(p->n, p->c, d);
     bend = bend_at(p, d, x);
-    QDOT_TRY(most_apart(w, i, t, v, bend, &apart));
+    QDOT_TRY(most_apart(w, i, t, v, bend, &apart, &hidden));
     *root = (qdot_root){.function = i,
                         .t = t,
                         .residual = fabs(v),
                         .blur = fmax(flat_width(p, d, x), apart),
                         .within = within,
                         .bend = within > 0 ? bend : 0};
-    return qdot_watch_settle_touch(w, p, bend, root, is);
+    return qdot_watch_settle_touch(w, p, bend, hidden, root, is);
 }
 
 /* How long before t |g_i| was 4 times `least`, within rounding of which it is 0 at t; at most since the start of the

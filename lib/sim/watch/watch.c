@@ -160,6 +160,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     for (size_t i = 0; i < w->m; i++) {
         w->wants[i] = false;
         w->noise[i] = NAN;
+        w->hidden[i] = 0;
         w->n_extrema[i] = QDOT_WATCH_UNKNOWN;
         w->n_fitted[i] = 0;
     }
@@ -366,6 +367,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     w->roots.n = 0;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->final));
+    if (w->any_deep)
+        QDOT_TRY(qdot_watch_value_deep(w, t, w->final));
     w->length = fabs(t - w->t);
     w->shortest = least_of_length * w->length;
     w->reached = t;
@@ -604,7 +607,7 @@ watch_make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 3 * 2 * n + 1 + 2 * work + 15 * m + 3 * QDOT_WATCH_NODES * m +
+    double *at = qdot_calloc(inputs + 3 * 2 * n + 1 + 2 * work + 16 * m + 3 * QDOT_WATCH_NODES * m +
                                  (DEEPEST + 2) * m + m,
                              sizeof *at);
     int *signs = qdot_calloc(7 * m + 1, sizeof *signs);
@@ -643,6 +646,7 @@ watch_make_room(qdot_watch *w)
     w->most = w->now.offset + m;
     w->faded_since = w->most + m;
     w->settled = w->faded_since + m;
+    w->hidden = w->settled + m;
     for (size_t i = 0; i < m; i++)
         w->settled[i] = NAN;
     w->start.sign = signs + m;
