@@ -91,6 +91,44 @@ qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
     return status;
 }
 
+/* The slope of g at t is taken from there to this part of the way back to the start of the run. */
+static const double near_by = 0x1p-24;
+
+/* How fast g changes just before t; NaN: unknown. */
+static qdot_status
+look_at_slope(look *l, const qdot_trajectory *tr, double t, double g, double *slope)
+{
+    const double by = near_by * (tr->t[0] - t);
+    double before;
+    const qdot_status status = qdot_reader_at(&l->reader, SIZE_MAX, t + by, &before);
+
+    *slope = status == QDOT_OK && by != 0 ? fabs((g - before) / by) : NAN;
+    return qdot_reader_has_nothing(status) ? QDOT_OK : status;
+}
+
+qdot_status
+qdot_touches_crossings(qdot_run *run, size_t event, double *errors)
+{
+    const size_t n = run->course.occurrences.n;
+    look l = {0};
+    qdot_status status = open_look(run, event, &l);
+
+    for (size_t i = 0; i < n && status == QDOT_OK && l.distance; i++) {
+        const qdot_occurrence *o = &run->course.occurrences.at[i];
+        double g, error, slope;
+
+        if (o->event != event || o->way == 0)
+            continue;
+        status = touch_look_at(&l, o->t, &g, &error);
+        if (status == QDOT_OK)
+            status = look_at_slope(&l, &run->course.tr, o->t, g, &slope);
+        if (status == QDOT_OK && error <= slope * fabs(o->t - run->course.tr.t[0]))
+            errors[i] = error / slope;
+    }
+    close_look(&l);
+    return status;
+}
+
 /* Whether the event last occurred at the end t of the run. */
 static bool
 ends_on(const qdot_run *run, size_t event, double t)

@@ -27,4 +27,8 @@ QDOT_MUST_CHECK qdot_status qdot_touches_look(qdot_run *run, size_t event, doubl
  * there: what has a root just before the end has it behind it by other rounding. */
 QDOT_MUST_CHECK qdot_status qdot_touches_end(qdot_run *run, size_t event, bool *undecided);
 
+/* Where the event crosses 0: the error of its function at the time, as that of any value, divided by its slope, into errors [occurrences];
+ * others stay. Companions may be off by little at one time by chance: that of the function is looked at around it. */
+QDOT_MUST_CHECK qdot_status qdot_touches_crossings(qdot_run *run, size_t event, double *errors);
+
 #endif

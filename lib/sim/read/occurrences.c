@@ -62,9 +62,10 @@ time_of_partner(const by_event *own, const by_event *other, size_t event, size_t
     return i == SIZE_MAX ? NAN : of[i];
 }
 
+/* widths [occurrences]: how uncertain their times are beside what run and companions differ by. `least`: at least that. */
 static qdot_status
 compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
-                    const double *widths)
+                    const double *widths, const double *least)
 {
     size_t events = run->stage.events.n, n = run->course.occurrences.n;
     size_t companions = !run->has_companion ? 0 : run->has_twin ? 2 : 1;
@@ -81,6 +82,8 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
             theirs[j] = time_of_partner(own, others + j, o->event, k);
         if (companions > 0)
             by = qdot_companion_bound_of(o->t, companions, theirs);
+        if (by < least[i])
+            by = least[i];
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
@@ -140,7 +143,7 @@ find_errors(qdot_run *run)
 {
     const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
     by_event sorted[3] = {{0}};
-    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
+    double *widths = qdot_calloc(2 * run->course.occurrences.n + 1, sizeof *widths), *least = widths + run->course.occurrences.n;
     qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
 
     if (run->course.occurrences.n > 0 && status == QDOT_OK)
@@ -149,8 +152,11 @@ find_errors(qdot_run *run)
         status = sort_by_event(courses[i], run->stage.events.n, sorted + i);
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
         status = qdot_touches_look(run, i, widths, NULL);
+    /* companions by the method of the run, not by series, take steps that are like its own, and agree with it more often */
+    for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK && run->plan->method->stiff; i++)
+        status = qdot_touches_crossings(run, i, least);
     if (status == QDOT_OK)
-        status = compare_occurrences(run, sorted, sorted + 1, widths);
+        status = compare_occurrences(run, sorted, sorted + 1, widths, least);
     if (status == QDOT_OK)
         status = leave_out_faded(run);
     qdot_free(widths);

@@ -1,5 +1,5 @@
 # What value() states covers the error of event times: a time in an expression, and the state
-# behind a thousand impacts.
+# behind a thousand impacts; a time at which companions by radau agree with the run by chance.
 state=$(qdot -q --json - <<'LAG'
 coord x, y
 particle star mass 1 at (x, y)
@@ -17,12 +17,22 @@ event l: x = 0 falling then x' = -x'
 start x = 0.3, x' = sqrt(2)
 run 0..1000 tol 1e-9
 value(x, 1000)
+reset scene
+coord x
+particle p mass 1 at x
+potential x^2
+force -3*x' on p
+event e: x = 1e-3
+start x = 1
+run 0..100 method radau
+e[1]
 LAG
 )
 echo "$state" | sed -n 's/.*"kind":"number".*"value":\([-+.0-9e]*\),"error":\([-+.0-9e]*\).*/\1 \2/p' | awk '
 BEGIN {
     truth[1] = 22.389846130829384; truth[2] = 44.779692261658768
     n = 0.3 + 1000*sqrt(2); k = int(n/2); n -= 2*k; truth[3] = n > 1 ? 2 - n : n
+    truth[4] = 7.60065236573996482
 }
 {
     off = $1 - truth[NR]; if (off < 0) off = -off
