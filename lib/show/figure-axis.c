@@ -190,53 +190,59 @@ qdot_figure_count_tics(const qdot_figure_axis *a)
     return a->step > 0 ? (int)fmin(last_tic(a) - first_tic(a) + 1, MOST_TICS) : 0;
 }
 
+/* Tics that are being listed. */
+typedef struct {
+    qdot_figure_tic *at;
+    size_t n;
+} tics;
+
 static void
-add_linear_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
+put_tic(tics *t, double at, qdot_text *label, size_t letters, bool minor)
+{
+    qdot_figure_tic *tic = &t->at[t->n];
+
+    if (t->n == QDOT_FIGURE_TICS)
+        return;
+    *tic = (qdot_figure_tic){.at = at, .letters = letters, .minor = minor};
+    if (!label->failed && label->n < sizeof tic->label)
+        memcpy(tic->label, qdot_text_str(label), label->n);
+    t->n++;
+}
+
+static void
+list_linear_tics(const qdot_figure_axis *a, tics *t)
 {
     const int decimals = (int)fmax(0, -floor(log10(a->step) + 1e-9));
     const double first = first_tic(a), last = last_tic(a);
+    qdot_text label = {0};
 
     for (double k = first; k <= last && k < first + MOST_TICS; k++) {
         char number[64];
-        qdot_text label = {0};
-        size_t letters;
 
+        qdot_text_truncate(&label, 0);
         print_number(number, sizeof number, "%.*f", decimals, k == 0 ? 0 : k * a->step);
         if (a->over == 0 || !qdot_figure_add_pi(&label, k * a->step))
             add_signed(&label, number);
-        letters = qdot_utf8_columns(qdot_text_str(&label), label.n);
-        qdot_text_add(script, k > first ? ", " : "");
-        qdot_figure_add_quoted(script, bare ? "" : qdot_text_str(&label));
-        qdot_text_char(script, ' ');
-        qdot_text_double(script, k == 0 ? 0 : k * a->step, TIC);
-        if (letters > *width)
-            *width = letters;
-        script->failed = script->failed || label.failed;
-        qdot_text_clear(&label);
+        put_tic(t, k == 0 ? 0 : k * a->step, &label, qdot_utf8_columns(qdot_text_str(&label), label.n), false);
     }
+    qdot_text_clear(&label);
 }
 
-/* Append a power of ten, times 2 or 5; plain: as 0.1, 1, 20, otherwise as 10^k. */
-static void
-add_power_of_ten(qdot_text *script, int times, int power, bool plain, size_t *width)
+/* Append a power of ten, times 2 or 5; plain: as 0.1, 1, 20, otherwise as 10^k. Returns its letters. */
+static size_t
+add_power_of_ten(qdot_text *label, int times, int power, bool plain)
 {
-    qdot_text label = {0};
-
     if (plain && power >= 0) {
-        qdot_text_double(&label, times * pow(10, power), 4);
+        qdot_text_double(label, times * pow(10, power), 4);
     } else if (plain) {
-        qdot_text_double(&label, times / pow(10, -power), 4);
+        qdot_text_double(label, times / pow(10, -power), 4);
     } else {
         if (times > 1 || power == 0)
-            qdot_text_format(&label, power != 0 ? "%d·" : "%d", times);
+            qdot_text_format(label, power != 0 ? "%d·" : "%d", times);
         if (power != 0)
-            qdot_text_format(&label, "10^{%s%d}", power < 0 ? "−" : "", abs(power));
+            qdot_text_format(label, "10^{%s%d}", power < 0 ? "−" : "", abs(power));
     }
-    if (label.n > *width + (plain ? 0 : 5))
-        *width = label.n - (plain ? 0 : 5);
-    qdot_figure_add_quoted(script, qdot_text_str(&label));
-    script->failed = script->failed || label.failed;
-    qdot_text_clear(&label);
+    return label->n - (plain || label->n < 5 ? 0 : 5);
 }
 
 /* Whether times * 10^k has a number on an axis of so many powers of ten: at most nine powers; on
@@ -255,58 +261,64 @@ is_large(int times, int k, double decades, bool plain)
 }
 
 static void
-add_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
+list_log_tics(const qdot_figure_axis *a, tics *t)
 {
     const double low = log10(a->least), high = log10(a->most), decades = high - low;
     const bool plain = low > -2.01 && high < 3.99;
-    bool some = false;
+    qdot_text label = {0};
 
     for (int k = (int)floor(low); k <= (int)ceil(high); k++)
         for (int times = 1; times < (decades > 8 ? 2 : 10); times++) {
             const double at = times * pow(10, k);
             const bool large = is_large(times, k, decades, plain);
+            size_t letters = 0;
 
             if (at < a->least * (1 - 1e-12) || at > a->most * (1 + 1e-12))
                 continue;
-            qdot_text_add(script, some ? ", " : "");
-            some = true;
-            if (large && !bare)
-                add_power_of_ten(script, times, k, plain, width);
-            else
-                qdot_text_add(script, "''");
-            qdot_text_char(script, ' ');
-            qdot_text_double(script, at, TIC);
-            qdot_text_add(script, large ? "" : " 1");
+            qdot_text_truncate(&label, 0);
+            if (large)
+                letters = add_power_of_ten(&label, times, k, plain);
+            put_tic(t, at, &label, letters, !large);
         }
+    qdot_text_clear(&label);
 }
 
 /* Mark a logarithmic axis of less than a factor of two like a linear one. */
 static void
-add_short_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
+list_short_log_tics(const qdot_figure_axis *a, tics *t)
 {
     const double step = nice_step(a->most - a->least, 5);
-    bool some = false;
+    qdot_text label = {0};
 
     for (double k = ceil(a->least / step); k <= floor(a->most / step) && step > 0; k++) {
-        qdot_text label = {0};
-
+        qdot_text_truncate(&label, 0);
         qdot_text_double(&label, k * step, 4);
-        qdot_text_add(script, some ? ", " : "");
-        qdot_figure_add_quoted(script, bare ? "" : qdot_text_str(&label));
-        qdot_text_char(script, ' ');
-        qdot_text_double(script, k * step, TIC);
-        some = true;
-        if (label.n > *width)
-            *width = label.n;
-        script->failed = script->failed || label.failed;
-        qdot_text_clear(&label);
+        put_tic(t, k * step, &label, label.n, false);
     }
+    qdot_text_clear(&label);
+}
+
+size_t
+qdot_figure_find_tics(const qdot_figure_axis *a, qdot_figure_tic *list)
+{
+    tics t = {list, 0};
+
+    if (!a->log && a->step > 0)
+        list_linear_tics(a, &t);
+    else if (a->log && a->most < 2 * a->least)
+        list_short_log_tics(a, &t);
+    else if (a->log)
+        list_log_tics(a, &t);
+    return t.n;
 }
 
 void
 qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *a, bool bare,
                      size_t *width)
 {
+    qdot_figure_tic tics[QDOT_FIGURE_TICS];
+    size_t n;
+
     if (!a->log && a->step == 0) { /* beyond what doubles can divide */
         qdot_text_format(script, "set %crange [*:*]\nset %ctics autofreq\n", name, name);
         return;
@@ -317,12 +329,15 @@ qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *a, bo
     qdot_text_char(script, ':');
     qdot_text_double(script, a->most, EXACT);
     qdot_text_format(script, "]\nset %ctics (", name);
-    if (!a->log)
-        add_linear_tics(script, a, bare, width);
-    else if (a->most < 2 * a->least)
-        add_short_log_tics(script, a, bare, width);
-    else
-        add_log_tics(script, a, bare, width);
+    n = qdot_figure_find_tics(a, tics);
+    for (size_t i = 0; i < n; i++) {
+        qdot_text_add(script, i > 0 ? ", " : "");
+        qdot_figure_add_quoted(script, bare ? "" : tics[i].label);
+        qdot_text_char(script, ' ');
+        qdot_text_double(script, tics[i].at, TIC);
+        qdot_text_add(script, tics[i].minor ? " 1" : "");
+        *width = tics[i].letters > *width ? tics[i].letters : *width;
+    }
     qdot_text_add(script, ")\n");
 }
 

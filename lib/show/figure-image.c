@@ -21,6 +21,7 @@ static const qdot_figure_kind kinds[] = {
      "", "IEND\xae\x42\x60\x82"},
     {".pdf", 1, 1.5, 0.75, 1.4, "set terminal pdfcairo enhanced fontscale 1", "cm", "%%EOF"},
     {".eps", 1, 1.5, 0.75, 1.4, "set terminal epscairo enhanced fontscale 1", "cm", "%%EOF"},
+    {".tikz", 1, 1, 1, 1.4, NULL, "cm", ""}, /* figure-tikz.c */
 };
 
 static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {\n"
@@ -168,6 +169,26 @@ leave_script(const qdot_figure_drawing *like, const char *path)
     return status;
 }
 
+/* A file for LaTeX, which has script and data in it. */
+static qdot_status
+write_tikz(const qdot_figure *figure, const qdot_figure_kind *kind, const char *path)
+{
+    qdot_text text = {0};
+    qdot_figure_drawing d = {.figure = figure, .script = &text, .kind = kind};
+    qdot_status status = qdot_figure_size(figure, &d.width, &d.height, &d.points);
+
+    if (status == QDOT_OK && figure->keep) {
+        qdot_fail(QDOT_EINVAL, "`keep` leaves a script of gnuplot, which draws no .tikz");
+        status = qdot_hint("a .tikz has its data in it: leave `keep` out");
+    }
+    if (status == QDOT_OK)
+        status = qdot_figure_add_tikz(&d);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(path, text.at, text.n);
+    qdot_text_clear(&text);
+    return status;
+}
+
 qdot_status
 qdot_figure_write(const qdot_figure *figure, const char *path)
 {
@@ -188,9 +209,11 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
         d.kind = figure_kind_of(path);
         if (d.kind == NULL) {
             qdot_fail(QDOT_EINVAL, "`%.200s` does not say what figure it is to be", path);
-            return qdot_hint("end its name in .svg, .png, .pdf or .eps");
+            return qdot_hint("end its name in .svg, .png, .pdf, .eps or .tikz");
         }
     }
+    if (path != NULL && d.kind->before == NULL)
+        return write_tikz(figure, d.kind, path);
     if (path != NULL && figure->keep)
         QDOT_TRY(check_siblings(path));
     QDOT_TRY(qdot_figure_size(figure, &d.width, &d.height, &d.points));

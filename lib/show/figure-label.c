@@ -52,19 +52,30 @@ qdot_figure_add_quoted(qdot_text *script, const char *text)
 
 /* --- formulas ------------------------------------------------------------------------- */
 
-/* Append a formula as it was typed, for one of the notations; gnuplot's is that of drawn formulas. */
+typedef enum { IN_LINE, IN_GNUPLOT, IN_LATEX } language;
+
+static qdot_status
+add_written(qdot_text *out, const qdot_formula *f, qdot_formula_id id, language to)
+{
+    switch (to) {
+    case IN_LINE: return qdot_formula_write_line(f, id, QDOT_NOTATION_LINE, out);
+    case IN_GNUPLOT: return qdot_formula_write_gnuplot(f, id, out);
+    default: return qdot_formula_write_latex(f, id, out);
+    }
+}
+
+/* Append a formula as it was typed. */
 static void
-add_read(qdot_text *out, const char *typed, qdot_notation_kind notation)
+add_read(qdot_text *out, const char *typed, language to)
 {
     qdot_formula f = {0};
     const qdot_formula_id all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
     qdot_status status;
 
-    qdot_formula_read(&f, all, typed, notation);
+    qdot_formula_read(&f, all, typed, to == IN_LINE ? QDOT_NOTATION_LINE : QDOT_NOTATION_DRAWN);
     status = qdot_formula_status(&f);
     if (status == QDOT_OK)
-        status = notation == QDOT_NOTATION_DRAWN ? qdot_formula_write_gnuplot(&f, all, out)
-                                                 : qdot_formula_write_line(&f, all, notation, out);
+        status = add_written(out, &f, all, to);
     out->failed = out->failed || status != QDOT_OK;
     qdot_formula_clear(&f);
 }
@@ -72,7 +83,7 @@ add_read(qdot_text *out, const char *typed, qdot_notation_kind notation)
 void
 qdot_figure_add_line(qdot_text *out, const char *formula)
 {
-    add_read(out, formula, QDOT_NOTATION_LINE);
+    add_read(out, formula, IN_LINE);
 }
 
 /* --- writing labels ----------------------------------------------------------------- */
@@ -81,7 +92,7 @@ void
 qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
 {
     if (label->text != NULL && label->formula) {
-        add_read(out, label->text, QDOT_NOTATION_DRAWN);
+        add_read(out, label->text, IN_GNUPLOT);
         return;
     }
     for (const char *c = label->text != NULL ? label->text : ""; *c != '\0'; c++) {
@@ -89,6 +100,26 @@ qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
             qdot_text_char(out, '\\');
         qdot_text_char(out, *c);
     }
+}
+
+void
+qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label)
+{
+    const char *text = label->text != NULL ? label->text : "";
+
+    if (label->formula && *text != '\0') {
+        qdot_text_char(out, '$');
+        add_read(out, text, IN_LATEX);
+        qdot_text_char(out, '$');
+        return;
+    }
+    for (; *text != '\0'; text++)
+        if (strchr("\\^~", *text) != NULL)
+            qdot_text_format(out, "\\text%s{}", *text == '\\' ? "backslash" : *text == '^' ? "asciicircum" : "asciitilde");
+        else if ((unsigned char)*text < 0x20)
+            qdot_text_char(out, ' ');
+        else
+            qdot_text_format(out, strchr("#$%&_{}", *text) != NULL ? "\\%c" : "%c", *text);
 }
 
 qdot_figure_label

@@ -25,6 +25,8 @@ void qdot_figure_add_quoted(qdot_text *script, const char *text);
 void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
 /* Append the label in gnuplot's markup, without quotes. */
 void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
+/* Append the label as text of a LaTeX document, a formula between dollars. */
+void qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label);
 /* Append a formula that was typed as a line for the eye, for a sketch. */
 void qdot_figure_add_line(qdot_text *out, const char *formula);
 /* What curve k is called in the key. */
@@ -42,6 +44,16 @@ qdot_figure_axis qdot_figure_axis_of(double least, double most, qdot_figure_tics
 bool qdot_figure_add_pi(qdot_text *out, double x);
 /* The number of tics of a linear axis; 0: gnuplot chooses them, or it is logarithmic. */
 int qdot_figure_count_tics(const qdot_figure_axis *axis);
+/* A tic: a large one with its number in gnuplot's markup, of so many letters, or a small one without. */
+typedef struct {
+    double at;
+    char label[48];
+    size_t letters;
+    bool minor;
+} qdot_figure_tic;
+enum { QDOT_FIGURE_TICS = 640 };
+/* Find the tics of an axis, tics [QDOT_FIGURE_TICS], from the least on; returns their number. 0: gnuplot chooses them. */
+size_t qdot_figure_find_tics(const qdot_figure_axis *axis, qdot_figure_tic *tics);
 /* Append `set xrange` and `set xtics`; bare: tics without numbers. *width: characters of the widest. */
 void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
                           bool bare, size_t *width);
@@ -96,7 +108,7 @@ bool qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const d
 
 /* --- the whole script --------------------------------------------------------------- */
 
-/* An image format. */
+/* An image format; one without a terminal is written without gnuplot. */
 typedef struct {
     const char *ending;
     double dots;  /* of its unit in a cm */
@@ -116,6 +128,14 @@ typedef struct {
     qdot_text *script;
 } qdot_figure_drawing;
 
+/* Choose the axes [3] of a panel. Those with one scale have one power of ten and, unless one is short, one step. Errors:
+ * QDOT_EDOMAIN, QDOT_EINVAL, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes);
+/* The colour, #rrggbb, and the dashes, "1" or "(on,off,...)", of a curve with this look, counted from 0. */
+const char *qdot_figure_colour(size_t look);
+const char *qdot_figure_dash(size_t look);
+/* Write the figure as a tikzpicture of pgfplots (figure-tikz.c). Errors: as qdot_figure_add_script. */
+QDOT_MUST_CHECK qdot_status qdot_figure_add_tikz(const qdot_figure_drawing *d);
 /* Write the script after `set terminal`. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_script(const qdot_figure_drawing *d);
 /* Write all curves as gnuplot's indices: separated by two blank lines, with their names as comments. */

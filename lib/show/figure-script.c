@@ -34,6 +34,18 @@ enum {
     MANY_MARKS = 24 /* on a curve */
 };
 
+const char *
+qdot_figure_colour(size_t look)
+{
+    return colours[look % COLOURS];
+}
+
+const char *
+qdot_figure_dash(size_t look)
+{
+    return dashes[look % DASHES];
+}
+
 /* --- writing the data --------------------------------------------------------------- */
 
 /* Write the points of a curve, one per line, with a blank line at interruptions. */
@@ -160,10 +172,8 @@ choose_axis(const qdot_figure_drawing *d, const qdot_figure_view *v, int k, doub
     return a;
 }
 
-/* The axes of a panel. Those with one scale have one power of ten and, unless one is short, one
- * step. */
-static qdot_status
-choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
+qdot_status
+qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
 {
     static const double apart[] = {1.9, 1.2, 1.2};
     const qdot_panel *panel = &d->figure->panels[i];
@@ -412,9 +422,9 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* not to hide each other */
             qdot_text_format(d->script, " pointinterval %zu",
                              panel->curves[k].rows / (MANY_MARKS / 2));
-        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[look % COLOURS]);
+        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", qdot_figure_colour(look));
         if ((panel->n > 1 || curve->look > 0) && !panel->marks && !panel->points && !point)
-            qdot_text_format(d->script, " dashtype %s", dashes[look % DASHES]);
+            qdot_text_format(d->script, " dashtype %s", qdot_figure_dash(look));
         const qdot_figure_label label = qdot_figure_curve_label(panel, k);
 
         qdot_text_add(d->script, " title ");
@@ -478,7 +488,7 @@ letters_left(const qdot_figure_drawing *d, double *letters)
     for (size_t i = 0; i < d->figure->n; i++) {
         qdot_figure_axis axes[3];
 
-        QDOT_TRY(choose_axes(d, i, axes));
+        QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
         *letters = fmax(*letters, 3.2 + 0.72 * (double)widest_number(&axes[1]) +
                                       (has_power(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
     }
@@ -527,7 +537,7 @@ add_panel(const qdot_figure_drawing *d, size_t i)
     qdot_figure_axis axes[3];
     double high = d->height;
 
-    QDOT_TRY(choose_axes(d, i, axes));
+    QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
     if (d->figure->n > 1 || !qdot_figure_is_space(panel))
         QDOT_TRY(panel_place(d, i, &high));
     add_title(d, panel);

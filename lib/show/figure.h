@@ -76,7 +76,7 @@ typedef struct {
     bool log[3], pi[3];
 } qdot_figure_view;
 
-/* Type by ending: .svg .png .pdf .eps. path NULL: a window of gnuplot that persists.
+/* Type by ending: .svg .png .pdf .eps, drawn by gnuplot; .tikz for LaTeX. path NULL: a window of gnuplot that persists.
  *
  * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend of more curves than there are; QDOT_EDOMAIN if no point can be
  * shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;

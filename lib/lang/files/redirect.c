@@ -61,7 +61,7 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
 static qdot_status
 redirect_refuse(const char *path, const char *ending)
 {
-    static const char *const figures[] = {".svg", ".png", ".pdf", ".gif"};
+    static const char *const figures[] = {".svg", ".png", ".pdf", ".eps", ".tikz", ".gif"};
     static const char *const data[] = {".csv", ".h5"};
     qdot_spelling nearest;
 

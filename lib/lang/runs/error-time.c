@@ -70,7 +70,7 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
 qdot_status
 qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_choice *panel)
 {
-    static const char *const drawn[] = {".svg", ".png", ".pdf"};
+    static const char *const drawn[] = {".svg", ".png", ".pdf", ".eps", ".tikz"};
     bool good;
 
     QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, figure, panel));
@@ -81,7 +81,7 @@ qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_c
         return QDOT_OK;
     qdot_record_blame(r, qdot_record_hole(r, NULL, "T0..T1") + 1);
     (void)qdot_fail(QDOT_EINVAL, "the name `%.200s` does not tell the kind of file", figure->path);
-    return qdot_hint("end its name in .csv, .txt, .json, .html, .h5, .svg, .png, .pdf or .eps");
+    return qdot_hint("end its name in .csv, .txt, .json, .html, .h5, .svg, .png, .pdf, .eps or .tikz");
 }
 
 qdot_status

@@ -1,0 +1,391 @@
+/* figure-tikz.c -- writes a figure for LaTeX: a tikzpicture with an axis of pgfplots for each panel.
+ *
+ * Axes, tics, colours and sizes are those of the other kinds of figure; labels are formulas of LaTeX, in the letters of
+ * the document. A document takes the file by \input.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "show/figure-parts.h"
+
+enum { DIGITS = 7, IN_A_LINE = 4, BLOCK = 1024, MANY_MARKS = 24, LONG_KEY = 8, MOST_POINTS = 8000, LEAST_CURVES = 3 };
+
+static const char head[] = "% by qdot: \\input this file into a document with \\usepackage{pgfplots},\n"
+                           "% \\pgfplotsset{compat=1.16} or later\n";
+
+static const char *const marks[] = {"*",        "square*",   "triangle*", "diamond*", "pentagon*", "square", "o",
+                                    "triangle", "diamond",   "pentagon",  "+",        "x",         "asterisk"};
+
+enum { MARKS = sizeof marks / sizeof *marks };
+
+/* --- texts -------------------------------------------------------------------------------- */
+
+/* A tic's number, 2·10^{−5} or π/2, which has few signs that LaTeX spells otherwise. */
+static void
+tikz_add_number(qdot_text *out, const char *number)
+{
+    static const struct {
+        const char *sign, *latex;
+    } signs[] = {{"−", "-"}, {"·", "\\cdot "}, {"π", "\\pi "}};
+
+    for (const char *c = number; *c != '\0';) {
+        size_t n = 0;
+
+        for (size_t i = 0; i < sizeof signs / sizeof *signs && n == 0; i++)
+            if (strncmp(c, signs[i].sign, strlen(signs[i].sign)) == 0) {
+                qdot_text_add(out, signs[i].latex);
+                n = strlen(signs[i].sign);
+            }
+        if (n == 0)
+            qdot_text_char(out, *c);
+        c += n > 0 ? n : 1;
+    }
+}
+
+/* The label of an axis with its offset and its power of ten: (E - 9.81) / 10^{-12}. */
+static void
+add_axis_label(qdot_text *s, const qdot_figure_axis *a, const qdot_figure_label *label)
+{
+    const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
+
+    qdot_text_add(s, "{");
+    qdot_text_add(s, moved && scaled ? "(" : "");
+    qdot_figure_add_latex(s, label);
+    if (moved) {
+        qdot_text_add(s, a->offset > 0 ? " $- " : " $+ ");
+        tikz_add_number(s, a->offset_text);
+        qdot_text_char(s, '$');
+    }
+    qdot_text_add(s, moved && scaled ? ")" : "");
+    if (scaled)
+        qdot_text_format(s, " $/\\,10^{%d}$", a->power);
+    qdot_text_char(s, '}');
+}
+
+/* --- the axes of a panel ------------------------------------------------------------------ */
+
+static void
+add_option(qdot_text *s, const char *name, double value, const char *unit)
+{
+    qdot_text_format(s, "  %s=", name);
+    qdot_text_double(s, value, DIGITS);
+    qdot_text_format(s, "%s,\n", unit);
+}
+
+/* The list of large (or small) tics of an axis; labels: their numbers. */
+static void
+list_tics(qdot_text *s, const qdot_figure_tic *tics, size_t n, bool minor, bool labels)
+{
+    bool some = false;
+
+    qdot_text_char(s, '{');
+    for (size_t i = 0; i < n; i++) {
+        if (tics[i].minor != minor)
+            continue;
+        qdot_text_add(s, some ? "," : "");
+        some = true;
+        if (labels) {
+            qdot_text_char(s, '$');
+            tikz_add_number(s, tics[i].label);
+            qdot_text_char(s, '$');
+        } else {
+            qdot_text_double(s, tics[i].at, DIGITS);
+        }
+    }
+    qdot_text_char(s, '}');
+}
+
+/* Range, tics and label of axis k; bare: without numbers and label, as panels below have them. */
+static void
+add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label, bool bare)
+{
+    char option[] = "xmin";
+    qdot_figure_tic tics[QDOT_FIGURE_TICS];
+    const size_t n = qdot_figure_find_tics(a, tics);
+
+    option[0] = name;
+    if (a->log || a->step > 0) {
+        add_option(s, option, a->least, "");
+        add_option(s, memcpy(option, (char[]){name, 'm', 'a', 'x'}, 4), a->most, "");
+    }
+    if (a->log)
+        qdot_text_format(s, "  %cmode=log,\n", name);
+    if (n > 0) {
+        qdot_text_format(s, "  %ctick=", name);
+        list_tics(s, tics, n, false, false);
+        qdot_text_format(s, ", %cticklabels=", name);
+        if (bare)
+            qdot_text_add(s, "{}");
+        else
+            list_tics(s, tics, n, false, true);
+        qdot_text_add(s, ",\n");
+        if (a->log) {
+            qdot_text_format(s, "  minor %ctick=", name);
+            list_tics(s, tics, n, true, false);
+            qdot_text_add(s, ",\n");
+        }
+    }
+    if (bare || ((label->text == NULL || label->text[0] == '\0') && a->power == 0 && a->offset_text[0] == '\0'))
+        return;
+    qdot_text_format(s, "  %clabel=", name);
+    add_axis_label(s, a, label);
+    qdot_text_add(s, ",\n");
+}
+
+static void
+add_map(qdot_text *s, const qdot_figure_map *map)
+{
+    double ends[2];
+
+    qdot_figure_map_ends(map, ends);
+    qdot_text_add(s, "  axis on top, colormap/viridis, colorbar,\n");
+    if (ends[1] > ends[0]) {
+        add_option(s, "point meta min", ends[0], "");
+        add_option(s, "point meta max", ends[1], "");
+    }
+    if (map->label.text != NULL && map->label.text[0] != '\0') {
+        qdot_text_add(s, "  colorbar style={ylabel={");
+        qdot_figure_add_latex(s, &map->label);
+        qdot_text_add(s, "}},\n");
+    }
+}
+
+/* The title, with the note under it, above the key if that stands above the axes. */
+static void
+tikz_add_title(qdot_text *s, const qdot_panel *panel)
+{
+    const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
+    const qdot_figure_label note = {panel->note, false};
+
+    if (!titled && panel->note == NULL)
+        return;
+    qdot_text_add(s, "  title={");
+    qdot_figure_add_latex(s, &panel->title);
+    if (panel->note != NULL) {
+        qdot_text_add(s, titled ? "\\\\{\\small " : "{\\small ");
+        qdot_figure_add_latex(s, &note);
+        qdot_text_char(s, '}');
+    }
+    qdot_text_format(s, "}, title style={align=center, yshift=%.1fem},\n",
+                     panel->n < 2 || panel->n > LONG_KEY ? 0 : 1.3 * (double)((panel->n + 1) / 2));
+}
+
+static void
+tikz_add_key(qdot_text *s, const qdot_panel *panel)
+{
+    if (panel->n < 2)
+        return;
+    qdot_text_add(s, "  legend cell align=left, legend style={draw=none, font=\\small, ");
+    qdot_text_add(s, panel->n > LONG_KEY ? "at={(1.02,1)}, anchor=north west},\n"
+                                         : "at={(1,1.02)}, anchor=south east, legend columns=2, "
+                                           "/tikz/every even column/.append style={column sep=1em}},\n");
+}
+
+/* --- curves ------------------------------------------------------------------------------- */
+
+/* The value of a point as its axis shows it. */
+static double
+shown(const qdot_figure_axis *a, double value)
+{
+    return (value - a->offset) / pow(10, a->power);
+}
+
+static void
+add_colour(qdot_text *s, size_t look)
+{
+    unsigned rgb = 0;
+
+    for (const char *c = qdot_figure_colour(look) + 1; *c != '\0'; c++)
+        rgb = 16 * rgb + (unsigned)(*c <= '9' ? *c - '0' : *c - 'a' + 10);
+    qdot_text_format(s, "color={rgb,255:red,%u; green,%u; blue,%u}", rgb >> 16, rgb >> 8 & 255, rgb & 255);
+}
+
+/* A pattern of dashes and gaps, (12,5), of which gnuplot's unit is about half a point. */
+static void
+add_dashes(qdot_text *s, size_t look)
+{
+    const char *c = qdot_figure_dash(look);
+    bool on = true;
+    int n = 0;
+
+    if (*c != '(')
+        return;
+    qdot_text_add(s, ", dash pattern=");
+    for (c++; *c != '\0'; c++) {
+        if (*c >= '0' && *c <= '9') {
+            n = 10 * n + *c - '0';
+            continue;
+        }
+        qdot_text_format(s, "%s %.1fpt%s", on ? "on" : "off", 0.5 * n, *c == ')' ? "" : " ");
+        on = !on;
+        n = 0;
+    }
+}
+
+static void
+add_style(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, size_t look)
+{
+    const bool point = curve->rows == 1 || curve->points;
+
+    add_colour(s, look);
+    qdot_text_add(s, ", line width=0.8pt");
+    if (panel->points && !point)
+        qdot_text_add(s, ", only marks, mark=*, mark size=0.6pt");
+    else if (point || panel->marks)
+        qdot_text_format(s, ", %smark=%s, mark size=1.6pt", point ? "only marks, " : "", marks[look % MARKS]);
+    else
+        qdot_text_add(s, ", no markers");
+    if (panel->marks && curve->rows > MANY_MARKS)
+        qdot_text_format(s, ", mark repeat=%zu", curve->rows / (MANY_MARKS / 2));
+    if ((panel->n > 1 || curve->look > 0) && !panel->marks && !panel->points && !point)
+        add_dashes(s, look);
+}
+
+/* Whether point k of a curve is written: of those that share a bin the ones with the least and the greatest ordinate.
+ * TeX's memory holds some 10,000 points, and a bin is narrower than a line. */
+static bool
+tikz_keeps(const qdot_curve *curve, size_t k, size_t bin)
+{
+    const size_t from = k - k % bin, to = from + bin < curve->rows ? from + bin : curve->rows;
+    size_t least = from, most = from;
+
+    for (size_t i = from; i < to && bin > 1; i++) {
+        if (isnan(curve->y[i]))
+            return true;
+        least = curve->y[i] < curve->y[least] ? i : least;
+        most = curve->y[i] > curve->y[most] ? i : most;
+    }
+    return bin == 1 || k == least || k == most || k + 1 == curve->rows;
+}
+
+/* The points of a curve, with nan where the line is interrupted. */
+static qdot_status
+tikz_add_points(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, const qdot_figure_axis *axes)
+{
+    const size_t most = panel->n < LEAST_CURVES ? MOST_POINTS / LEAST_CURVES : MOST_POINTS / panel->n;
+    const size_t bin = curve->rows <= most ? 1 : 2 * curve->rows / most + 1;
+    bool open = false;
+    size_t n = 0;
+
+    for (size_t k = 0; k < curve->rows; k++) {
+        const double point[3] = {curve->x[k], curve->y[k], curve->z != NULL ? curve->z[k] : 0};
+
+        if (k % BLOCK == BLOCK - 1)
+            QDOT_TRY(qdot_interrupt_check());
+        if (!qdot_figure_shows(panel, curve, k)) {
+            qdot_text_add(s, open ? curve->z != NULL ? " (nan,nan,nan)" : " (nan,nan)" : "");
+            open = false;
+            continue;
+        }
+        if (!tikz_keeps(curve, k, bin))
+            continue;
+        qdot_text_add(s, n++ % IN_A_LINE == 0 ? "\n    (" : " (");
+        for (int i = 0; i < (curve->z != NULL ? 3 : 2); i++) {
+            qdot_text_add(s, i > 0 ? "," : "");
+            qdot_text_double(s, shown(&axes[i], point[i]), DIGITS);
+        }
+        qdot_text_char(s, ')');
+        open = true;
+    }
+    return qdot_text_status(s);
+}
+
+static qdot_status
+tikz_add_curves(qdot_text *s, const qdot_panel *panel, const qdot_figure_axis *axes)
+{
+    for (size_t k = 0; k < panel->n; k++) {
+        const qdot_curve *curve = &panel->curves[k];
+        const qdot_figure_label label = qdot_figure_curve_label(panel, k);
+
+        qdot_text_format(s, "  \\addplot%s[", qdot_figure_is_space(panel) ? "3" : "");
+        add_style(s, panel, curve, curve->look > 0 ? curve->look - 1 : k);
+        qdot_text_add(s, "] coordinates {");
+        QDOT_TRY(tikz_add_points(s, panel, curve, axes));
+        qdot_text_add(s, "\n  };\n");
+        if (panel->n < 2)
+            continue;
+        qdot_text_add(s, "  \\addlegendentry{");
+        qdot_figure_add_latex(s, &label);
+        qdot_text_add(s, "}\n");
+    }
+    return qdot_text_status(s);
+}
+
+static qdot_status
+add_cells(qdot_text *s, const qdot_figure_map *map, const qdot_figure_axis *axes)
+{
+    qdot_text_format(s, "  \\addplot[matrix plot*, mesh/cols=%zu, point meta=explicit] coordinates {", map->n[0]);
+    for (size_t j = 0; j < map->n[1]; j++) {
+        QDOT_TRY(qdot_interrupt_check());
+        for (size_t i = 0; i < map->n[0]; i++) {
+            const double v = map->value[j * map->n[0] + i];
+
+            qdot_text_add(s, i % IN_A_LINE == 0 ? "\n    (" : " (");
+            qdot_text_double(s, shown(&axes[0], qdot_figure_map_place(map, 0, i)), DIGITS);
+            qdot_text_char(s, ',');
+            qdot_text_double(s, shown(&axes[1], qdot_figure_map_place(map, 1, j)), DIGITS);
+            qdot_text_add(s, ") [");
+            if (isfinite(v))
+                qdot_text_double(s, v, DIGITS);
+            else
+                qdot_text_add(s, "nan");
+            qdot_text_char(s, ']');
+        }
+        qdot_text_char(s, '\n');
+    }
+    qdot_text_add(s, "  };\n");
+    return qdot_text_status(s);
+}
+
+/* --- panels ------------------------------------------------------------------------------- */
+
+/* The axes of a panel in centimetres, their upper left corner `top` below that of the figure. */
+static qdot_status
+add_panel(const qdot_figure_drawing *d, size_t i, double top)
+{
+    const qdot_panel *panel = &d->figure->panels[i];
+    const bool space = qdot_figure_is_space(panel), shared = qdot_figure_is_shared(d->figure, i);
+    qdot_text *s = d->script;
+    qdot_figure_axis axes[3];
+    qdot_figure_view view;
+
+    QDOT_TRY(qdot_figure_get_view(d->figure, i, &view));
+    QDOT_TRY(qdot_figure_choose_axes(d, i, axes));
+    qdot_text_add(s, "\\begin{axis}[\n  at={(0cm,");
+    qdot_text_double(s, top > 0 ? -top : 0, DIGITS);
+    qdot_text_add(s, "cm)}, anchor=north west,\n");
+    if (space) {
+        add_option(s, "width", d->width, "cm");
+        qdot_text_format(s, "  view={%d}{%d}, axis equal image,\n", QDOT_FIGURE_TURN, 90 - QDOT_FIGURE_TILT);
+    } else {
+        qdot_text_add(s, "  scale only axis,\n");
+        add_option(s, "width", view.length[0], "cm");
+        add_option(s, "height", view.length[1], "cm");
+        qdot_text_add(s, panel->map != NULL ? "  enlargelimits=false, tick align=outside,\n"
+                                            : "  axis lines=left, axis line style={-}, tick align=outside, grid=major, "
+                                              "grid style={black!12},\n");
+    }
+    qdot_text_add(s, "  unbounded coords=jump, xticklabel style={text height=1.5ex},\n");
+    tikz_add_title(s, panel);
+    for (int k = 0; k < (space ? 3 : 2); k++)
+        add_axis(s, "xyz"[k], &axes[k], &panel->axis[k], k == 0 && shared);
+    if (panel->map != NULL)
+        add_map(s, panel->map);
+    tikz_add_key(s, panel);
+    qdot_text_add(s, "]\n");
+    QDOT_TRY(panel->map != NULL ? add_cells(s, panel->map, axes) : tikz_add_curves(s, panel, axes));
+    qdot_text_add(s, "\\end{axis}\n");
+    return qdot_text_status(s);
+}
+
+qdot_status
+qdot_figure_add_tikz(const qdot_figure_drawing *d)
+{
+    qdot_text_add(d->script, head);
+    qdot_text_add(d->script, "\\begin{tikzpicture}\n");
+    for (size_t i = 0; i < d->figure->n; i++)
+        QDOT_TRY(add_panel(d, i, d->height / (double)d->figure->n * (double)i));
+    qdot_text_add(d->script, "\\end{tikzpicture}\n");
+    return qdot_text_status(d->script);
+}

@@ -1,0 +1,25 @@
+# Figures for LaTeX: axes of pgfplots with labels from formulas. Where LaTeX with pgfplots is installed they are compiled
+# (which says nothing if it succeeds); without it only what is written is compared.
+scene="param V_0 = 2; coord theta, x_max; particle a mass 1 at (sin(theta), -cos(theta)); particle b mass 1 at (x_max, 0)
+gravity (0, -9.81); potential x_max^2; start theta = 2, x_max = 1; run 0..4"
+qdot -q -e "$scene" -e "plot theta' vs theta ticks pi to \"phase.tikz\"" 2>&1 | grep -v '^ \|^run'
+qdot -q -e "$scene" -e "plot theta'^2/(2*V_0), sqrt(x_max^2 + 1), x_max' legend \"50% & \$_1\$\" title \"{a}\" to \"key.tikz\"" \
+    -e "plot theta | plot theta' to \"panels.tikz\"" -e 'plot a to "path.tikz"' -e 'plot theta keep to "kept.tikz"' 2>&1 |
+    grep -v '^ \|^run'
+qdot -q -e 'plot 1/x vs x = 1/10..100 log xy to "log.tikz"' -e 'plot sin(1e4*x) vs x = 0..1 to "many.tikz"' \
+    -e 'plot 5 + 1e-9*x^2 vs x = 0..1 to "near.tikz"' \
+    -e 'coord x, y, z; particle p mass 1 at (x, y, z); potential (x^2 + 2*y^2 + 3*z^2)/2; start x = 1, y = 1/2, z'"'"' = 1' \
+    -e 'run 0..3; plot p to "space.tikz"; sweep x = 1..2 count 3, y = 0..1 count 4 run 0..1 : value(x, 1)' \
+    -e 'plot sweep1 to "map.tikz"; energy to "no.tikz"' 2>&1 | grep -v '^ \|^run'
+for name in phase key panels path log near space map; do
+    echo "--- $name"
+    # numbers that depend on the run's last digits are not compared
+    sed -n '/^ *[^ (}]/p' $name.tikz | grep -v '^% ' | sed '/^  at\|[xyz]m[ai][nx]=\|height=\|meta m/d'
+done
+echo "$(grep -o '([0-9.e-]*,[-0-9.e]*)' many.tikz | wc -l) points" | sed 's/^2[0-9][0-9][0-9] /2000 and more /'
+if kpsewhich pgfplots.sty >/dev/null 2>&1; then
+    { printf '%s\n' '\documentclass{article}\usepackage{amsmath,pgfplots}\pgfplotsset{compat=1.16}\begin{document}'
+    for name in phase key panels path log near many space map; do printf '\\input{%s.tikz}\\par\n' $name; done
+    printf '%s\n' '\end{document}'; } >all.tex
+    pdflatex -interaction=nonstopmode all.tex >all.out 2>&1 || grep -A3 '^!' all.out
+fi
