@@ -146,6 +146,37 @@ qdot_name_index(const char *name, qdot_name_digits *index)
     return p.digits == 0 && !(p.index > 0 && p.below > 0) && all_digits(index->at, index->n);
 }
 
+/* --- names of several letters ------------------------------------------------------------------ */
+
+static bool
+is_long(const qdot_formula *f, const qdot_formula_node *node)
+{
+    return node->kind == QDOT_FORMULA_TEXT && node->what == QDOT_TEXT_NAME && node->n > 1 &&
+           qdot_name_greek(f->text.at + node->child) == NULL;
+}
+
+static const qdot_formula_node *
+first_of(const qdot_formula *f, const qdot_formula_node *node)
+{
+    return qdot_formula_at(f, qdot_formula_at(f, node->child)->next);
+}
+
+bool
+qdot_name_is_long_at_begin(const qdot_formula *f, const qdot_formula_node *node)
+{
+    while (node->child != 0 &&
+           (node->kind == QDOT_FORMULA_POWER || node->kind == QDOT_FORMULA_INDEX || node->kind == QDOT_FORMULA_ACCENT ||
+            node->kind == QDOT_FORMULA_PRIMES || node->kind == QDOT_FORMULA_ROW || node->kind == QDOT_FORMULA_SPAN))
+        node = first_of(f, node);
+    return is_long(f, node);
+}
+
+bool
+qdot_name_is_long_at_end(const qdot_formula *f, const qdot_formula_node *node)
+{
+    return is_long(f, node->kind == QDOT_FORMULA_ACCENT ? first_of(f, node) : node);
+}
+
 /* --- names written in a line ------------------------------------------------------------------ */
 
 /* A copy of the next part of a name, up to the sign `between`; moves *i past it. */

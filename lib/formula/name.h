@@ -24,6 +24,11 @@ bool qdot_name_index(const char *name, qdot_name_digits *index);
 /* Append the name in a line, with dots or primes for a derivative: θ̇₁. lowered: an index of digits is written so. */
 void qdot_name_line(const char *name, uint32_t order, bool lowered, qdot_text *out);
 
+/* Whether a node begins with a name of several letters, which are no Greek ones: mass, mass_1, mass'^2; whether it ends
+ * with one: not where an index or a power follows. */
+bool qdot_name_is_long_at_begin(const qdot_formula *f, const qdot_formula_node *node);
+bool qdot_name_is_long_at_end(const qdot_formula *f, const qdot_formula_node *node);
+
 /* Append the name to the parent, drawn. */
 void qdot_formula_add_name(qdot_formula *f, qdot_formula_id parent, const char *name, uint32_t order);
 

@@ -14,7 +14,8 @@ static const char *const signs[] = {
 
 typedef struct {
     qdot_text *out;
-    size_t roman, times; /* where a name in roman type, a sign of multiplication ended last */
+    size_t name, times; /* where a name of several letters, a sign of multiplication ended last */
+    bool parted;        /* ... and the sign stood behind such a name */
 } writer;
 
 /* Functions with a LaTeX command. */
@@ -55,20 +56,19 @@ latex_add_roman(qdot_text *out, const char *name, size_t n)
     qdot_text_char(out, '}');
 }
 
-/* A sign of multiplication. LaTeX drops the blank, so a thin space parts names of several letters: mass length. */
+/* A sign of multiplication, which is a blank that LaTeX drops. */
 static void
 latex_add_times(writer *w)
 {
-    qdot_text_add(w->out, w->roman == w->out->n && w->roman > 0 ? " \\, " : signs[QDOT_SIGN_TIMES]);
+    w->parted = w->name == w->out->n && w->name > 0;
+    qdot_text_add(w->out, signs[QDOT_SIGN_TIMES]);
     w->times = w->out->n;
 }
 
 /* Greek letters as commands; several letters in roman type. */
 static void
-latex_add_name(writer *w, const char *name, size_t n)
+latex_add_name(qdot_text *out, const char *name, size_t n)
 {
-    qdot_text *out = w->out;
-
     if (n > 1 && qdot_name_greek(name) != NULL) {
         for (size_t i = 0; i + 1 < n; i += 2) {
             qdot_text_add(out, i > 0 ? " \\" : "\\");
@@ -80,19 +80,14 @@ latex_add_name(writer *w, const char *name, size_t n)
         qdot_text_char(out, *name);
         return;
     }
-    if (w->times == out->n && w->times > 0 && !qdot_ends_in(qdot_text_str(out), "\\, "))
-        qdot_text_add(out, "\\, ");
     latex_add_roman(out, name, n);
-    w->roman = out->n;
 }
 
 static void
-latex_add_text(writer *w, const qdot_formula_node *node, const char *text)
+latex_add_text(qdot_text *out, const qdot_formula_node *node, const char *text)
 {
-    qdot_text *out = w->out;
-
     if (node->what == QDOT_TEXT_NAME)
-        latex_add_name(w, text, node->n);
+        latex_add_name(out, text, node->n);
     else if (node->what == QDOT_TEXT_FUNCTION)
         latex_add_function(out, text, node->n);
     else if (node->what == QDOT_TEXT_LABEL)
@@ -112,8 +107,13 @@ latex_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     writer *w = walk->user;
     qdot_text *out = w->out;
 
+    if (w->parted && w->times == out->n && qdot_name_is_long_at_begin(walk->formula, node))
+        qdot_text_add(out, "\\, ");
     switch (node->kind) {
-    case QDOT_FORMULA_TEXT: latex_add_text(w, node, walk->formula->text.at + node->child); break;
+    case QDOT_FORMULA_TEXT:
+        latex_add_text(out, node, walk->formula->text.at + node->child);
+        w->name = qdot_name_is_long_at_end(walk->formula, node) ? out->n : w->name;
+        break;
     case QDOT_FORMULA_SIGN:
         if (node->what == QDOT_SIGN_TIMES)
             latex_add_times(w);
@@ -178,7 +178,8 @@ static qdot_status
 latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 {
     static const char *const closing[] = {"\\right)", "\\right]", "\\right|", "\\right\\rfloor "};
-    qdot_text *out = ((const writer *)walk->user)->out;
+    writer *w = walk->user;
+    qdot_text *out = w->out;
 
     switch (node->kind) {
     case QDOT_FORMULA_FRACTION: qdot_text_add(out, node->flags & QDOT_FORMULA_SLANTED ? "" : "}"); break;
@@ -189,7 +190,10 @@ latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
         qdot_text_char(out, '}');
         latex_add_order(out, qdot_formula_at(walk->formula, qdot_formula_at(walk->formula, node->child)->next));
         break;
-    case QDOT_FORMULA_ACCENT: leave_accent(walk, node, out); break;
+    case QDOT_FORMULA_ACCENT:
+        leave_accent(walk, node, out);
+        w->name = qdot_name_is_long_at_end(walk->formula, node) ? out->n : w->name;
+        break;
     case QDOT_FORMULA_PRIMES:
         for (uint32_t i = 0; i < node->n && node->n <= 3; i++)
             qdot_text_char(out, '\'');
@@ -209,7 +213,17 @@ latex_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
 qdot_status
 qdot_formula_write_latex(const qdot_formula *f, qdot_formula_id id, qdot_text *out)
 {
-    writer w = {.out = out};
+    return qdot_formula_write_latex_part(f, id, (qdot_formula_before){0}, out);
+}
+
+qdot_status
+qdot_formula_write_latex_part(const qdot_formula *f, qdot_formula_id id, qdot_formula_before before, qdot_text *out)
+{
+    const bool behind = before.sign != 0 && qdot_formula_sign_duty(qdot_formula_at(f, before.sign)) == QDOT_DUTY_TIMES &&
+                        before.factor != 0;
+    writer w = {.out = out,
+                .times = out->n,
+                .parted = behind && qdot_name_is_long_at_end(f, qdot_formula_at(f, before.factor))};
     qdot_formula_walk walk = {
         .formula = f, .user = &w, .enter = latex_enter, .between = latex_between, .leave = latex_leave};
 

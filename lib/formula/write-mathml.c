@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "formula/name.h"
 #include "formula/walk.h"
 #include "formula/write.h"
 
@@ -15,6 +16,8 @@ typedef struct {
     qdot_text *out;
     bool page;              /* the form for pages */
     bool behind_times;      /* a sign of multiplication was written, and nothing since */
+    bool behind_name;       /* ... which stood behind a name of several letters */
+    size_t name;            /* where such a name ended last */
     qdot_vec(uint8_t) flat; /* of the open brackets: about one line */
     qdot_vec(
         size_t) above; /* of the open tensors: where the indices above begin, and end */
@@ -201,12 +204,16 @@ mathml_enter(qdot_formula_walk *walk, const qdot_formula_node *node)
     qdot_text *out = w->out;
 
     w->behind_times = node->kind == QDOT_FORMULA_SPAN ? behind_times : is_times(node);
-    if (w->page && behind_times && node->kind == QDOT_FORMULA_APPLY &&
-        is_word_applied(walk->formula, node))
+    if (is_times(node))
+        w->behind_name = w->name == out->n && w->name > 0;
+    if (w->page && behind_times &&
+        ((node->kind == QDOT_FORMULA_APPLY && is_word_applied(walk->formula, node)) ||
+         (w->behind_name && qdot_name_is_long_at_begin(walk->formula, node))))
         qdot_text_add(out, "<mspace width=\"0.17em\"></mspace>");
     switch (node->kind) {
     case QDOT_FORMULA_TEXT:
         mathml_add_text(out, node, walk->formula->text.at + node->child);
+        w->name = qdot_name_is_long_at_end(walk->formula, node) ? out->n : w->name;
         break;
     case QDOT_FORMULA_SIGN: qdot_text_add(out, signs[node->what]); break;
     case QDOT_FORMULA_ACCENT:
@@ -296,7 +303,10 @@ mathml_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     if (node->kind == QDOT_FORMULA_TENSOR)
         mathml_exchange_indices(w);
     switch (node->kind) {
-    case QDOT_FORMULA_ACCENT: mathml_leave_accent(w, node->n); break;
+    case QDOT_FORMULA_ACCENT:
+        mathml_leave_accent(w, node->n);
+        w->name = qdot_name_is_long_at_end(walk->formula, node) ? w->out->n : w->name;
+        break;
     case QDOT_FORMULA_PRIMES:
         mathml_leave_primes(w->out, node->n, is_above_index(w, walk->formula, node));
         break;
@@ -332,13 +342,14 @@ qdot_formula_write_mathml(const qdot_formula *f, qdot_formula_id id, qdot_text *
 }
 
 qdot_status
-qdot_formula_write_page(const qdot_formula *f, qdot_formula_id id, qdot_formula_id before,
+qdot_formula_write_page(const qdot_formula *f, qdot_formula_id id, qdot_formula_before before,
                         qdot_text *out)
 {
     const writer w = {.out = out,
                       .page = true,
-                      .behind_times =
-                          before != 0 && is_times(qdot_formula_at(f, before))};
+                      .behind_times = before.sign != 0 && is_times(qdot_formula_at(f, before.sign)),
+                      .behind_name = before.factor != 0 &&
+                                     qdot_name_is_long_at_end(f, qdot_formula_at(f, before.factor))};
 
     return mathml_write(w, f, id, out);
 }

@@ -97,9 +97,9 @@ page_write_parts(page *p, const qdot_formula *f, qdot_formula_id formula)
             &p->cuts, ((qdot_page_cut){from, width, qdot_formula_sign_duty(node)})));
         qdot_text_add(&p->written, label ? p->paint : "");
         QDOT_TRY(is_latex(p)
-                     ? qdot_formula_write_latex(f, p->parts.part.at[i], &p->written)
-                     : qdot_formula_write_page(f, p->parts.part.at[i],
-                                               i > 0 ? p->parts.part.at[i - 1] : 0,
+                     ? qdot_formula_write_latex_part(f, p->parts.part.at[i], qdot_formula_before_part(&p->parts, i),
+                                                     &p->written)
+                     : qdot_formula_write_page(f, p->parts.part.at[i], qdot_formula_before_part(&p->parts, i),
                                                &p->written));
         qdot_text_add(&p->written, label ? p->end : "");
         QDOT_TRY(qdot_text_status(&p->written));

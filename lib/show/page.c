@@ -70,13 +70,12 @@ write_parts(qdot_text *out, const qdot_formula *f, const qdot_formula_parts *par
         qdot_text sign = {0};
 
         if (!apart) {
-            QDOT_TRY(qdot_formula_write_page(f, parts->part.at[i],
-                                             i > 0 ? parts->part.at[i - 1] : 0, out));
+            QDOT_TRY(qdot_formula_write_page(f, parts->part.at[i], qdot_formula_before_part(parts, i), out));
             continue;
         }
         /* the blank is the space before the sign */
         qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
-        if (qdot_formula_write_page(f, parts->part.at[i], 0, &sign) == QDOT_OK)
+        if (qdot_formula_write_page(f, parts->part.at[i], (qdot_formula_before){0}, &sign) == QDOT_OK)
             qdot_text_add(out, qdot_text_str(&sign) + strlen(tag));
         out->failed = out->failed || sign.failed;
         qdot_text_clear(&sign);

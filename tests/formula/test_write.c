@@ -45,8 +45,13 @@ texts_have_their_role(void **state)
     says(NAME("V_max"), "\\mathrm{V\\_max}", "<mi>V_max</mi>");
     says(ROW(NAME("k"), sign(QDOT_SIGN_TIMES), NAME("mass"), sign(QDOT_SIGN_TIMES), NAME("l"),
              sign(QDOT_SIGN_TIMES), NAME("m")),
-         "k \\, \\mathrm{mass} \\, l m", /* LaTeX drops a blank */
+         "k \\mathrm{mass} l m",
          "<mrow><mi>k</mi><mo>&#x2062;</mo><mi>mass</mi><mo>&#x2062;</mo><mi>l</mi><mo>&#x2062;</mo><mi>m</mi></mrow>");
+    says(SPAN(NAME("mass"), sign(QDOT_SIGN_TIMES), POWER(ROW(NAME("length")), NUMBER("2")), sign(QDOT_SIGN_TIMES),
+              NAME("rate"), sign(QDOT_SIGN_TIMES), APPLY(FUNCTION("sin"), ROUND(NAME("x")))),
+         "\\mathrm{mass} \\, \\mathrm{length}^{2} \\mathrm{rate} \\sin\\left(x\\right)",
+         "<mi>mass</mi><mo>&#x2062;</mo><msup><mrow><mi>length</mi></mrow><mn>2</mn></msup><mo>&#x2062;</mo>"
+         "<mi>rate</mi><mo>&#x2062;</mo><mi>sin</mi><mo>&#x2061;</mo><mrow><mo>(</mo><mi>x</mi><mo>)</mo></mrow>");
     says(NUMBER("12"), "12", "<mn>12</mn>");
     says(FUNCTION("asin"), "\\arcsin", "<mi>asin</mi>");
     says(FUNCTION("si"), "\\operatorname{si}", "<mi>si</mi>");
@@ -133,9 +138,18 @@ is_on_a_page(qdot_formula_id id, const char *mathml)
     qdot_text out = {0};
 
     assert_int_equal(qdot_formula_status(&f), QDOT_OK);
-    assert_int_equal(qdot_formula_write_page(&f, id, 0, &out), QDOT_OK);
+    assert_int_equal(qdot_formula_write_page(&f, id, (qdot_formula_before){0}, &out), QDOT_OK);
     assert_string_equal(qdot_text_str(&out), mathml);
     qdot_text_clear(&out);
+}
+
+static void
+names_of_several_letters_are_parted_on_pages(void **state)
+{
+    (void)state;
+    is_on_a_page(SPAN(NAME("mass"), sign(QDOT_SIGN_TIMES), NAME("length"), sign(QDOT_SIGN_TIMES), NAME("l")),
+                 "<mi>mass</mi><mo>&#x2062;</mo><mspace width=\"0.17em\"></mspace><mi>length</mi><mo>&#x2062;</mo>"
+                 "<mi>l</mi>");
 }
 
 /* An index and a power are set at one place, also where the power holds another. */
@@ -255,6 +269,7 @@ main(void)
         TEST(brackets_have_shapes_and_sizes),
         TEST(tables_and_cases_have_cells),
         TEST(a_line_has_slashes_and_superscripts),
+        TEST(names_of_several_letters_are_parted_on_pages),
         TEST(index_and_power_are_one_above_the_other_on_pages),
         TEST(flat_brackets_do_not_stretch_on_pages),
         TEST(functions_stand_apart_on_pages),
