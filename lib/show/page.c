@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/paper.h"
 #include "formula/write.h"
 #include "show/animation.h"
 #include "show/formulas.h"
@@ -21,6 +22,7 @@ qdot_page_begin(qdot_text *out, const char *title)
     qdot_animation_escape(out, title);
     qdot_text_add(out, "</title>\n<style>\n");
     qdot_text_add(out, style);
+    qdot_text_format(out, "@page{size:%s}\n", qdot_paper_name());
     qdot_text_add(out, "</style>\n");
     qdot_animation_head(out);
     qdot_text_add(out, "</head>\n<body>\n<main>\n<h1>");

@@ -63,7 +63,7 @@ add_scene(page *p)
     qdot_text text = {0};
     qdot_status status = qdot_scene_print(p->session->scene, &text);
 
-    qdot_report_heading(&p->page, "Scene");
+    qdot_report_heading(&p->page, "The system");
     if (status == QDOT_OK)
         qdot_page_verbatim(&p->page, qdot_text_str(&text));
     qdot_text_clear(&text);
@@ -98,7 +98,7 @@ add_script(page *p)
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
-    qdot_report_heading(&p->page, "Script");
+    qdot_report_heading(&p->page, "The script");
     if (s->including->n > 0 && strcmp(s->including->at[s->including->n - 1], "-") != 0) {
         qdot_page_verbatim(&p->page, p->c->source->text);
         return QDOT_OK;
@@ -114,15 +114,15 @@ static qdot_status
 write_sections(page *p)
 {
     QDOT_TRY(add_scene(p));
-    QDOT_TRY(add_answer(p, "Derivation", qdot_statement_find("derive")));
+    QDOT_TRY(add_answer(p, "Equations of motion, step by step", qdot_statement_find("derive")));
     QDOT_TRY(add_conserved(p));
-    QDOT_TRY(add_answer(p, "Equilibria", qdot_statement_find("equilibria")));
+    QDOT_TRY(add_answer(p, "Equilibria and their stability", qdot_statement_find("equilibria")));
     if (p->n > 0) {
         QDOT_TRY(qdot_report_runs(p->session, p->n, p->runs, &p->page));
         if (p->work)
             QDOT_TRY(qdot_report_work(p->session, p->n, p->runs, &p->page));
     } else {
-        qdot_report_heading(&p->page, "Run");
+        qdot_report_heading(&p->page, "The motion");
         qdot_text_add(&p->page, "<p>No run was made.</p>\n");
     }
     return add_script(p);

@@ -122,7 +122,7 @@ add_curves(const sections *s)
     const qdot_animation *first = &s->pictures[0];
     const size_t all = s->session->scene->coordinates.n;
 
-    qdot_report_heading(s->page, "Course");
+    qdot_report_heading(s->page, "Coordinates against time");
     for (size_t k = 0; k < first->states.n && k < CURVES; k++) {
         qdot_page_course list[QDOT_REPORT_RUNS];
 
@@ -167,7 +167,7 @@ qdot_report_runs(qdot_session *session, size_t n, const qdot_named_run *const *r
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         status = qdot_animated_make(session, runs[i], &all, &pictures[i]);
     if (status == QDOT_OK)
-        qdot_report_heading(page, n > 1 ? "Runs" : "Run");
+        qdot_report_heading(page, n > 1 ? "The motions" : "The motion");
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         status = add_run(&s, i);
     if (status == QDOT_OK) {

@@ -165,7 +165,7 @@ qdot_report_work(qdot_session *session, size_t n, const qdot_named_run *const *r
 {
     bool differ = false;
 
-    qdot_report_heading(page, "Work and precision");
+    qdot_report_heading(page, "Error against computing time");
     for (size_t i = 1; i < n; i++)
         differ = differ || !conditions_are_told(i, runs);
     for (size_t i = 0; i < n; i++)

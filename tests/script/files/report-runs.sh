@@ -3,7 +3,7 @@
 # The page $1 without what depends on the machine.
 sections()
 {
-    sed -n '/<h2>Runs/,/<h2>Script/p' "$1" | sed -e '/<script/,/<\/script>/d' |
+    sed -n '/<h2>The motions/,/<h2>The script/p' "$1" | sed -e '/<script/,/<\/script>/d' |
         sed -n -e '/^<h[23]>/p' -e 's/^<dt>\(run\|with\)</&/p' -e '/^<p>/p' \
             -e 's/<figcaption>.*/&/p' -e 's/.*<g class="dashed \(k.\)".*<text[^>]*>\([^<]*\)<.*/\1 \2/p' \
             -e '/^<tr>/s/\(<td>[^<]*<\/td><td>[^<]*<\/td><td>[^<]*<\/td><td>[^<]*\).*\(<td>[^<]*<\/td><\/tr>\)$/\1 \2/p' \
@@ -32,7 +32,7 @@ sections three.html
 echo '--- two'
 sections two.html | grep -c 'Work and precision\|side'
 echo '--- one: with the values of the run, not those of the moment'
-sed -n '/<h2>Work/,/<h2>Script/{/^<h\|earlier/p}' one.html
+sed -n '/<h2>Error/,/<h2>The script/{/^<h\|earlier/p}' one.html
 
 # Changed in between: measured again.
 sed -e '/^run.*soft/d' -e '/^report/d' -e 's/^workprecision.*/&\nremove s\npotential s: 0.5*k*(x - 1)^2\nreport b workprecision to "again.html"/' \

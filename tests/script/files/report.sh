@@ -8,7 +8,7 @@ outline()
             -e 's/<path[^>]*>//g; s/<text [^>]*>[^<]*<\/text>//g' \
             -e 's/tol [0-9e-]*, [0-9]* steps*/tol, steps/; s/at most [0-9e-]*/at most/g' \
             -e 's/energy [0-9e-]*</energy</; s/qdot [0-9.]*</qdot</' |
-        sed -e '/^<pre>.*: t = /,/<\/pre>/d' -e '/<h2>Derivation/,/<h2>Conserved/{/<h3>\|<p/d}'
+        sed -e '/^<pre>.*: t = /,/<\/pre>/d' -e '/<h2>Equations/,/<h2>Conserved/{/<h3>\|<p/d}'
 }
 
 cat >pendulum.lag <<'END'
@@ -29,7 +29,7 @@ END
 qdot -q pendulum.lag | sed -n '/^θ\|^wrote/p'
 outline pendulum.html
 sed -n '/<h1>/p' titled.html
-sed -n '/Derivation/,/Conserved/p' pendulum.html | grep -c 'class="formula"><math>'
+sed -n '/Equations of motion/,/Conserved/p' pendulum.html | grep -c 'class="formula"><math>'
 grep -c '<section class="animation">' pendulum.html
 grep -c 'https*:' pendulum.html
 
@@ -53,8 +53,8 @@ awk '{
 
 # Work and precision: a figure and a table of methods.
 qdot -q -e 'coord x; lagrangian x'"'"'^2/2 - x^2/2; start x = 1; run 0..2; report workprecision to "work.html"' | grep wrote
-sed -n '/<h2>Work/,/<h2>Script/p' work.html | sed -n 's/^<tr><td>\([a-z0-9]*\)<.*/\1/p' | sort -u | grep -c 'dop853\|taylor'
-sed -n '/<h2>Work/,/<h2>Script/p' work.html | grep 'class="mark.*<text' | grep -c 'dop853\|taylor'
+sed -n '/<h2>Error/,/<h2>The script/p' work.html | sed -n 's/^<tr><td>\([a-z0-9]*\)<.*/\1/p' | sort -u | grep -c 'dop853\|taylor'
+sed -n '/<h2>Error/,/<h2>The script/p' work.html | grep 'class="mark.*<text' | grep -c 'dop853\|taylor'
 qdot -q -e 'coord x; report workprecision to "x.html"' 2>&1 | grep error
 
 # A stated Lagrangian, and no run.
@@ -69,4 +69,12 @@ report to "stated-run.html"
 END
 outline stated.html
 echo '--- with a run'
-outline stated-run.html | sed -n '/<h2>Run/,$p'
+outline stated-run.html | sed -n '/<h2>The motion/,$p'
+
+# Paper: A4, and where the country of the locale uses it US letter.
+for locale in C de_DE.UTF-8 en_US.UTF-8 es_MX; do
+    LC_ALL=$locale qdot -q -e 'coord x; particle p mass 1 at x' -e 'report to "paper.html"' >/dev/null 2>&1
+    echo "$locale $(grep '^@page{size' paper.html)"
+done
+LC_ALL= LC_PAPER=de_DE.UTF-8 LANG=en_US.UTF-8 qdot -q -e 'coord x; particle p mass 1 at x' -e 'report to "paper.html"' >/dev/null 2>&1
+grep '^@page{size' paper.html
