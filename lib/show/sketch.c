@@ -201,13 +201,27 @@ write_margin(size_t margin, const char *text, qdot_text *out)
     qdot_text_format(out, "%*s%s ", (int)(n < margin ? margin - 1 - n : 0), "", text);
 }
 
-/* Write the sketch: on the left the ends of the vertical axis and, of a single curve, its name; below those of the
+/* Write what a map shows, and its numbers where it is light and where it is dense. */
+static void
+write_scale(const qdot_figure_map *map, bool ascii, qdot_text *out)
+{
+    char text[2][END_TEXT];
+    double ends[2];
+
+    qdot_figure_map_ends(map, ends);
+    write_ends(ends[0], ends[1], END_TEXT, text);
+    qdot_text_format(out, "%*s", MARGIN, "");
+    add_label(out, &map->label, ascii);
+    qdot_text_format(out, ": %s %s, %s %s\n", ascii ? "blank" : "⠁", text[0], ascii ? "*" : "⣿", text[1]);
+}
+
+/* Write the sketch: on the left the ends of the vertical axis and, of a single curve or a map, its name; below those of the
  * horizontal one. */
 static void
 sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qdot_figure_sketching *how,
              size_t margin, qdot_text *out)
 {
-    const bool space = panel->axis[2].text != NULL, named = !space && panel->n == 1 && g->rows > 2;
+    const bool space = panel->axis[2].text != NULL, named = !space && (panel->n == 1 || panel->map != NULL) && g->rows > 2;
     char ends[2][END_TEXT];
     qdot_text label = {0};
     long free;
@@ -278,6 +292,8 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, const qdot_figure_sketch
     }
     if (panel->n > 1 || (figure->n > 1 && panel->map == NULL))
         write_key(panel, how, out);
+    if (panel->map != NULL)
+        write_scale(panel->map, how->ascii, out);
     sketch_write(&g, panel, &view, how, margin, out);
     qdot_free(g.cells);
     return qdot_text_status(out);

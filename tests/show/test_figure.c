@@ -600,6 +600,26 @@ ends_of_a_sketch_differ(void **state)
     qdot_text_clear(&text);
 }
 
+/* A map has both axes named, and what it shows with its least and its greatest number. */
+static void
+a_sketch_of_a_map_names_its_axes(void **state)
+{
+    const double values[] = {1, 2, 3, 4};
+    const qdot_figure_map map = {.label = {"x_1^2", true}, .n = {2, 2}, .most = {1, 1}, .value = values};
+    const qdot_panel panel = {.map = &map, .axis = {{"t", true}, {"theta'", true}}};
+    const qdot_figure figure = {.panels = &panel, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(sketch(&figure, 60, 7, false, false, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "x₁²: ⠁ 1, ⣿ 4\n"));
+    assert_non_null(strstr(text.at, "        θ̇ │"));
+    qdot_text_truncate(&text, 0);
+    assert_int_equal(sketch(&figure, 60, 7, true, false, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "x_1^2: blank 1, * 4\n"));
+    qdot_text_clear(&text);
+}
+
 static void
 a_narrow_sketch_fits(void **state)
 {
@@ -861,6 +881,7 @@ main(void)
         cmocka_unit_test(curves_of_a_sketch_differ),
         cmocka_unit_test(curves_of_a_sketch_have_colours),
         cmocka_unit_test(ends_of_a_sketch_differ),
+        cmocka_unit_test(a_sketch_of_a_map_names_its_axes),
         cmocka_unit_test(a_narrow_sketch_fits),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),
