@@ -58,7 +58,7 @@ qdot_rest_add_factors(qdot_pool *pool, qdot_expr e, qdot_expr *list)
         const qdot_expr one = qdot_expr_arg(pool, factors, i);
         const bool root = qdot_expr_kind(pool, one) == QDOT_PROD && qdot_expr_count(pool, one) == 3;
 
-        if (root || qdot_expr_is_function(pool, one, QDOT_ABS))
+        if (root || qdot_expr_is_function(pool, one, QDOT_ABS) || qdot_expr_is_function(pool, one, QDOT_SIGN))
             QDOT_TRY(qdot_rest_add_factors(pool, qdot_expr_arg(pool, one, root ? 1 : 0), list));
         else if (!qdot_list_has(pool, *list, one) && (qdot_expr_node(pool, one)->sign & QDOT_NE0) == 0)
             *list = qdot_list_appended(pool, *list, 1, &one);

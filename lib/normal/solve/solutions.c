@@ -145,15 +145,16 @@ qdot_solve_integers(qdot_pool *pool, qdot_expr e)
     return n;
 }
 
-/* For a circular function f: f(u) with integer multiples of a full turn removed from u. */
+/* For a circular function f: f(u) with integer multiples of its period removed from u. */
 static qdot_expr
 leave_out_turns(qdot_pool *pool, qdot_expr f, void *user)
 {
+    const uint32_t op = qdot_expr_node(pool, f)->op;
     qdot_expr u = qdot_expr_count(pool, f) == 1 ? qdot_expr_arg(pool, f, 0) : QDOT_NIL,
-              two_pi = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
+              period = op == QDOT_TAN || op == QDOT_COT ? QDOT_PI : qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
 
     (void)user;
-    if (u == QDOT_NIL || qdot_expr_node(pool, f)->op > QDOT_COT)
+    if (u == QDOT_NIL || op > QDOT_COT)
         return f;
     for (unsigned k = 0, n = qdot_solve_integers(pool, u); k < n; k++) {
         qdot_expr integer = qdot_solve_integer(pool, k), zero = QDOT_ZERO, turns;
@@ -161,13 +162,13 @@ leave_out_turns(qdot_pool *pool, qdot_expr f, void *user)
 
         if (!qdot_expr_contains(pool, u, integer))
             continue;
-        turns = qdot_simplify(pool, qdot_div(pool, qdot_diff(pool, u, integer), two_pi), NULL);
+        turns = qdot_simplify(pool, qdot_div(pool, qdot_diff(pool, u, integer), period), NULL);
         whole = turns == QDOT_NIL ? NULL : qdot_expr_rational(pool, turns);
         if (whole == NULL || !fmpz_is_one(fmpq_denref(whole)))
             return turns == QDOT_NIL ? QDOT_NIL : f;
         u = qdot_subs(pool, u, 1, &integer, &zero);
     }
-    return qdot_fun1(pool, qdot_expr_node(pool, f)->op, u);
+    return qdot_fun1(pool, op, u);
 }
 
 qdot_expr
@@ -240,13 +241,17 @@ static qdot_status
 members_add_value(const members *m, qdot_expr value, const qdot_window *w)
 {
     qdot_root one = {qdot_simplify(m->pool, value, m->facts), QDOT_NIL, QDOT_NIL, QDOT_NIL};
+    qdot_expr room[QDOT_CONDITIONS_MOST];
 
     QDOT_TRY(qdot_pool_check(m->pool));
     one.condition = conditions_inside(m->pool, m->root->condition, one.value, w, m->facts);
-    if (one.condition != QDOT_FALSE && m->root->members != QDOT_NIL)
+    if (one.condition != QDOT_FALSE && m->root->members != QDOT_NIL) {
+        const qdot_facts known = qdot_facts_and(m->pool, m->facts, one.condition, room);
+
         one.condition = qdot_conditions_all(
             m->pool, one.condition,
-            qdot_conditions_at(m->pool, m->root->members, 1, &m->x, &one.value, m->facts));
+            qdot_conditions_at(m->pool, m->root->members, 1, &m->x, &one.value, &known));
+    }
     QDOT_TRY(qdot_pool_check(m->pool));
     return one.condition == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&m->out->root, one);
 }

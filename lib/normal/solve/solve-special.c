@@ -175,6 +175,29 @@ qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr 
     return conditions_without(pool, set, qdot_conditions_of_divisors(pool, f, QDOT_NIL), x);
 }
 
+/* The root without whole turns by the integers in it: cot(x + 2 pi n) is cot(x). *defined: it has a value then, and its
+ * conditions may hold. */
+static qdot_status
+without_turns(qdot_pool *pool, const qdot_facts *facts, qdot_root *root, bool *defined)
+{
+    qdot_expr value = root->value, condition = root->condition;
+    qdot_status status;
+
+    *defined = true;
+    if (qdot_solve_integers(pool, value) == 0)
+        return QDOT_OK;
+    value = qdot_solve_without_turns(pool, value);
+    if (condition != QDOT_NIL && value != QDOT_NIL)
+        condition = qdot_solve_without_turns(pool, condition);
+    status = qdot_pool_check(pool);
+    if (status == QDOT_OK && condition != root->condition)
+        condition = qdot_conditions_at(pool, condition, 0, NULL, NULL, facts);
+    *defined = status == QDOT_OK && condition != QDOT_FALSE;
+    root->value = value;
+    root->condition = condition;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
 qdot_status
 qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written,
                       const qdot_facts *facts, qdot_solutions *found)
@@ -184,12 +207,13 @@ qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_writ
 
     for (size_t i = 0; i < found->root.n; i++) {
         qdot_root root = found->root.at[i];
-        qdot_expr value = root.period == QDOT_NIL
-                              ? root.value
-                              : qdot_list(pool, 2, (qdot_expr[]){root.value, root.period}),
-                  set = of_equation;
-        bool lifted;
+        qdot_expr value, set = of_equation;
+        bool lifted, defined;
 
+        QDOT_TRY(without_turns(pool, facts, &root, &defined));
+        if (!defined)
+            continue;
+        value = root.period == QDOT_NIL ? root.value : qdot_list(pool, 2, (qdot_expr[]){root.value, root.period});
         QDOT_TRY(qdot_written_lifts(pool, written, f, x, root.value, facts, &lifted));
         if (lifted)
             set = qdot_conditions_less(pool, set, written->apart);

@@ -12,15 +12,20 @@
 #include "normal/solve/sides.h"
 #include "normal/solve/solver.h"
 
-/* Whether the root `one` belongs to the family or range `all`. */
+/* Whether the root `one` belongs to the family or range `all`, wherever it exists. */
 static bool
 is_member(const qdot_solver *s, const qdot_root *one, const qdot_root *all)
 {
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    qdot_facts there;
+
     if (one == all || one->period != QDOT_NIL || one->value == s->x)
         return false;
+    there = qdot_facts_and(s->pool, s->facts, one->condition, room);
     if (all->period != QDOT_NIL)
-        return all->condition == QDOT_NIL && all->members == QDOT_NIL &&
-               qdot_solver_is_member(s, all, one->value);
+        return qdot_solver_is_member(s, all, one->value) &&
+               qdot_conditions_at(s->pool, all->condition, 0, NULL, NULL, &there) == QDOT_NIL &&
+               qdot_conditions_at(s->pool, all->members, 1, &s->x, &one->value, &there) == QDOT_NIL;
     return all->value == s->x && qdot_conditions_at(s->pool, all->condition, 1, &s->x,
                                                     &one->value, s->facts) == QDOT_NIL;
 }
