@@ -189,6 +189,8 @@ qdot_interval_power(qdot_interval a, qdot_interval b)
         return (qdot_interval){qdot_interval_outward(pow(a.hi, b.lo), 0).lo, INFINITY};
     if (qdot_interval_is_point(b) && b.lo == floor(b.lo) && (b.lo > 0 || a.hi < 0))
         return of_corners(pow, a, b);
+    if (qdot_interval_is_point(b) && b.lo == floor(b.lo) && a.hi == 0) /* odd: 1/x over -1..0 is in -infinity..-1 */
+        return qdot_interval_negative(qdot_interval_power(qdot_interval_negative(a), b));
     return qdot_interval_whole;
 }
 

@@ -3,6 +3,7 @@
 
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "normal/inequality/boxes.h"
 #include "normal/inequality/less.h"
 
 enum { MOST = 8, LARGEST = 200 };
@@ -59,6 +60,8 @@ qdot_contradiction(qdot_pool *pool, const qdot_facts *facts, bool *found)
         before.n_conditions = i;
         QDOT_TRY(of_condition(pool, facts->conditions[i], &before, found));
     }
+    if (!*found && facts->n_conditions > 0)
+        QDOT_TRY(qdot_boxes_exclude(pool, facts, found));
     before.n_conditions = facts->n_conditions;
     for (size_t i = 0; i < facts->n_relations && !*found; i++) {
         before.n_relations = i;

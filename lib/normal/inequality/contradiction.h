@@ -1,7 +1,7 @@
 /* contradiction.h -- do conditions contradict each other, or the declared domains?
  *
  * They do if one of them is proved false under the others: g <= 0 for a condition g > 0, r > 0 or
- * r < 0 for a relation r = 0. Proofs under such conditions are worthless.
+ * r < 0 for a relation r = 0; or if no box of the declared domains is left (boxes.h). Proofs under such conditions are worthless.
  *
  * Tests  tests/script/prove/check.lag
  */

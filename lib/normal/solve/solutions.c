@@ -10,6 +10,7 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/inequality/boxes.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
@@ -21,7 +22,7 @@
 /* Roots that recur with a period are listed one by one if the window holds at most MOST_MEMBERS of them, or, where its ends
  * depend on parameters, if none lies MOST_PERIODS or more to either side; else they are given as a family, with an
  * integer n. */
-enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12, MOST_INTEGERS = 16 };
+enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12, MOST_INTEGERS = 16, LARGEST_BOUNDED = 400 };
 
 static const qdot_window window_whole = {.lo = QDOT_NIL, .lo_open = true, .hi_open = true};
 
@@ -215,6 +216,21 @@ qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value)
     return relations;
 }
 
+/* Whether no parameters take the value into the window, by bounds over boxes: of the relations as they are, for what they are
+ * multiplied by to be short may be 0. */
+static bool
+is_never_inside(qdot_pool *pool, qdot_expr set, qdot_expr relations, const qdot_facts *facts)
+{
+    qdot_expr room[QDOT_CONDITIONS_MOST], all = qdot_conditions_all(pool, set, relations);
+    const qdot_facts known = qdot_facts_and(pool, facts, all, room);
+    bool never = false;
+
+    if (all != QDOT_NIL && qdot_expr_size(pool, all) <= LARGEST_BOUNDED &&
+        qdot_boxes_exclude(pool, &known, &never) != QDOT_OK)
+        (void)qdot_pool_fail(pool);
+    return never;
+}
+
 /* The conditions, with those that `value` lies in the window. */
 static qdot_expr
 conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
@@ -224,6 +240,8 @@ conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_wi
 
     if (relations == QDOT_NIL || relations == QDOT_FALSE || set == QDOT_FALSE)
         return relations == QDOT_FALSE ? QDOT_FALSE : set;
+    if (is_never_inside(pool, set, relations, facts))
+        return QDOT_FALSE;
     /* decide them together with the value's own conditions, which may contradict them */
     if (set != QDOT_NIL) {
         qdot_facts all = qdot_facts_and(pool, facts, set, room);
