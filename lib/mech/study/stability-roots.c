@@ -1,4 +1,5 @@
 /* stability-roots.c -- decides whether the linear motion near an equilibrium grows, decays or stays bounded. */
+#include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/exact.h"
@@ -156,15 +157,39 @@ completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
 
 enum { MOST_UNBALANCED = 3 }; /* coordinates */
 
+/* Whether det H < 0 is proved where all of these [n] are 0. */
+static qdot_status
+falls_where_zero(qdot_judgement *j, size_t n, const qdot_expr *zero, qdot_expr detH, bool *yes)
+{
+    qdot_facts facts = j->facts;
+    qdot_expr *all = qdot_malloc((facts.n_relations + n + 1) * sizeof *all);
+    qdot_decision d;
+    qdot_status status;
+
+    *yes = false;
+    if (all == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < facts.n_relations; i++)
+        all[i] = facts.relations[i];
+    for (size_t i = 0; i < n; i++)
+        all[facts.n_relations + i] = zero[i];
+    facts.relations = all;
+    facts.n_relations += n;
+    status = qdot_decide_less(j->s->pool, detH, QDOT_ZERO, true, &facts, &d);
+    *yes = status == QDOT_OK && d.verdict == QDOT_PROVED;
+    qdot_free(all);
+    return status;
+}
+
 /* Whether the roots s of p = det(M s^2 + Gamma s + H) have the sum 0 and are not symmetric to 0: p has no term in
  * s^(2n-1), but another odd one that is proved not to be 0. Then one of them has a positive real part, for imaginary
- * roots alone, with their conjugates, are symmetric. */
+ * roots alone, with their conjugates, are symmetric. Where the odd terms are 0, det H < 0 makes one positive. */
 static qdot_status
 is_unbalanced(qdot_judgement *j, const block *x, bool *yes)
 {
     qdot_pool *pool = j->s->pool;
     const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "s"), zero = QDOT_ZERO;
-    qdot_expr entry[MOST_UNBALANCED * MOST_UNBALANCED], p, odd[2 * MOST_UNBALANCED];
+    qdot_expr entry[MOST_UNBALANCED * MOST_UNBALANCED], odd[MOST_UNBALANCED], p, detH;
 
     *yes = false;
     if (x->n > MOST_UNBALANCED)
@@ -174,15 +199,19 @@ is_unbalanced(qdot_judgement *j, const block *x, bool *yes)
                             (qdot_expr[]){qdot_mul(pool, x->M[i], qdot_pow_int(pool, s, 2)),
                                           qdot_mul(pool, x->Gamma[i], s), x->H[i]});
     p = qdot_det(pool, qdot_matrix(pool, (uint32_t)x->n, (uint32_t)x->n, entry));
-    for (size_t k = 0; k < 2 * x->n; k++) { /* odd[k]: the coefficient of s^k, times k! */
-        odd[k] = k % 2 == 0 ? QDOT_NIL : qdot_simplify(pool, qdot_subs(pool, p, 1, &s, &zero), &j->facts);
+    detH = qdot_simplify(pool, qdot_subs(pool, p, 1, &s, &zero), &j->facts);
+    for (size_t k = 0; k < x->n; k++) { /* the coefficient of s^(2k+1), times (2k+1)! */
+        p = qdot_diff(pool, p, s);
+        odd[k] = qdot_simplify(pool, qdot_subs(pool, p, 1, &s, &zero), &j->facts);
         p = qdot_diff(pool, p, s);
         QDOT_TRY(qdot_pool_check(pool));
     }
-    if (!qdot_is_zero(pool, odd[2 * x->n - 1], &j->facts))
+    if (!qdot_is_zero(pool, odd[x->n - 1], &j->facts))
         return qdot_pool_check(pool);
-    for (size_t k = 1; k + 1 < 2 * x->n && !*yes; k += 2)
+    for (size_t k = 0; k + 1 < x->n && !*yes; k++)
         QDOT_TRY(is_nonzero(j, odd[k], yes));
+    if (!*yes && x->n > 1)
+        QDOT_TRY(falls_where_zero(j, x->n - 1, odd, detH, yes));
     return qdot_pool_check(pool);
 }
 
