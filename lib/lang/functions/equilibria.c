@@ -219,7 +219,8 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     qdot_status status = print_place_conditions(session, ", exists when ", e->exists, &text, &never);
 
     if (status == QDOT_OK)
-        status = print_place_conditions(session, ", stable when ", e->stable_when, &text, &never);
+        status = print_place_conditions(session, e->stability == QDOT_UNSTABLE ? ", unstable when " : ", stable when ",
+                                        e->stable_when, &text, &never);
     for (uint32_t i = 0; i < qdot_expr_count(pool, e->equations) && status == QDOT_OK; i++) {
         qdot_expr one = qdot_expr_arg(pool, e->equations, i);
 
@@ -269,7 +270,7 @@ modes_find_place(qdot_session *session, qdot_equilibrium *place)
 
     QDOT_TRY(need_coordinates(session));
     QDOT_TRY(qdot_equilibrium_first(session->scene, bind, session, &all));
-    while (at < all.n && all.at[at].stability == QDOT_UNSTABLE)
+    while (at < all.n && qdot_equilibrium_is_unstable(&all.at[at]))
         at++;
     status = at < all.n ? QDOT_OK : none_to_swing_about(&all);
     if (status == QDOT_OK)

@@ -356,7 +356,7 @@ rest_judge(qdot_rest *r, qdot_expr special, bool first, qdot_binder bind, void *
             status = qdot_rest_special(r, 1, &r->found.at[i], &judge->nonzero);
         if (status == QDOT_OK)
             status = judge_member(r, judge, &r->found.at[i]);
-        if (first && r->found.at[i].stability != QDOT_UNSTABLE)
+        if (first && !qdot_equilibrium_is_unstable(&r->found.at[i]))
             r->found.n = i + 1;
     }
     qdot_judge_free(judge);

@@ -24,6 +24,13 @@ typedef struct {
     bool may_jump; /* the energy may jump there: nothing is said of its stability */
 } qdot_equilibrium;
 
+/* Whether it is unstable wherever it exists. */
+static inline bool
+qdot_equilibrium_is_unstable(const qdot_equilibrium *e)
+{
+    return e->stability == QDOT_UNSTABLE && e->stable_when == QDOT_NIL;
+}
+
 typedef struct {
     qdot_equilibrium *at; /* [n], owned */
     size_t n;

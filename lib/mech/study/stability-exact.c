@@ -5,6 +5,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
+#include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"
@@ -16,7 +17,7 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
-enum { LONGEST_SLOPE = 200, MOST_ROOT = 6 }; /* operations; denominator of exponents */
+enum { LONGEST_SLOPE = 200, MOST_ROOT = 6, MOST_DETERMINANT = 3 }; /* operations; denominator of exponents; coordinates */
 
 /* --- one degree of freedom: the forces on either side ----------------------------------- */
 
@@ -424,6 +425,33 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
+/* Of an undecided place: unstable where det H < 0, a condition on parameters, for then det(M s^2 + Gamma s + H), which is
+ * positive for large s, has a root s > 0. */
+static qdot_status
+unstable_where(qdot_judgement *j, qdot_equilibrium *e)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_expr det, when;
+    bool mass;
+
+    if (j->s->constraints.n > 0 || !j->regular || !j->m.damped || j->judge->velocity_kink || j->judge->timed ||
+        j->n == 0 || j->n != j->m.n || j->n > MOST_DETERMINANT || is_too_long(j))
+        return QDOT_OK;
+    QDOT_TRY(qdot_judgement_is_definite(j, j->m.n, j->m.M, &mass));
+    det = mass ? qdot_simplify(pool, qdot_det(pool, qdot_matrix(pool, (uint32_t)j->n, (uint32_t)j->n, j->H)), &j->facts)
+               : QDOT_ZERO;
+    QDOT_TRY(qdot_pool_check(pool));
+    if (!mass || !qdot_is_generic(pool, det) || qdot_solve_integers(pool, det) > 0 || qdot_expr_size(pool, det) > LONGEST_SLOPE)
+        return QDOT_OK;
+    when = qdot_positive(pool, qdot_neg(pool, det), &j->facts, j->known.n, j->known.at);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (when == QDOT_FALSE)
+        return QDOT_OK;
+    e->stability = QDOT_UNSTABLE;
+    e->stable_when = when == QDOT_TRUE ? QDOT_NIL : qdot_list(pool, 1, &when);
+    return qdot_pool_check(pool);
+}
+
 static qdot_status
 exact_place(qdot_judgement *j, qdot_equilibrium *e)
 {
@@ -452,7 +480,8 @@ exact_place(qdot_judgement *j, qdot_equilibrium *e)
     if ((e->stability == QDOT_STABLE || e->stability == QDOT_STABLE_TO_FIRST_ORDER) &&
         j->when.n > 0)
         e->stable_when = qdot_list(s->pool, (uint32_t)j->when.n, j->when.at);
-    return qdot_pool_check(s->pool);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return e->stability == QDOT_STABILITY_UNDECIDED && !kink ? unstable_where(j, e) : QDOT_OK;
 }
 
 qdot_status
