@@ -11,6 +11,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
@@ -162,18 +163,18 @@ qdot_status
 qdot_value_check(qdot_cursor *c, const qdot_pairs *values)
 {
     qdot_session *session = c->session;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status = QDOT_OK;
 
     if (values->symbols.n == 0 || session->scene->springs.n + session->scene->assumed.n == 0)
         return QDOT_OK;
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     for (size_t i = 0; i < values->symbols.n && status == QDOT_OK; i++)
         if (qdot_expr_node(session->pool, values->symbols.at[i])->holds & unknown)
             qdot_session_set(session, values->symbols.at[i], values->values.at[i],
                              &status);
     if (status == QDOT_OK)
         status = check_all(c, values);
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     return status;
 }

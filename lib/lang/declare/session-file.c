@@ -16,6 +16,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/names.h"
 #include "lang/session/runs.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 
 /* The start that the lines written so far would give when they are read. */
@@ -249,7 +250,7 @@ put_run(writer *w, size_t k)
     qdot_session *s = w->s;
     const qdot_named_run *run = &s->runs->at[k];
     const qdot_conditions *c = run->conditions;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status;
     difference start;
 
@@ -266,9 +267,9 @@ put_run(writer *w, size_t k)
     QDOT_TRY(put(s, "run ", c->t0, w->out));
     QDOT_TRY(put(s, "..", c->t1, w->out));
     put_options(run->text, w->out);
-    QDOT_TRY(qdot_session_keep_values(s, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, s));
     status = put_with(w, c, start == VALUES, w->out);
-    qdot_session_restore_values(s, &kept);
+    qdot_trial_end(&trial);
     qdot_text_format(w->out, " as %s\n", run->name);
     return status;
 }

@@ -463,9 +463,9 @@ step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
 }
 
 static qdot_status
-run_program(qdot_machine *m)
+run_program(qdot_machine *m, uint32_t first, uint32_t end)
 {
-    for (uint32_t pc = 0; pc < m->program->list.n;) {
+    for (uint32_t pc = first; pc < end;) {
         const qdot_postfix *code = &m->program->list.at[pc++];
 
         m->blame = code->token;
@@ -478,13 +478,13 @@ run_program(qdot_machine *m)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program, qdot_expr *value,
-              qdot_expr *over, const char **run)
+static qdot_status
+evaluate_codes(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first, uint32_t end, qdot_expr *value,
+               qdot_expr *over, const char **run)
 {
     qdot_machine m = {
         .c = c, .session = c->session, .pool = c->session->pool, .program = program};
-    qdot_status status = run_program(&m);
+    qdot_status status = run_program(&m, first, end);
 
     if (status == QDOT_OK) {
         if (over != NULL)
@@ -510,4 +510,17 @@ qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program, qdot_expr *value
     qdot_free(m.args.at);
     qdot_free(m.labels.at);
     return status;
+}
+
+qdot_status
+qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program, qdot_expr *value,
+              qdot_expr *over, const char **run)
+{
+    return evaluate_codes(c, program, 0, (uint32_t)program->list.n, value, over, run);
+}
+
+qdot_status
+qdot_evaluate_part(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first, uint32_t end, qdot_expr *value)
+{
+    return evaluate_codes(c, program, first, end, value, NULL, NULL);
 }

@@ -50,6 +50,7 @@ typedef struct {
     uint8_t op; /* qdot_postfix_kind */
     uint8_t primes;
     uint32_t n, to;
+    uint32_t last;           /* of CALL and RANGE: where the code of the last argument begins; 0: there is one only */
     const qdot_token *token; /* the token that an error points at */
 } qdot_postfix;
 
@@ -77,6 +78,10 @@ QDOT_MUST_CHECK qdot_status qdot_evaluate(qdot_cursor *c, const qdot_postfix_lis
  * run, "NAME[2]"; NULL: it is none, the cursor stays. */
 QDOT_MUST_CHECK qdot_status qdot_cursor_accept_run(qdot_cursor *c,
                                                    const qdot_token **run);
+
+/* The same for the codes [first, end) alone, those of an operand. */
+QDOT_MUST_CHECK qdot_status qdot_evaluate_part(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first,
+                                               uint32_t end, qdot_expr *value);
 
 /* --- meaning of names and calls ----------------------------------------------------- */
 

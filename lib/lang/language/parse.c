@@ -45,6 +45,7 @@ typedef struct {
     const qdot_token *power; /* of IN_CALL: sin²(x) is sin(x)^2; NULL */
     uint32_t count;          /* operands or arguments complete so far */
     uint32_t columns, indices, at;
+    uint32_t last; /* of IN_CALL: where the code of the present argument begins, from the second on */
 } waiting;
 
 typedef struct {
@@ -78,7 +79,7 @@ static qdot_status
 emit(parser *p, qdot_postfix_kind op, const qdot_token *token, uint32_t n, uint32_t to,
      unsigned primes)
 {
-    qdot_postfix code = {(uint8_t)op, (uint8_t)primes, n, to, token};
+    qdot_postfix code = {.op = (uint8_t)op, .primes = (uint8_t)primes, .n = n, .to = to, .token = token};
 
     return qdot_vec_push(&p->program->list, code);
 }
@@ -458,6 +459,7 @@ comma(parser *p)
     p->c->at++;
     p->operand = true;
     w->count++;
+    w->last = (uint32_t)p->program->list.n;
     if (w->kind == IN_SUM) {
         if (w->count == 1)
             return sum_index(p, w);
@@ -561,6 +563,7 @@ close_bracket(parser *p)
             QDOT_TRY(emit(p, QDOT_POSTFIX_RANGE, w.token, w.count + 1, 0, 0));
         else
             QDOT_TRY(emit(p, QDOT_POSTFIX_CALL, w.token, w.count + 1, w.indices, w.primes));
+        p->program->list.at[p->program->list.n - 1].last = w.last;
         if (w.passed)
             QDOT_TRY(emit(p, QDOT_POSTFIX_PASS_END, w.token, 0, 0, 0));
         if (w.power == NULL)
@@ -592,6 +595,7 @@ argument_range(parser *p)
         return qdot_cursor_expected(p->c, w->kind == IN_CALL ? "`,` or `)`" : "`)`");
     w->ranged = true;
     w->count++;
+    w->last = (uint32_t)p->program->list.n;
     p->c->at++;
     p->operand = true;
     return QDOT_OK;

@@ -4,7 +4,7 @@
 #include "lang/commands/statement.h"
 #include "lang/figures/figure-option.h"
 #include "lang/figures/plot.h"
-#include "lang/runs/own-run.h"
+#include "lang/runs/run-options.h"
 #include "lang/session/runs.h"
 #include "lang/source/source.h"
 #include "lang/syntax/match.h"
@@ -28,6 +28,7 @@ typedef struct {
     qdot_source *source;  /* the same with its tokens */
     qdot_record record;   /* of these */
     qdot_run_options run; /* as the values in force have them */
+    qdot_trial trial;     /* of one pass */
 } again;
 
 /* Read the run statement, in which names are those of the scene, not loop indices. */
@@ -104,13 +105,14 @@ again_make(void *user)
     again *a = user;
 
     QDOT_TRY(again_find_run(a));
-    return qdot_own_run_make(a->session, &a->run, a->run.from, a->run.to, NULL, NULL);
+    QDOT_TRY(qdot_trial_begin(&a->trial, a->session));
+    return qdot_run_options_try(&a->trial, &a->run, a->run.from, a->run.to);
 }
 
 static void
 again_drop(void *user)
 {
-    qdot_own_run_drop(((again *)user)->session);
+    qdot_trial_end(&((again *)user)->trial);
 }
 
 static qdot_status

@@ -173,20 +173,32 @@ qdot_status
 qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_expr from,
                       qdot_expr to, qdot_request *request)
 {
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status;
 
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     status = qdot_run_options_put(session, o);
     if (status == QDOT_OK)
         status = qdot_request_fill(session, request);
     if (status == QDOT_OK)
         status = qdot_request_limits(session, from, to, request);
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     request->request.tol = o->tol;
     request->request.digits = (int)o->digits;
     request->request.method = o->method != NULL ? o->method : "auto";
     request->request.treatment = o->treatment;
+    return status;
+}
+
+qdot_status
+qdot_run_options_try(qdot_trial *trial, const qdot_run_options *o, qdot_expr from, qdot_expr to)
+{
+    qdot_request request = {0};
+    qdot_status status = qdot_run_options_fill(trial->session, o, from, to, &request);
+
+    if (status == QDOT_OK)
+        status = qdot_request_explain(trial->session, &request, qdot_trial_run(trial, &request.request));
+    qdot_request_free(&request);
     return status;
 }
 

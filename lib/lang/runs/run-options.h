@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "lang/runs/request.h"
+#include "lang/session/trial.h"
 #include "lang/syntax/record.h"
 #include "sim/model/request.h"
 
@@ -36,6 +37,9 @@ QDOT_MUST_CHECK qdot_status qdot_run_options_put(qdot_session *session, const qd
 QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session, const qdot_run_options *o,
                                                   qdot_expr from, qdot_expr to,
                                                   qdot_request *request);
+/* Make that run for the trial, the latest one until its end. QDOT_EFAILED with the reason: the run failed. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_try(qdot_trial *trial, const qdot_run_options *o, qdot_expr from,
+                                                 qdot_expr to);
 void qdot_run_options_free(qdot_run_options *o);
 /* Set the place of an error with that status: at the method's name (NULL: none was given) if it is unknown or not built. */
 void qdot_run_options_place(qdot_cursor *c, const qdot_token *method, qdot_status status);

@@ -8,6 +8,7 @@
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/names.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 
 /* The index of the table with the given name; the number of tables if there is none. */
@@ -93,10 +94,10 @@ qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, si
 {
     const uint32_t varies = ~(uint32_t)QDOT_HAS_FUN;
     const qdot_name *name;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status = QDOT_OK;
 
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     let_open(session, n, open);
     for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL && status == QDOT_OK; i++) {
         qdot_expr value;
@@ -118,6 +119,6 @@ qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, si
         else
             status = qdot_grave(status);
     }
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     return status;
 }

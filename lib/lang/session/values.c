@@ -1,7 +1,5 @@
-/* values.c -- the values of `set`, `start` and `scale`; saves them while others are tried. */
+/* values.c -- the values of `set`, `start` and `scale`. */
 #include "lang/session/values.h"
-
-#include <string.h>
 
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -58,38 +56,4 @@ qdot_session_put(qdot_session *session, qdot_expr symbol, qdot_expr value)
         return qdot_session_start(session, symbol, value);
     qdot_session_set(session, symbol, value, &status);
     return status;
-}
-
-#define EACH_LIST(X) X(set_symbols) X(set_values) X(start_symbols) X(start_values)
-
-qdot_status
-qdot_session_keep_values(const qdot_session *session, qdot_kept_values *kept)
-{
-    const qdot_values *values = session->values;
-    qdot_status status = QDOT_OK;
-
-    *kept = (qdot_kept_values){0};
-#define X(list)                                                                          \
-    for (size_t i = 0; i < values->list.n && status == QDOT_OK; i++)                    \
-        status = qdot_vec_push(&kept->list, values->list.at[i]);
-    EACH_LIST(X)
-#undef X
-#define X(list) qdot_free(kept->list.at);
-    if (status != QDOT_OK) {
-        EACH_LIST(X)
-    }
-#undef X
-    return status;
-}
-
-void
-qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept)
-{
-    qdot_values *values = session->values;
-
-#define X(list)                                                                          \
-    qdot_free(values->list.at);                                                         \
-    memcpy(&values->list, &kept->list, sizeof kept->list);
-    EACH_LIST(X)
-#undef X
 }

@@ -30,13 +30,5 @@ QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr 
 /* Set a value as `set` or `start` does, depending on the kind of symbol. */
 QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
                                              qdot_expr value);
-/* Saved values of `set` and `start`, while others are tried. */
-typedef struct {
-    qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values;
-} qdot_kept_values;
-/* Save the values; QDOT_ENOMEM: none are saved. restore: set them again and free the copy. */
-QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
-                                                     qdot_kept_values *kept);
-void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);
 
 #endif

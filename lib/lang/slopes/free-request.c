@@ -4,6 +4,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/session/bind.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 
 /* Set values and start of the request; parameters that are unknowns keep their symbols as values. */
@@ -42,16 +43,16 @@ qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
                   qdot_run_request *free)
 {
     const size_t n = session->scene->coordinates.n;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status = QDOT_OK;
 
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
         if (qdot_expr_is_class(session->pool, unknowns[i], QDOT_PARAM))
             qdot_session_set(session, unknowns[i], unknowns[i], &status);
     if (status == QDOT_OK)
         status = request_fill(session, k, unknowns, had, values, start, named);
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     *free = *had;
     free->values = values;
     free->q0 = start;

@@ -3,12 +3,12 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/language/token-text.h"
-#include "lang/runs/own-run.h"
+#include "lang/runs/run-options.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
-#include "lang/slopes/trial.h"
-#include "lang/syntax/record.h"
+#include "lang/slopes/slopes.h"
+#include "lang/syntax/record-times.h"
 
 static qdot_status sensitivity_tell(qdot_record *r);
 
@@ -84,11 +84,28 @@ sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
     r->cursor.error_at = r->start->start;
     if (!qdot_expr_is_scalar(session->pool, e))
         return qdot_fail(QDOT_ETYPE, "only a number has slopes: one component at a time");
-    QDOT_TRY(qdot_trial_at_end(session, &e));
+    QDOT_TRY(qdot_slopes_at_end(session, &e));
     qdot_token_text(session, part->from, part->to, text);
     QDOT_TRY(qdot_text_status(text));
     QDOT_TRY(qdot_slopes_make(slopes, run_of(session, first), e, first));
     return tell_slopes(slopes, qdot_text_str(text), e, first);
+}
+
+/* Where there is no run yet, make a bare one that is as long as the statement needs. */
+static qdot_status
+make_run_if_none(qdot_record *r, qdot_trial *trial)
+{
+    const qdot_run_options bare = {.tol = 1e-12};
+    const qdot_expr end =
+        trial->session->runs->n > 0 ? QDOT_NIL : qdot_record_farthest_time(r, r->start, QDOT_ZERO);
+    qdot_status status;
+
+    if (end == QDOT_NIL) /* without a time there is no run to make: whatever needs one reports that */
+        return QDOT_OK;
+    status = qdot_run_options_try(trial, &bare, QDOT_ZERO, end);
+    if (status != QDOT_OK)
+        r->cursor.error_at = r->start->start;
+    return status;
 }
 
 static qdot_status
@@ -97,22 +114,15 @@ sensitivity_tell(qdot_record *r)
     qdot_session *session = r->cursor.session;
     qdot_slopes slopes = {0};
     qdot_text text = {0};
-    qdot_status status = QDOT_OK;
+    qdot_trial trial;
+    qdot_status status;
 
-    if (session->runs->n == 0) {
-        const qdot_cursor look = {.session = session, .source = r->cursor.source, .at = r->start};
-        const qdot_expr end = qdot_own_run_needed(&look, QDOT_ZERO);
-
-        /* without a time there is no run to make: whatever needs one reports that */
-        if (end != QDOT_NIL)
-            status = qdot_own_run_make(session, NULL, QDOT_ZERO, end, NULL, NULL);
-        if (status != QDOT_OK)
-            r->cursor.error_at = r->start->start;
-    }
+    QDOT_TRY(qdot_trial_begin(&trial, session));
+    status = make_run_if_none(r, &trial);
     if (status == QDOT_OK)
         status = sensitivity_carry_out(r, &slopes, &text);
     qdot_text_clear(&text);
     qdot_slopes_free(&slopes);
-    qdot_own_run_drop(session);
+    qdot_trial_end(&trial);
     return status;
 }

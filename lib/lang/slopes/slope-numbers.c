@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/momenta.h"
 #include "lang/session/runs.h"
 #include "lang/slopes/slopes.h"
 #include "sim/study/extremum.h"
@@ -15,6 +16,41 @@
 /* The slope of the time of an event that changes the state is read before the event, by at most this part of the run's
  * latest time. */
 static const double most_back = 1e-8;
+
+/* --- numbers of the latest run whose slopes can be found ---------------------------------------- */
+
+qdot_status
+qdot_slopes_at_time(qdot_session *session, qdot_expr e, qdot_expr time, qdot_expr *number)
+{
+    qdot_measured m;
+
+    QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e),
+                                   time, &m));
+    m.origin = (qdot_origin){.kind = QDOT_ORIGIN_VALUE, .e = e, .time = time};
+    *number = qdot_measured_add(session, m);
+    return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_slopes_at_end(qdot_session *session, qdot_expr *e)
+{
+    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
+                            QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
+    qdot_named_run *named;
+
+    *e = qdot_momenta_to_velocities(session, *e);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    if (!(qdot_expr_node(session->pool, *e)->holds & moving))
+        return QDOT_OK;
+    QDOT_TRY(qdot_runs_find(session, NULL, &named));
+    if (qdot_run_get_report(named->run)->status == QDOT_RUN_STOPPED) {
+        (void)qdot_fail(QDOT_EINVAL, "the run ended at an event: its end moves too");
+        return qdot_hint("value(x, EVENT[1])");
+    }
+    return qdot_slopes_at_time(session, *e, named->conditions->t1, e);
+}
+
+/* --- their slopes ------------------------------------------------------------------------------- */
 
 /* Evaluate an expression of the scene with slopes at a time, as a number. */
 static qdot_status

@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 #include "sim/model/substitute.h"
 #include "sim/run/slides.h"
@@ -71,6 +72,20 @@ qdot_slopes_find(qdot_record *r, const char *before, qdot_slopes *s)
 
 /* --- how each name changes parameters and start ----------------------------------------- */
 
+qdot_status
+qdot_slope_names_put(qdot_session *session, size_t n, const qdot_slope_name *names,
+                     const qdot_expr *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        const qdot_expr symbol = names[i].symbol;
+
+        if (qdot_expr_is_class(session->pool, symbol, QDOT_PARAM))
+            QDOT_TRY(qdot_session_in_domain(session, symbol, values[i]));
+        QDOT_TRY(qdot_session_put(session, symbol, values[i]));
+    }
+    return QDOT_OK;
+}
+
 bool
 qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
 {
@@ -115,17 +130,17 @@ qdot_slopes_free_values(qdot_session *session, const qdot_conditions *of, qdot_e
                         qdot_expr *values)
 {
     const size_t own = qdot_expr_place(of->symbols.n, of->symbols.at, p);
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status = QDOT_OK;
 
     if (own == of->symbols.n)
         return qdot_fail(QDOT_EUNSET, "%s has no value in the run",
                          qdot_expr_symbol(session->pool, p)->name);
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     qdot_session_set(session, p, p, &status);
     if (status == QDOT_OK)
         status = free_values(session, of, p, own, values);
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     return status;
 }
 
@@ -140,12 +155,12 @@ free_parameter(qdot_slopes *s, size_t k)
     const size_t n = session->scene->coordinates.n,
                  own = qdot_expr_place(of->symbols.n, of->symbols.at, p);
     qdot_expr *values = s->values + k * of->symbols.n, *start = s->start + 2 * k * n;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status = QDOT_OK;
 
     if (own == of->symbols.n)
         return qdot_fail(QDOT_EUNSET, "%s has no value in the run", s->names.at[k].label);
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     qdot_session_set(session, p, p, &status);
     if (status == QDOT_OK)
         status = free_values(session, of, p, own, values);
@@ -165,7 +180,7 @@ free_parameter(qdot_slopes *s, size_t k)
                                         : qdot_substitute(pool, start[i], of->symbols.n,
                                                           of->symbols.at, of->values.at);
     }
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     QDOT_TRY(status);
     s->by[k].parameter = p;
     s->by[k].values = values;

@@ -51,6 +51,9 @@ QDOT_MUST_CHECK qdot_status qdot_slope_name_find(qdot_record *r, const qdot_fill
 QDOT_MUST_CHECK qdot_status qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names,
                                                   const qdot_slope_name *x,
                                                   qdot_status read);
+/* Set exact values [n] of the names as `set` and `start` do; QDOT_EDOMAIN: one lies outside its domain. */
+QDOT_MUST_CHECK qdot_status qdot_slope_names_put(qdot_session *session, size_t n, const qdot_slope_name *names,
+                                                 const qdot_expr *values);
 /* Whether the k-th name is a parameter, not a coordinate or a velocity. */
 bool qdot_slopes_is_parameter(const qdot_slopes *s, size_t k);
 /* Take the names after that word of the usage into slopes, which is {0}. Free them in any case. */
@@ -64,6 +67,11 @@ QDOT_MUST_CHECK qdot_status qdot_slopes_make(qdot_slopes *s, const char *run, qd
  * before the first-th nothing is known. QDOT_ENOTBUILT: of something in it there is no slope. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first,
                                            size_t k, qdot_expr *slope);
+/* Replace moving symbols in *e by their values at the end of the latest run. QDOT_EINVAL: an event stopped it. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_at_end(qdot_session *session, qdot_expr *e);
+/* Evaluate a moving expression e at a time, as a number of the latest run. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_at_time(qdot_session *session, qdot_expr e, qdot_expr time,
+                                                qdot_expr *number);
 void qdot_slopes_free(qdot_slopes *s);
 
 /* The values of a run's parameters [of->symbols.n] with p free, p as its own value; those that the session says

@@ -1,9 +1,7 @@
 /* members.c -- reads the parameters of a sweep, and makes its runs. */
 #include "lang/sweeps/members.h"
 
-#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
-#include "lang/session/measured.h"
 #include "lang/session/values.h"
 
 /* --- reading the statement -------------------------------------------------------------- */
@@ -36,23 +34,6 @@ qdot_members_free(qdot_members *m)
 
 /* --- the run of one member -------------------------------------------------------------- */
 
-/* Make the run up to `to` and pass it to `use`; the session keeps it meanwhile. */
-static qdot_status
-make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use use, void *user)
-{
-    qdot_session *session = c->session;
-    const size_t measured = session->measured->n;
-    qdot_run *run;
-    qdot_expr end;
-    qdot_status status = qdot_own_run_make(session, &m->run, m->run.from, to, &run, &end);
-
-    if (status == QDOT_OK)
-        status = use(c, run, end, user);
-    qdot_own_run_drop(session);
-    session->measured->n = measured;
-    return status;
-}
-
 /* Set parameter number i to its value in member k. */
 static qdot_status
 set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
@@ -72,19 +53,21 @@ qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double 
     return qdot_run_options_put(session, &m->run); /* which columns read, too */
 }
 
+/* Make the run of member k up to `to` and pass it to `use`; the session keeps it meanwhile. */
 static qdot_status
 run_to(qdot_cursor *c, const qdot_members *m, size_t k, qdot_expr to, double *swept,
        qdot_member_use use, void *user)
 {
-    qdot_session *session = c->session;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status;
 
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
-    status = qdot_members_set(session, m, k, swept);
+    QDOT_TRY(qdot_trial_begin(&trial, c->session));
+    status = qdot_members_set(c->session, m, k, swept);
     if (status == QDOT_OK)
-        status = make_run(c, m, to, use, user);
-    qdot_session_restore_values(session, &kept);
+        status = qdot_run_options_try(&trial, &m->run, m->run.from, to);
+    if (status == QDOT_OK)
+        status = use(c, trial.run, trial.end, user);
+    qdot_trial_end(&trial);
     return status;
 }
 

@@ -8,7 +8,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
 #include "lang/commands/statement.h"
-#include "lang/runs/own-run.h"
+#include "lang/session/trial.h"
 #include "lang/runs/run.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
@@ -297,7 +297,7 @@ go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
             status = QDOT_OK;
             break;
         }
-        if (status != QDOT_OK && !qdot_own_run_all_fail(status))
+        if (status != QDOT_OK && !qdot_trial_all_fail(status))
             status = add_failure(p, swept);
     }
     if (status == QDOT_OK)

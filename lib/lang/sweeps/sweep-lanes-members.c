@@ -12,6 +12,7 @@
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 #include "sim/ensemble/path.h"
 #include "sim/model/substitute.h"
@@ -330,7 +331,7 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
 {
     const size_t members = s->members.axes.members;
     qdot_request request = {0};
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_sweep_lanes *x;
     qdot_status status;
 
@@ -345,10 +346,10 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
     x->s = s;
     x->made = qdot_calloc(members + 1, sizeof *x->made);
     x->reasons = qdot_calloc(members + 1, sizeof *x->reasons);
-    status = x->made && x->reasons ? qdot_session_keep_values(s->c->session, &kept) : QDOT_ENOMEM;
+    status = x->made && x->reasons ? qdot_trial_begin(&trial, s->c->session) : QDOT_ENOMEM;
     if (status == QDOT_OK) {
         status = lanes_prepare(x, &request, why);
-        qdot_session_restore_values(s->c->session, &kept);
+        qdot_trial_end(&trial);
     }
     qdot_request_free(&request);
     if (status == QDOT_OK && why->n == 0) {
@@ -372,11 +373,11 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
 {
     qdot_session *session = x->s->c->session;
     double *swept = x->s->table->values + k * x->s->table->n;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_request request = {0};
     qdot_status status;
 
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     status = qdot_sweep_lanes_request(x->s, k, swept, &request);
     if (status == QDOT_OK && x->varied.n > 0)
         status = qdot_request_masses(session, &request);
@@ -388,7 +389,7 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
     for (size_t i = 0; i < x->varied.n; i++)
         parameters[i] = swept[x->axis.at[i]];
     qdot_request_free(&request);
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     return status;
 }
 

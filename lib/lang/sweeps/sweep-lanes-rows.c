@@ -4,10 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
-#include "lang/session/measured.h"
-#include "lang/session/values.h"
+#include "lang/session/trial.h"
 #include "lang/sweeps/sweep-lanes-parts.h"
 #include "ode/companion.h"
 #include "sim/ensemble/path.h"
@@ -177,24 +175,19 @@ measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, 
 static qdot_status
 read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
 {
-    qdot_session *session = x->s->c->session;
-    const size_t measured = session->measured->n;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_request request = {0};
     qdot_status status;
 
     QDOT_TRY(qdot_ensemble_path_take(x->ensemble, m, x->run, there));
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, x->s->c->session));
     status = qdot_sweep_lanes_request(x->s, k, x->s->table->values + k * x->s->table->n, &request);
     if (status == QDOT_OK && *there)
-        status = qdot_own_run_lend(session, &request, x->run);
-    if (status == QDOT_OK && *there) {
+        status = qdot_trial_lend(&trial, &request.request, x->run);
+    if (status == QDOT_OK && *there)
         status = measure_way(x, request.request.t1, values, errors, there);
-        qdot_own_run_take_back(session);
-    }
-    session->measured->n = measured;
+    qdot_trial_end(&trial);
     qdot_request_free(&request);
-    qdot_session_restore_values(session, &kept);
     return status;
 }
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "lang/runs/own-run.h"
+#include "lang/session/trial.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/sweeps/sweep-ranks.h"
@@ -38,7 +38,7 @@ plan_measure(qdot_sweep *s, sample *m)
 
         if (!made)
             status = qdot_sweep_fill_row(s, rows[i]);
-        if (qdot_own_run_all_fail(status))
+        if (qdot_trial_all_fail(status))
             return status;
         m->alone += !made;
         m->failed += status != QDOT_OK;

@@ -6,7 +6,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "lang/answer/row-answer.h"
-#include "lang/runs/own-run.h"
+#include "lang/session/trial.h"
 #include "lang/session/output.h"
 #include "lang/sweeps/sweep-file.h"
 #include "lang/sweeps/sweep-lanes.h"
@@ -105,7 +105,7 @@ rows_take_row(qdot_sweep *s, size_t k, qdot_status status)
 {
     qdot_row_table *t = s->table;
 
-    if (qdot_own_run_all_fail(status))
+    if (qdot_trial_all_fail(status))
         return status;
     if (status != QDOT_OK) {
         s->failed++;
@@ -176,7 +176,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
         (void)qdot_fail(h.status, "%.*s", (int)h.message, bytes);
         if (h.hint > 0)
             (void)qdot_hint("%.*s", (int)h.hint, bytes + h.message);
-        if (qdot_own_run_all_fail(h.status))
+        if (qdot_trial_all_fail(h.status))
             s->c->error_at = h.error_at;
     }
     return rows_take_row(s, k, h.status);

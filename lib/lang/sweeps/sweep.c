@@ -15,7 +15,7 @@
 #include "lang/declare/scene-file.h"
 #include "lang/language/token-text.h"
 #include "lang/session/output.h"
-#include "lang/session/values.h"
+#include "lang/session/trial.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/syntax/record.h"
 
@@ -226,8 +226,8 @@ note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *ta
     const size_t n = m->axes.at.n;
     double *swept = qdot_calloc(n + 1, sizeof *swept);
     qdot_expr *open = qdot_calloc(n + 1, sizeof *open);
-    qdot_kept_values kept;
-    qdot_status status = swept && open ? qdot_session_keep_values(session, &kept) : QDOT_ENOMEM;
+    qdot_trial trial;
+    qdot_status status = swept && open ? qdot_trial_begin(&trial, session) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         for (size_t i = 0; i < n; i++)
@@ -237,7 +237,7 @@ note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *ta
             status = qdot_row_tables_note_parameters(session, table, n, open);
         else
             status = qdot_grave(status); /* its row says why */
-        qdot_session_restore_values(session, &kept);
+        qdot_trial_end(&trial);
     }
     qdot_free(swept);
     qdot_free(open);

@@ -240,7 +240,7 @@ evaluate_as_list(qdot_record *r, const qdot_compiled *whole, size_t at, uint32_t
     for (size_t i = 0; i < at && status == QDOT_OK; i++)
         status = qdot_vec_push(&part.code.list, whole->code.list.at[i]);
     if (status == QDOT_OK)
-        status = qdot_vec_push(&part.code.list, ((qdot_postfix){QDOT_POSTFIX_LIST, 0, n, 0, token}));
+        status = qdot_vec_push(&part.code.list, ((qdot_postfix){.op = QDOT_POSTFIX_LIST, .n = n, .token = token}));
     if (status == QDOT_OK)
         status = qdot_compiled_value(&r->cursor, &part, list);
     qdot_compiled_free(&part);

@@ -10,6 +10,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/session/bind.h"
 #include "lang/session/row-tables.h"
+#include "lang/session/trial.h"
 #include "lang/session/values.h"
 #include "lang/slopes/slopes.h"
 #include "lang/syntax/record.h"
@@ -226,7 +227,7 @@ static qdot_status
 continue_follow(qdot_record *r)
 {
     qdot_session *session = r->cursor.session;
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_continue_wish w = {0};
     qdot_status status = continue_find_all(r, &w);
 
@@ -240,7 +241,7 @@ continue_follow(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_value_check_assumed(session);
     if (status == QDOT_OK)
-        status = qdot_session_keep_values(session, &kept);
+        status = qdot_trial_begin(&trial, session);
     if (status == QDOT_OK) {
         if (w.orbit) {
             status = qdot_continue_orbit(session, &w);
@@ -248,7 +249,7 @@ continue_follow(qdot_record *r)
             free_parameter(session, w.parameter);
             status = follow_equilibria(session, &w);
         }
-        qdot_session_restore_values(session, &kept);
+        qdot_trial_end(&trial);
     }
     qdot_free(w.own);
     return status;

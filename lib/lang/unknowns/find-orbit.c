@@ -4,6 +4,8 @@
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/trial.h"
+#include "lang/session/values.h"
 #include "lang/slopes/free-request.h"
 #include "lang/unknowns/find-parts.h"
 
@@ -85,19 +87,19 @@ qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r)
 {
     qdot_session *session = f->c->session;
     guess x = {.f = f, .k = f->unknowns.n, .n = session->scene->coordinates.n};
-    qdot_kept_values kept;
+    qdot_trial trial;
     qdot_status status;
 
     r->found = false;
     if (f->conditions.n > 1 || session->scene->constraints.n > 0)
         return QDOT_OK;
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    QDOT_TRY(qdot_trial_begin(&trial, session));
     status = guess_begin(&x);
     if (status == QDOT_OK)
-        status = qdot_trial_put(session, x.k, f->unknowns.at, x.at);
+        status = qdot_slope_names_put(session, x.k, f->unknowns.at, x.at);
     if (status == QDOT_OK)
         status = make_request(&x);
-    qdot_session_restore_values(session, &kept);
+    qdot_trial_end(&trial);
     if (status == QDOT_OK)
         status = shoot(&x, r);
     qdot_request_free(&x.order);

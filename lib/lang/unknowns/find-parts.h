@@ -7,7 +7,8 @@
 #ifndef QDOT_LANG_FIND_PARTS_H
 #define QDOT_LANG_FIND_PARTS_H
 
-#include "lang/slopes/trial.h"
+#include "lang/runs/run-options.h"
+#include "lang/slopes/slopes.h"
 #include "sim/study/shooting.h"
 
 typedef struct {

@@ -9,11 +9,10 @@
 
 #include "lang/answer/answer.h"
 #include "lang/commands/set.h"
-#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
-#include "lang/syntax/record.h"
+#include "lang/syntax/record-times.h"
 #include "sim/model/simple-zeros.h"
 
 static qdot_status find_make(qdot_record *r);
@@ -284,7 +283,6 @@ qdot_status
 qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
 {
     qdot_session *session = f->c->session;
-    qdot_cursor look = *f->c;
 
     *from = f->run_at != NULL   ? f->run.from
             : f->latest != NULL ? f->latest_from
@@ -302,8 +300,7 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
     }
     if (f->returns)
         return qdot_pool_check(session->pool);
-    look.at = f->conditions.at[0].from;
-    *to = qdot_own_run_needed(&look, *from);
+    *to = qdot_record_farthest_time(f->record, f->conditions.at[0].from, *from);
     if (f->latest != NULL && (*to == QDOT_NIL || names_event(f)))
         QDOT_TRY(set_to_later_time(session, *from, to, f->latest_to));
     if (*to != QDOT_NIL)
@@ -354,9 +351,9 @@ return_residuals(const qdot_find *f, const qdot_find_condition *x, qdot_expr fro
             qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
         qdot_expr first, last;
 
-        QDOT_TRY(qdot_trial_at_time(session, jet, from, &first));
+        QDOT_TRY(qdot_slopes_at_time(session, jet, from, &first));
         QDOT_TRY(
-            qdot_trial_at_time(session, jet, qdot_add(session->pool, from, T), &last));
+            qdot_slopes_at_time(session, jet, qdot_add(session->pool, from, T), &last));
         e[i] = qdot_sub(session->pool, last, first);
     }
     return qdot_pool_check(session->pool);
@@ -374,7 +371,7 @@ equation_find(const qdot_find *f, const qdot_find_condition *x, qdot_expr *e)
     for (int i = 0; i < 2; i++) {
         if (!qdot_expr_is_scalar(session->pool, side[i]))
             return qdot_fail(QDOT_ETYPE, "a condition is between numbers");
-        QDOT_TRY(qdot_trial_at_end(session, &side[i]));
+        QDOT_TRY(qdot_slopes_at_end(session, &side[i]));
     }
     /* replace u^9 by u: its zero would be known only to the ninth root of a rounding error, and
      * u^1001 underflows near it */

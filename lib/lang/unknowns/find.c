@@ -9,36 +9,27 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
-#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
-#include "lang/unknowns/find-parts.h"
+#include "lang/session/values.h"
+#include "lang/unknowns/find-trial.h"
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 
 /* A motion whose extent is below this fraction of the extent at the guess counts as shrunk to rest. */
 static const double shrunk = 0.1;
 
-/* A start value counts as moved by constraints if it changes by more than this, which is above rounding. */
-static const double moved = 1e-9;
-
 typedef struct {
     qdot_find *f;
-    qdot_trial trial;
-    size_t m;
-    double *at;         /* [n] where the trial is open */
+    qdot_find_trial now;
     double *unit;       /* [n] of the unknowns, from a guess that was moved */
     double *before;     /* [n] errors of the unknowns by the segments */
     double *start;      /* [start_open.n] of the session, at the solution */
-    qdot_expr *values;  /* [n] the same, exact */
-    qdot_expr *e;       /* [m] what must vanish, of that trial */
     bool bounded;       /* without slopes there is still bisection */
     size_t rank;        /* how many unknowns the segments fix */
-    double *slope_error, *size; /* [m x n], [m] of what must vanish */
-    bool sized;         /* the latter are known */
+    double *slope_error; /* [m x n] of what must vanish */
     double length;      /* of the run at the guess */
-    qdot_find_budget budget;
     double reach;       /* of an orbit's guess (sim/study/floquet.h) */
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
@@ -88,12 +79,12 @@ open_start(const qdot_find *f, bool velocities)
 static qdot_status
 find_read_start(const hunt *h, double *numbers)
 {
-    const qdot_session *session = h->trial.session;
-    const double t0 = qdot_run_get_report(h->trial.run)->t0;
+    const qdot_session *session = h->f->c->session;
+    const double t0 = qdot_run_get_report(h->now.trial.run)->t0;
 
     return session->values->start_open.n == 0
                ? QDOT_OK
-               : qdot_run_values(h->trial.run, session->values->start_open.n, session->values->start_open.at, 1, &t0, numbers, NULL);
+               : qdot_run_values(h->now.trial.run, session->values->start_open.n, session->values->start_open.at, 1, &t0, numbers, NULL);
 }
 
 static qdot_status
@@ -119,106 +110,18 @@ keep_start(qdot_session *session, const double *numbers)
 /* --- evaluating the conditions --------------------------------------------------------------- */
 
 static qdot_status
-take_values(hunt *h, const double *u)
-{
-    qdot_pool *pool = h->f->c->session->pool;
-
-    memcpy(h->at, u, h->trial.n * sizeof *u);
-    for (size_t i = 0; i < h->trial.n; i++)
-        h->values[i] = qdot_measured_rational(pool, u[i]);
-    return qdot_pool_check(pool);
-}
-
-/* Find the time limits of the run with the present values of the unknowns. */
-static qdot_status
-find_limits(hunt *h)
-{
-    qdot_session *session = h->f->c->session;
-    qdot_kept_values kept;
-    qdot_status status;
-
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
-    status = qdot_trial_put(session, h->trial.n, h->trial.unknowns, h->values);
-    if (status == QDOT_OK)
-        status = qdot_find_limits(h->f, &h->trial.from, &h->trial.to);
-    if (status == QDOT_OK) {
-        h->trial.from = qdot_session_bind(session, h->trial.from);
-        h->trial.to = qdot_session_bind(session, h->trial.to);
-        status = qdot_pool_check(session->pool);
-    }
-    qdot_session_restore_values(session, &kept);
-    return status;
-}
-
-static qdot_status
-find_length(const hunt *h, double *length)
-{
-    double from, to;
-
-    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.from, &from, NULL));
-    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
-    *length = fabs(to - from);
-    return QDOT_OK;
-}
-
-/* Fail if the constraints moved the unknowns: no free start value could satisfy them. */
-static qdot_status
-check_start(const hunt *h)
-{
-    const qdot_session *session = h->trial.session;
-    const double t0 = qdot_run_get_report(h->trial.run)->t0;
-
-    for (size_t i = 0; i < h->trial.n && session->scene->constraints.n > 0; i++) {
-        const qdot_slope_name *one = &h->trial.unknowns[i];
-        double value;
-
-        if (!qdot_expr_is_class(session->pool, one->symbol, QDOT_COORD))
-            continue;
-        QDOT_TRY(qdot_run_values(h->trial.run, 1, &one->symbol, 1, &t0, &value, NULL));
-        if (!(fabs(value - h->at[i]) <= moved * fmax(1, fabs(value))))
-            return qdot_fail(QDOT_EDOMAIN, "the constraints do not let %.100s start at %.10g beside what `start` names",
-                             one->label, h->at[i]);
-    }
-    return QDOT_OK;
-}
-
-/* Make the run for the unknowns u, and evaluate the residuals. */
-static qdot_status
-open_at(hunt *h, const double *u)
-{
-    double length;
-
-    if (h->trial.open && memcmp(h->at, u, h->trial.n * sizeof *u) == 0)
-        return QDOT_OK;
-    qdot_trial_close(&h->trial);
-    QDOT_TRY(take_values(h, u));
-    QDOT_TRY(find_limits(h));
-    QDOT_TRY(find_length(h, &length));
-    QDOT_TRY(qdot_find_spend(&h->budget, length));
-    QDOT_TRY(qdot_trial_open(&h->trial, h->values));
-    qdot_find_spent(&h->budget, h->trial.run, 1);
-    QDOT_TRY(check_start(h));
-    QDOT_TRY(qdot_find_residuals(h->f, h->trial.from, h->e));
-    if (!h->sized)
-        QDOT_TRY(qdot_find_sizes(h->f, h->trial.run, h->e, h->size));
-    h->sized = true;
-    return QDOT_OK;
-}
-
-static qdot_status
 find_evaluate(const double *u, double *f, double *error, double *slope, void *user)
 {
     hunt *h = user;
-    qdot_status status = open_at(h, u);
+    qdot_status status = qdot_find_trial_open(&h->now, u);
 
     if (status == QDOT_OK)
-        status = qdot_trial_numbers(&h->trial, h->m, h->e, f, error);
-    for (size_t i = 0; i < h->m && status == QDOT_OK; i++)
+        status = qdot_find_trial_numbers(&h->now, f, error);
+    for (size_t i = 0; i < h->now.m && status == QDOT_OK; i++)
         if (isinf(f[i])) /* with an error as large, it would be a zero */
             status = qdot_fail(QDOT_EDOMAIN, "a condition is larger than a double holds");
     if (status == QDOT_OK && slope != NULL) {
-        status = qdot_trial_slopes(&h->trial, h->m, h->e, slope, h->slope_error);
-        qdot_find_spent(&h->budget, h->trial.run, 1 + h->trial.n);
+        status = qdot_find_trial_slopes(&h->now, slope, h->slope_error);
         if (h->bounded && status != QDOT_OK && qdot_grave(status) == QDOT_OK) {
             slope[0] = NAN;
             status = QDOT_OK;
@@ -226,8 +129,8 @@ find_evaluate(const double *u, double *f, double *error, double *slope, void *us
     }
     if (status == QDOT_OK)
         return QDOT_OK;
-    qdot_trial_close(&h->trial);
-    if (qdot_own_run_all_fail(status))
+    qdot_find_trial_close(&h->now);
+    if (qdot_trial_all_fail(status))
         return status;
     h->failure = *qdot_last_error();
     f[0] = NAN;
@@ -237,10 +140,10 @@ find_evaluate(const double *u, double *f, double *error, double *slope, void *us
 static qdot_status
 find_reach(hunt *h, const double *u, double *reach, bool *rests)
 {
-    qdot_session *session = h->trial.session;
+    qdot_session *session = h->f->c->session;
     qdot_named_run *named;
 
-    QDOT_TRY(open_at(h, u));
+    QDOT_TRY(qdot_find_trial_open(&h->now, u));
     QDOT_TRY(qdot_runs_find(session, NULL, &named));
     QDOT_TRY(qdot_floquet_reach(session->scene, named->run, reach));
     return qdot_floquet_rests(session->scene, named->run, rests);
@@ -282,7 +185,7 @@ largest(const hunt *h, const qdot_zero_result *r)
 {
     double most = 0;
 
-    for (size_t i = 0; i < h->m; i++)
+    for (size_t i = 0; i < h->now.m; i++)
         most = fmax(most, fabs(r->f[i]));
     return most;
 }
@@ -292,7 +195,7 @@ hint_at_more(const hunt *h)
 {
     const char *name = h->f->unknowns.at[0].label;
 
-    if (h->m > h->trial.n)
+    if (h->now.m > h->f->unknowns.n)
         return qdot_hint(
             "another guess; more conditions than unknowns may have no solution");
     return h->bounded
@@ -307,7 +210,7 @@ least_known(const hunt *h, const qdot_zero_result *r)
 {
     size_t worst = 0;
 
-    for (size_t j = 1; j < h->trial.n; j++)
+    for (size_t j = 1; j < h->f->unknowns.n; j++)
         if (r->error[j] * fabs(r->u[worst]) > r->error[worst] * fabs(r->u[j]))
             worst = j;
     return worst;
@@ -369,17 +272,17 @@ find_refuse(const hunt *h, const qdot_zero_result *r)
 static qdot_status
 tell_others(const hunt *h, const qdot_zero_result *r)
 {
-    if (r->rank >= h->trial.n)
+    if (r->rank >= h->f->unknowns.n)
         return !isfinite(h->f->low.at[0]) ? QDOT_OK
                                           : qdot_answer_notice(h->f->c->session, "there may be others between the bounds: "
                                                                                  "one solution was searched for");
     if (r->vague_rank)
         return qdot_answer_notice(h->f->c->session,
                                   "perhaps one of a family: to first order the conditions fix %zu of %zu unknowns",
-                                  r->rank, h->trial.n);
+                                  r->rank, h->f->unknowns.n);
     return qdot_answer_notice(h->f->c->session,
                               "one of a family: the conditions fix %zu of %zu unknowns",
-                              r->rank, h->trial.n);
+                              r->rank, h->f->unknowns.n);
 }
 
 /* Write a limit of the run, exactly. One that was found is a double: it is written in 17 digits at most and becomes
@@ -455,7 +358,7 @@ check_length(const hunt *h)
 {
     double length;
 
-    QDOT_TRY(find_length(h, &length));
+    QDOT_TRY(qdot_find_trial_length(&h->now, &length));
     if (length > 1e-9 * h->length)
         return QDOT_OK;
     h->f->c->error_at = h->f->conditions.at[0].from->start;
@@ -471,11 +374,11 @@ tell_end(const hunt *h)
 
     if (!f->returns || f->run_at == NULL)
         return QDOT_OK;
-    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
-    QDOT_TRY(qdot_session_number(h->trial.session, f->run.to, &said, NULL));
+    QDOT_TRY(qdot_session_number(h->f->c->session, h->now.to, &to, NULL));
+    QDOT_TRY(qdot_session_number(h->f->c->session, f->run.to, &said, NULL));
     if (fabs(to - said) <= 1e-9 * fabs(to))
         return QDOT_OK;
-    return qdot_answer_notice(h->trial.session, "the run ends after the return, at %.10g, not at %.10g",
+    return qdot_answer_notice(h->f->c->session, "the run ends after the return, at %.10g, not at %.10g",
                               to, said);
 }
 
@@ -501,7 +404,7 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
     double reach = INFINITY;
     bool rests = false;
 
-    QDOT_TRY(open_at(h, r->u));
+    QDOT_TRY(qdot_find_trial_open(&h->now, r->u));
     QDOT_TRY(find_read_start(h, h->start));
     QDOT_TRY(check_length(h));
     QDOT_TRY(tell_end(h));
@@ -509,12 +412,12 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
         QDOT_TRY(find_reach(h, r->u, &reach, &rests));
     if (!rests && has_shrunk(h, reach, r->rank))
         return refuse_shrunk(h, r);
-    qdot_trial_close(&h->trial);
+    qdot_find_trial_close(&h->now);
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
-            QDOT_TRY(qdot_trial_put(session, 1, &f->unknowns.at[i], &h->values[i]));
+            QDOT_TRY(qdot_slope_names_put(session, 1, &f->unknowns.at[i], &h->now.values[i]));
     QDOT_TRY(keep_start(session, h->start));
-    QDOT_TRY(keep_run(f, h->trial.from, h->trial.to));
+    QDOT_TRY(keep_run(f, h->now.from, h->now.to));
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
             qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
@@ -534,7 +437,7 @@ find_places(const hunt *h, size_t *place)
     const qdot_session *session = h->f->c->session;
     const size_t n = session->scene->coordinates.n;
 
-    if (!h->f->returns || h->m != 2 * n || h->trial.n != 2 * n)
+    if (!h->f->returns || h->now.m != 2 * n || h->f->unknowns.n != 2 * n)
         return false;
     for (size_t j = 0; j < 2 * n; j++) {
         place[j] = 0;
@@ -563,7 +466,7 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
         double left = 0;
 
         QDOT_TRY(find_evaluate(u, f, error, NULL, h));
-        for (size_t i = 0; i < h->m; i++)
+        for (size_t i = 0; i < h->now.m; i++)
             left = isfinite(f[i]) ? fmax(left, fabs(f[i])) : INFINITY;
         if (k == 0)
             first = left;
@@ -574,7 +477,7 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
         if (!isfinite(left) || (k % trend == 0 && left > 0.8 * before))
             return QDOT_OK;
         before = k % trend == 0 ? left : before;
-        for (size_t j = 0; j < h->trial.n; j++) {
+        for (size_t j = 0; j < h->f->unknowns.n; j++) {
             u[j] += f[place[j]];
             if (!(u[j] >= of->low.at[j] && u[j] <= of->high.at[j]))
                 return QDOT_OK;
@@ -588,11 +491,11 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
 static qdot_status
 search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
 {
-    const size_t n = h->trial.n;
+    const size_t n = h->f->unknowns.n;
     size_t returns = 0, *place = qdot_calloc(n, sizeof *place);
-    double *room = qdot_calloc(2 * n + 2 * h->m, sizeof *room);
+    double *room = qdot_calloc(2 * n + 2 * h->now.m, sizeof *room);
     qdot_zero_result again = {
-        .u = room, .error = room + n, .f = room + 2 * n, .f_error = room + 2 * n + h->m};
+        .u = room, .error = room + n, .f = room + 2 * n, .f_error = room + 2 * n + h->now.m};
     qdot_status status = place != NULL && room != NULL ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK && find_places(h, place)) {
@@ -622,20 +525,19 @@ find_search(hunt *h, qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
     qdot_zero_problem p = {.n = f->unknowns.n,
-                                 .m = h->m,
+                                 .m = h->now.m,
                                  .at = find_evaluate,
                                  .user = h,
                                  .low = f->low.at,
                                  .high = f->high.at,
                                  .slope_error = h->slope_error,
-                                 .size = h->size};
+                                 .size = h->now.size};
 
     memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
     for (size_t i = 0; i < p.n; i++)
         h->unit[i] = r->u[i] != 0 ? fabs(r->u[i]) : 1;
-    QDOT_TRY(take_values(h, r->u));
-    QDOT_TRY(find_limits(h)); /* check the limits before the first run */
-    QDOT_TRY(find_length(h, &h->length));
+    QDOT_TRY(qdot_find_trial_limits(&h->now, r->u)); /* check the limits before the first run */
+    QDOT_TRY(qdot_find_trial_length(&h->now, &h->length));
     p.verify = true;
     if (f->returns) {
         qdot_shooting_result shot = {.u = r->u, .error = h->before};
@@ -666,35 +568,31 @@ qdot_find_carry_out(qdot_find *f)
 {
     const size_t n = f->unknowns.n, m = qdot_find_count(f);
     hunt h = {.f = f,
-              .m = m,
-              .bounded = n == 1 && m == 1 && isfinite(f->low.at[0]),
-              .trial = {.session = f->c->session,
-                        .n = n,
-                        .unknowns = f->unknowns.at,
-                        .options = &f->run}};
+              .now = {.f = f, .m = m},
+              .bounded = n == 1 && m == 1 && isfinite(f->low.at[0])};
     double *room = qdot_calloc(5 * n + 3 * m + m * n + 2 * f->c->session->scene->coordinates.n + 1, sizeof *room);
     qdot_zero_result r = {
         .u = room, .error = room + n, .f = room + 5 * n, .f_error = room + 5 * n + m};
     qdot_status status = QDOT_ENOMEM;
 
-    h.at = room + 2 * n;
+    h.now.at = room + 2 * n;
     h.unit = room + 3 * n;
     h.before = room + 4 * n;
-    h.size = room + 5 * n + 2 * m;
-    h.slope_error = h.size + m;
+    h.now.size = room + 5 * n + 2 * m;
+    h.slope_error = h.now.size + m;
     h.start = h.slope_error + m * n;
-    h.values = qdot_calloc(n + m + 1, sizeof *h.values);
-    if (room != NULL && h.values != NULL) {
-        h.e = h.values + n;
+    h.now.values = qdot_calloc(n + m + 1, sizeof *h.now.values);
+    if (room != NULL && h.now.values != NULL) {
+        h.now.e = h.now.values + n;
         status = open_start(f, false);
     }
     if (status == QDOT_OK)
         status = open_start(f, true);
     if (status == QDOT_OK)
         status = find_search(&h, &r);
-    qdot_trial_close(&h.trial);
+    qdot_find_trial_close(&h.now);
     f->c->session->values->start_open.n = 0;
-    qdot_free(h.values);
+    qdot_free(h.now.values);
     qdot_free(room);
     return status;
 }

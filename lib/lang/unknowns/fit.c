@@ -14,7 +14,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
-#include "lang/slopes/trial.h"
+#include "lang/slopes/slopes.h"
 #include "lang/syntax/record.h"
 #include "lang/unknowns/fit-parts.h"
 
@@ -290,7 +290,7 @@ qdot_fit_set(qdot_fit *f)
     if (status == QDOT_OK)
         status = qdot_pool_check(f->session->pool);
     if (status == QDOT_OK)
-        status = qdot_trial_put(f->session, n, f->unknowns.names.at, values);
+        status = qdot_slope_names_put(f->session, n, f->unknowns.names.at, values);
     qdot_free(values);
     return status;
 }
