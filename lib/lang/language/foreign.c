@@ -80,20 +80,24 @@ line_is_same(const qdot_cursor *c, const qdot_pattern_match *m, const qdot_text 
            strncmp(qdot_text_str(line), c->source->text + m->from->start, line->n) == 0;
 }
 
-/* Whether the line is of the same statement and keeps the unknown name that the error is about: then it would fail as
- * well. */
+/* Whether the error is an unknown name that the suggested line has too, so that it would fail as well: as an operand of a form
+ * with an error of its own, or anywhere in a line of the same statement. */
 static bool
-keeps_unknown(const qdot_cursor *c, const qdot_pattern_match *m, const char *line)
+keeps_unknown(const qdot_cursor *c, const form *f, const qdot_pattern_match *m, const char *line)
 {
     const size_t n = strlen(m->from->text);
+    bool operand = false;
+    const qdot_token *t = m->from;
 
-    if (strncmp(qdot_last_error()->message, "unknown name ", 13) != 0 || strncmp(line, m->from->text, n) != 0 ||
-        line[n] != ' ')
+    if (strncmp(qdot_last_error()->message, "unknown name ", 13) != 0 || line[0] == '#')
         return false;
-    for (const qdot_token *t = m->from + 1; t < m->to; t++)
-        if (t->start == c->error_at)
-            return t->kind == QDOT_TOKEN_NAME && qdot_has_word(line, t->text);
-    return false;
+    while (t < m->to && t->start != c->error_at)
+        t++;
+    if (t == m->to || t->kind != QDOT_TOKEN_NAME || !qdot_has_word(line, t->text))
+        return false;
+    for (size_t i = 0; i < m->n; i++)
+        operand = operand || (strchr("ne", m->held[i].kind) != NULL && t >= m->held[i].from && t < m->held[i].to);
+    return f->message != NULL ? operand : t > m->from && strncmp(line, m->from->text, n) == 0 && line[n] == ' ';
 }
 
 /* Replace the error by that of the pattern; false if it has no better line to suggest. */
@@ -112,7 +116,7 @@ form_tell(qdot_cursor *c, const form *f, const qdot_pattern_match *m)
         qdot_text_add(&message, error.message);
     qdot_pattern_write(c, f->line, m, &line);
     fits = line.n < sizeof error.hint - 8 && !line.failed && !message.failed &&
-           !line_is_same(c, m, &line) && (f->message != NULL || !keeps_unknown(c, m, qdot_text_str(&line)));
+           !line_is_same(c, m, &line) && !keeps_unknown(c, f, m, qdot_text_str(&line));
     if (fits) {
         (void)qdot_fail(error.status, "%s", qdot_text_str(&message));
         (void)qdot_hint("%s%s", f->say ? "" : "write ", qdot_text_str(&line));
