@@ -21,9 +21,9 @@
 #include "lang/source/source.h"
 
 bool
-qdot_scene_file_is(const qdot_token *token)
+qdot_scene_file_is(const char *path)
 {
-    const char *dot = token->kind == QDOT_TOKEN_STRING ? strrchr(token->text, '.') : NULL;
+    const char *dot = strrchr(path, '.');
 
     return dot != NULL && strcmp(dot, ".lag") == 0;
 }
@@ -101,10 +101,7 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
 static bool
 is_lasting(const qdot_function_body *body)
 {
-    for (const qdot_token *k = body->from; k < body->to; k++)
-        if (k->kind == QDOT_TOKEN_OPERATOR && strcmp(k->text, "%") == 0)
-            return false;
-    return true;
+    return !qdot_token_is_among(body->from, body->to, "%");
 }
 
 enum { VALUE, SAID, FORMS };
@@ -304,7 +301,7 @@ qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file wh
 
     if (dot != NULL && strchr(dot, '/') != NULL) /* of a folder */
         dot = NULL;
-    if (!qdot_scene_file_is(name)) {
+    if (!qdot_scene_file_is(path)) {
         c->error_at = name->start;
         (void)qdot_fail(QDOT_ESYNTAX, "`%.200s`: statements are written to a file whose name ends in `.lag`", path);
         return qdot_hint("save %s to \"%.*s.lag\"", what == QDOT_FILE_HISTORY ? "history" : "session",

@@ -21,8 +21,8 @@
 #include "lang/language/cursor.h"
 #include "lang/source/token.h"
 
-/* Whether the token is the name of a scene file, "NAME.lag". */
-bool qdot_scene_file_is(const qdot_token *token);
+/* Whether the path is that of a scene file, "NAME.lag". */
+bool qdot_scene_file_is(const char *path);
 
 typedef enum {
     QDOT_FILE_SCENE,   /* the scene, values, start and definitions */

@@ -369,11 +369,9 @@ earliest_run_needed(const placements *list, const qdot_name *name)
 {
     size_t first = 0;
 
-    for (const qdot_token *k = name->body != NULL ? name->body->from : NULL;
-         k != NULL && k < name->body->to; k++)
-        for (size_t i = 0; i < list->n; i++)
-            if (qdot_token_is_word(k, list->at[i].name->name) && list->at[i].behind > first)
-                first = list->at[i].behind;
+    for (size_t i = 0; i < list->n && name->body != NULL; i++)
+        if (list->at[i].behind > first && qdot_token_is_among(name->body->from, name->body->to, list->at[i].name->name))
+            first = list->at[i].behind;
     return first;
 }
 

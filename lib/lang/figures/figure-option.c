@@ -79,7 +79,7 @@ static bool
 is_given(const qdot_figure_choice *f, const qdot_filled *word)
 {
     return (qdot_filled_is(word, "size") && f->width > 0) || (qdot_filled_is(word, "keep") && f->keep) ||
-           (qdot_filled_is(word, "to") && f->path != NULL && word[1].from->kind == QDOT_TOKEN_STRING);
+           (qdot_filled_is(word, "to") && f->path != NULL && qdot_filled_is_text(word + 1));
 }
 
 /* Take one option: `word` is its word, the next part its value. */
@@ -123,7 +123,7 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         p->points = true;
     } else if (qdot_filled_is(word, "keep")) {
         f->keep = true;
-    } else if (qdot_filled_is(word, "to") && hole->from->kind == QDOT_TOKEN_STRING) {
+    } else if (qdot_filled_is(word, "to") && qdot_filled_is_text(hole)) {
         f->path = qdot_record_text(hole);
     }
     return QDOT_OK;

@@ -305,7 +305,7 @@ qdot_plot_rows(qdot_record *r)
     drawing d = {0};
     qdot_status status;
 
-    if (t == NULL && r->start->kind == QDOT_TOKEN_END)
+    if (t == NULL && r->parts.n == 1)
         return qdot_record_expected(r, r->start, "an expression");
     if (t == NULL) {
         r->cursor.error_at = r->start->start;

@@ -45,7 +45,7 @@ read_operand(qdot_record *r, const struct language *l, operand *o)
     const qdot_filled *part = qdot_record_hole(r, NULL, "EXPR");
     qdot_session *session = r->cursor.session;
 
-    if (l->source != NULL && part->to == part->from + 1 && qdot_token_is_word(part->from, "eom") &&
+    if (l->source != NULL && qdot_filled_is_word(part, "eom") &&
         qdot_names_find(session->names, "eom") == NULL) {
         o->motion = true;
         return QDOT_OK;

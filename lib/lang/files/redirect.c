@@ -44,17 +44,12 @@ qdot_redirect_answers(const qdot_statement *row)
 const qdot_token *
 qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
 {
-    const qdot_token *end = first;
+    const qdot_token *to = qdot_redirect_answers(row) ? qdot_token_file_at_end(first) : NULL;
 
-    if (!qdot_redirect_answers(row))
+    if (to == NULL || (row == NULL && to == first) ||
+        (row != NULL && strcmp(row->word, "scene") == 0 && qdot_scene_file_is(to[1].text)))
         return NULL;
-    while (end->kind != QDOT_TOKEN_END)
-        end++;
-    if (end - first < (row == NULL ? 3 : 2) || end[-1].kind != QDOT_TOKEN_STRING ||
-        end[-2].kind != QDOT_TOKEN_NAME || strcmp(end[-2].text, "to") != 0 ||
-        (row != NULL && strcmp(row->word, "scene") == 0 && qdot_scene_file_is(end - 1)))
-        return NULL;
-    return end - 2;
+    return to;
 }
 
 /* Fail if formulas cannot be written to a file of this ending, as that of a figure or table. */

@@ -127,7 +127,7 @@ means_statements(const qdot_record *r, const char *name, const qdot_filled *file
     qdot_named_run *run;
 
     return name != NULL && (strcmp(name, "session") == 0 || strcmp(name, "history") == 0) &&
-           (qdot_scene_file_is(file->from) || qdot_runs_find(r->cursor.session, name, &run) != QDOT_OK);
+           (qdot_scene_file_is(qdot_record_text(file)) || qdot_runs_find(r->cursor.session, name, &run) != QDOT_OK);
 }
 
 static qdot_status

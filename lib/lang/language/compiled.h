@@ -14,6 +14,7 @@
 
 typedef struct {
     const qdot_token *from, *to; /* its tokens [from, to) */
+    bool is_period;              /* of a condition: the time T of `returns after T` */
     qdot_postfix_list code;
 } qdot_compiled;
 
@@ -21,6 +22,15 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_compiled_parse(qdot_cursor *c, qdot_parse_extent extent,
                                                qdot_compiled *program);
 void qdot_compiled_free(qdot_compiled *program);
+
+/* The next name in the program from code *k on, and step over it; NULL: there is none further. k begins at 0. */
+const char *qdot_compiled_next_name(const qdot_compiled *program, uint32_t *k);
+/* Whether the whole program is a list [a, b, ...], or a matrix. */
+bool qdot_compiled_is_list(const qdot_compiled *program);
+/* The name in NAME[K] and its number K, if the whole program is that; NULL: it is not. */
+const char *qdot_compiled_member_of(const qdot_compiled *program, long *k);
+/* Whether it calls value, max, min, mean or drift, which read a run at intermediate times. */
+bool qdot_compiled_reads_way(const qdot_compiled *program);
 
 /* Evaluate a parsed expression, as the readers of the same names in read.h do. */
 QDOT_MUST_CHECK qdot_status qdot_compiled_value(qdot_cursor *c, const qdot_compiled *program,

@@ -1,6 +1,7 @@
 /* read.c -- reads operands of statements: parses an expression and evaluates it, at once or later. */
 #include "lang/language/read.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -14,6 +15,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
+#include "lang/session/range.h"
 
 /* --- parsed expressions, evaluated later --------------------------------------------- */
 
@@ -33,6 +35,53 @@ qdot_compiled_free(qdot_compiled *program)
 {
     qdot_free(program->code.list.at);
     *program = (qdot_compiled){0};
+}
+
+/* --- what a parsed expression holds --------------------------------------------------- */
+
+const char *
+qdot_compiled_next_name(const qdot_compiled *program, uint32_t *k)
+{
+    while (*k < program->code.list.n) {
+        const qdot_token *token = program->code.list.at[(*k)++].token;
+
+        if (token != NULL && token->kind == QDOT_TOKEN_NAME)
+            return token->text;
+    }
+    return NULL;
+}
+
+bool
+qdot_compiled_is_list(const qdot_compiled *program)
+{
+    const qdot_postfix *last = program->code.list.at + program->code.list.n - 1;
+
+    return program->code.list.n > 0 && (last->op == QDOT_POSTFIX_LIST || last->op == QDOT_POSTFIX_MATRIX);
+}
+
+const char *
+qdot_compiled_member_of(const qdot_compiled *program, long *k)
+{
+    const qdot_postfix *code = program->code.list.at;
+    char *rest;
+
+    if (program->code.list.n != 2 || code[0].op != QDOT_POSTFIX_NUMBER || code[1].op != QDOT_POSTFIX_INDEX_NAME ||
+        code[1].primes > 0)
+        return NULL;
+    *k = strtol(code[0].token->text, &rest, 10);
+    return *rest == '\0' ? code[1].token->text : NULL;
+}
+
+bool
+qdot_compiled_reads_way(const qdot_compiled *program)
+{
+    for (size_t i = 0; i < program->code.list.n; i++) {
+        const qdot_postfix *code = &program->code.list.at[i];
+
+        if ((code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_RANGE) && qdot_range_is_of_way(code->token->text))
+            return true;
+    }
+    return false;
 }
 
 /* Whether an expression that is read may depend on the motion. */

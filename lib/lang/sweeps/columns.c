@@ -8,7 +8,6 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
-#include "lang/session/range.h"
 #include "lang/session/runs.h"
 #include "lang/session/values.h"
 
@@ -92,16 +91,12 @@ qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr 
 bool
 qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t i)
 {
-    bool way = false;
+    uint32_t k = 0;
 
-    for (const qdot_token *t = x->at.at[i]->from; t != x->at.at[i]->to; t++) {
-        if (t->kind != QDOT_TOKEN_NAME)
-            continue;
-        if (qdot_scene_find_event(session->scene, t->text) != NULL)
+    for (const char *name; (name = qdot_compiled_next_name(x->at.at[i], &k)) != NULL;)
+        if (qdot_scene_find_event(session->scene, name) != NULL)
             return false;
-        way = way || (qdot_range_is_of_way(t->text) && qdot_token_is(t + 1, "("));
-    }
-    return way;
+    return qdot_compiled_reads_way(x->at.at[i]);
 }
 
 qdot_status

@@ -223,7 +223,7 @@ axis_find(qdot_record *r, const qdot_filled *name, const qdot_filled *to, qdot_s
 
     *x = (qdot_sweep_axis){.place = name};
     QDOT_TRY(symbol_find(r, x));
-    if (qdot_token_is(values->from, "["))
+    if (qdot_compiled_is_list(&r->compiled.at[values->first]))
         return list_find(r, values, &o, x);
     QDOT_TRY(random_find(r, values, &o, x, &random));
     return random ? QDOT_OK : ladder_find(r, values, &o, x);

@@ -62,16 +62,9 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
 static const qdot_event *
 as_event(const qdot_sweep *s, size_t i, long *k)
 {
-    const qdot_token *t = s->columns.at.at[i]->from, *end = s->columns.at.at[i]->to;
-    char *rest;
+    const char *name = qdot_compiled_member_of(s->columns.at.at[i], k);
 
-    if (end - t != 4 || t->kind != QDOT_TOKEN_NAME || !qdot_token_is(t + 1, "[")
-        || t[2].kind != QDOT_TOKEN_NUMBER || !qdot_token_is(t + 3, "]"))
-        return NULL;
-    *k = strtol(t[2].text, &rest, 10);
-    return *rest == '\0' && *k >= 1 && *k <= 1000
-               ? qdot_scene_find_event(s->c->session->scene, t->text)
-               : NULL;
+    return name != NULL && *k >= 1 && *k <= 1000 ? qdot_scene_find_event(s->c->session->scene, name) : NULL;
 }
 
 static qdot_status

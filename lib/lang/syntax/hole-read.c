@@ -203,7 +203,9 @@ read_one_condition(const reader *m, const qdot_hole *hole, qdot_filled *part)
     if (qdot_cursor_accept_word(c, "returns")) {
         if (!qdot_cursor_accept_word(c, "after"))
             return qdot_cursor_expected(c, "`after` and a time: `returns after T`");
-        return read_expression(m, QDOT_PARSE_SIDE, part);
+        QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
+        m->r->compiled.at[m->r->compiled.n - 1].is_period = true;
+        return QDOT_OK;
     }
     QDOT_TRY(read_expression(m, QDOT_PARSE_SIDE, part));
     if (!qdot_cursor_accept_op(c, "=") && !qdot_cursor_accept_op(c, "=="))

@@ -39,6 +39,18 @@ qdot_filled_is(const qdot_filled *part, const char *text)
 }
 
 bool
+qdot_filled_is_word(const qdot_filled *part, const char *word)
+{
+    return part->to == part->from + 1 && qdot_token_is_word(part->from, word);
+}
+
+bool
+qdot_filled_is_text(const qdot_filled *part)
+{
+    return part->from->kind == QDOT_TOKEN_STRING;
+}
+
+bool
 qdot_filled_holds_sign(const qdot_filled *part, char sign)
 {
     long depth = 0;

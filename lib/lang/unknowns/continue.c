@@ -43,8 +43,7 @@ parameter_find(qdot_record *r, qdot_continue_wish *w)
     w->place = part->from;
     if (!w->orbit)
         return qdot_set_find_parameter(r, part, &w->parameter);
-    if (qdot_names_find(r->cursor.session->names, "energy") == NULL && qdot_token_is_word(part->from, "energy") &&
-        part->to == part->from + 1)
+    if (qdot_names_find(r->cursor.session->names, "energy") == NULL && qdot_filled_is_word(part, "energy"))
         return QDOT_OK;
     return qdot_set_find_symbol(r, part, &w->parameter);
 }

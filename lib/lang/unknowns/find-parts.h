@@ -12,7 +12,7 @@
 #include "sim/study/shooting.h"
 
 typedef struct {
-    const qdot_token *from, *to; /* [from, to) */
+    const qdot_token *from;
     const qdot_compiled *side[2]; /* of the record; of a return both the time */
     bool returns;
 } qdot_find_condition;

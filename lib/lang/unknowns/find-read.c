@@ -46,14 +46,38 @@ find_free(qdot_find *f)
 
 /* --- reading the unknowns ---------------------------------------------------------------- */
 
+/* Whether a name of the expression is what is looked for. */
+static bool
+names_any(const qdot_compiled *program, bool (*is)(const void *of, const char *name), const void *of)
+{
+    uint32_t k = 0;
+
+    for (const char *name; (name = qdot_compiled_next_name(program, &k)) != NULL;)
+        if (is(of, name))
+            return true;
+    return false;
+}
+
+static bool
+is_name(const void *of, const char *name)
+{
+    return strcmp(of, name) == 0;
+}
+
+static bool
+is_event(const void *scene, const char *name)
+{
+    return qdot_scene_find_event(scene, name) != NULL;
+}
+
 /* Whether the name occurs among the conditions after `such that`. */
 static bool
 such_names(const qdot_record *r, const char *name)
 {
-    const qdot_token *at = qdot_record_word(r, "such")->from;
+    const qdot_token *such = qdot_record_word(r, "such")->from;
 
-    for (; at < r->cursor.at; at++)
-        if (at->kind == QDOT_TOKEN_NAME && strcmp(at->text, name) == 0)
+    for (size_t i = 0; i < r->compiled.n; i++)
+        if (r->compiled.at[i].from > such && names_any(&r->compiled.at[i], is_name, name))
             return true;
     return false;
 }
@@ -149,16 +173,14 @@ conditions_of(qdot_find *f, const qdot_filled *part)
     const qdot_compiled *sides = &f->record->compiled.at[part->first];
 
     for (size_t k = 0; k < part->n; k++) {
-        const bool returns = qdot_token_is_word(sides[k].from - 1, "after") &&
-                             qdot_token_is_word(sides[k].from - 2, "returns");
-        qdot_find_condition x = {.from = sides[k].from, .side = {&sides[k], &sides[k]}, .returns = returns};
+        qdot_find_condition x = {
+            .from = sides[k].from, .side = {&sides[k], &sides[k]}, .returns = sides[k].is_period};
 
-        if (returns)
-            x.from -= 2;
+        if (x.returns)
+            x.from -= 2; /* `returns after` */
         else
             x.side[1] = &sides[++k];
-        x.to = x.side[1]->to;
-        f->returns = f->returns || returns;
+        f->returns = f->returns || x.returns;
         QDOT_TRY(qdot_vec_push(&f->conditions, x));
     }
     return QDOT_OK;
@@ -251,13 +273,10 @@ bound_period(qdot_find *f)
 static bool
 names_event(const qdot_find *f)
 {
-    const qdot_scene *scene = f->c->session->scene;
-    const qdot_token *at = f->conditions.at[0].from,
-                     *to = f->conditions.at[f->conditions.n - 1].to;
-
-    for (; at < to; at++)
-        if (at->kind == QDOT_TOKEN_NAME && qdot_scene_find_event(scene, at->text) != NULL)
-            return true;
+    for (size_t i = 0; i < f->conditions.n; i++)
+        for (int k = 0; k < 2; k++)
+            if (names_any(f->conditions.at[i].side[k], is_event, f->c->session->scene))
+                return true;
     return false;
 }
 

@@ -54,7 +54,7 @@ is_alone(const qdot_record *r, const qdot_filled *part, const char *word)
 {
     const qdot_name *known = qdot_names_find(r->cursor.session->names, word);
 
-    return qdot_token_is_word(part->from, word) && part->to == part->from + 1
+    return qdot_filled_is_word(part, word)
            && !(known != NULL && known->kind == QDOT_NAME_COORD);
 }
 
