@@ -14,7 +14,7 @@
 
 /* How a language writes what is exported (export-language.h). */
 typedef struct qdot_export_language qdot_export_language;
-#define LANGUAGE(word, ending, language) extern const qdot_export_language qdot_export_##language;
+#define LANGUAGE(word, title, ending, language) extern const qdot_export_language qdot_export_##language;
 #include "show/export-languages.def"
 
 /* A name of the scene and, of a parameter, its value (NaN: none). */

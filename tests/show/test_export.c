@@ -16,7 +16,7 @@
 #include "show/export.h"
 
 static const qdot_export_language *const languages[] = {
-#define LANGUAGE(word, ending, language) &qdot_export_##language,
+#define LANGUAGE(word, title, ending, language) &qdot_export_##language,
 #include "show/export-languages.def"
 };
 

@@ -14,7 +14,7 @@ QDOT_STATEMENT(export) = {
     .word = "export",
     .group = QDOT_WORKBENCH,
     .usage = "export "
-#define LANGUAGE(word, ending, language) #word "|"
+#define LANGUAGE(word, title, ending, language) #word "|"
 #include "show/export-languages.def"
              "latex EXPR to \"FILE\"",
     .summary = "the equations of motion as functions to call (M, f, accelerations, Jacobian, constraints, "
@@ -27,7 +27,7 @@ static const struct language {
     const char *word, *ending;
     const qdot_export_language *source; /* NULL: LaTeX, a formula and no source text */
 } languages[] = {
-#define LANGUAGE(word, ending, language) {#word, ending, &qdot_export_##language},
+#define LANGUAGE(word, title, ending, language) {#word, ending, &qdot_export_##language},
 #include "show/export-languages.def"
     {"latex", ".tex", NULL},
 };
