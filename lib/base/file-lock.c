@@ -15,7 +15,7 @@ static qdot_status
 lock_refuse(const char *path, int reason)
 {
     if (reason == EACCES || reason == EAGAIN) {
-        qdot_fail(QDOT_EIO, "another process works with `%.200s`", path);
+        qdot_fail(QDOT_EIO, "another process is using `%.200s`", path);
         return qdot_hint("wait for it, or give another name");
     }
     return qdot_fail(QDOT_EIO, "cannot lock `%.200s`: %s", path, strerror(reason));

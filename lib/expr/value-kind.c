@@ -11,7 +11,7 @@ qdot_value_kind_check(qdot_pool *pool, qdot_expr value)
     if (value != QDOT_NIL)
         return QDOT_OK;
     QDOT_TRY(qdot_pool_check(pool));
-    return qdot_fail(QDOT_EFAILED, "no value came out, and no reason");
+    return qdot_fail(QDOT_EFAILED, "no value was found, and no reason is known");
 }
 
 const char *

@@ -556,7 +556,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         if (is_refuted(c->at + k)) {
             out->known = out->kept[0] = out->kept[1] = false;
             snprintf(out->result.reason, sizeof out->result.reason,
-                     "at t = %.2g, before it was given up by its cost, it was elsewhere than this one",
+                     "at t = %.2g, before it was ended because of its cost, it differed from this one",
                      c->at[k].t_left);
         }
     between = between && c->samples > 0;

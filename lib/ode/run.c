@@ -10,7 +10,7 @@ qdot_ode_check_tolerance(double tol)
     if (tol >= 1e-16 && tol <= 1)
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", tol);
-    return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
+    return qdot_hint("doubles have a relative precision of 1e-16; take 1e-16 to 1");
 }
 
 qdot_status

@@ -174,7 +174,7 @@ taylor_project(run *r, double t_end, double *moved)
     for (size_t i = 0; i < r->n; i++)
         undefined += r->next[i] - r->next[i];
     if (undefined != 0)
-        return qdot_fail(QDOT_EDOMAIN, "the solution is beyond the largest double");
+        return qdot_fail(QDOT_EDOMAIN, "the solution exceeds the largest double");
     if (!r->system->project)
         return QDOT_OK;
     QDOT_TRY(r->system->project(t_end, r->next, r->next_carry, moved, r->system->user));
@@ -458,7 +458,7 @@ look_for_misfit(run *r)
         return QDOT_OK;
     r->result->unfit = true;
     return qdot_fail(QDOT_ELIMIT,
-                     "stopped at t = %.4g: first orders in two doubles do not fit to the others there",
+                     "stopped at t = %.4g: first orders in two doubles do not agree with the others there",
                      r->t);
 }
 

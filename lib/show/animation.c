@@ -270,7 +270,7 @@ qdot_animation_section(const qdot_animation *a, qdot_text *out)
 {
     qdot_text_add(
         out, "<section class=\"animation\">\n"
-             "<noscript>A moving picture, drawn by JavaScript, stands here.</noscript>\n"
+             "<noscript>This animation needs JavaScript.</noscript>\n"
              "<script type=\"application/json\">\n{");
     if (a->title != NULL) {
         qdot_text_add(out, "\"title\":");

@@ -117,7 +117,7 @@ check_siblings(const char *path)
         add_sibling(&name, path, endings[i]);
         status = qdot_text_status(&name);
         if (status == QDOT_OK && !qdot_sink_is_free(name.at, mark)) {
-            qdot_fail(QDOT_EIO, "`%.200s` is there, and was not written by `keep`", name.at);
+            qdot_fail(QDOT_EIO, "`%.200s` exists, and was not written by `keep`", name.at);
             status = qdot_hint("give the figure another name, or move that file away");
         }
         qdot_text_clear(&name);
@@ -208,7 +208,7 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     if (path != NULL) {
         d.kind = figure_kind_of(path);
         if (d.kind == NULL) {
-            qdot_fail(QDOT_EINVAL, "`%.200s` does not say what figure it is to be", path);
+            qdot_fail(QDOT_EINVAL, "`%.200s` does not say which kind of figure to write", path);
             return qdot_hint("end its name in .svg, .png, .pdf, .eps or .tikz");
         }
     }

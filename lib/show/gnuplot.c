@@ -189,7 +189,7 @@ static qdot_status
 fail_by_stderr(int said, int ended)
 {
     qdot_text all = {0};
-    const char *line = "it says nothing", *found = NULL;
+    const char *line = "it printed no reason", *found = NULL;
     qdot_status status;
 
     if (lseek(said, 0, SEEK_SET) == 0 && drain(said, &all) == QDOT_OK && all.n > 0) {

@@ -97,7 +97,7 @@ wait_for(pid_t child)
                        : qdot_fail(QDOT_EIO, "Chromium failed to print the report");
         if (done == child || (done < 0 && errno != EINTR))
             return pressed != QDOT_OK ? pressed
-                                      : qdot_fail(QDOT_EIO, "lost sight of Chromium");
+                                      : qdot_fail(QDOT_EIO, "lost contact with Chromium");
         if (pressed != QDOT_OK) {
             kill(child, SIGTERM);
             waitpid(child, &status, 0);

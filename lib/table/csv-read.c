@@ -159,7 +159,7 @@ say_cell(const reader *r, piece cell)
                          before.at, (int)(behind.end - behind.at), behind.at);
     if (is_no_number(cell))
         return qdot_hint("take the row out: each has a number in every column");
-    return qdot_hint("`#` begins a comment; names of columns stand above the first row");
+    return qdot_hint("`#` begins a comment; the names of columns are above the first row");
 }
 
 /* Read the number in a cell. */

@@ -50,7 +50,7 @@ s/projected after [0-9][0-9]* steps\{0,1\}/projected after N steps/
 s/machine code for \(SSE2\|AVX2\|AVX-512\), [0-9.]* kB/CODE/
 s/kernels; machine code needs AVX2/CODE/
 # So is their order.
-s/^order: [0-9][0-9]*, by what/order: P, by what/
+s/^order: [0-9][0-9]*, chosen by/order: P, chosen by/
 s/order [0-9][0-9]*, \(.* an order; CODE\)/order P, \1/
 # So are the places where a run changes over to another method and back.
 / the scene is stiff: /s/from t = [0-9.e+-]* on/from t = N on/g

@@ -317,7 +317,7 @@ beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
                             "place is undecided");
     } else {
         qdot_text_add(line, "the states are a sample of what neighbouring motions do: means over "
-                            "long times tell of these");
+                            "long times describe these");
     }
 }
 
@@ -334,7 +334,7 @@ end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
         qdot_text_add(line, r->tol > of_method
                                 ? "; no digit of the state beyond it is right under this tol"
                                 : ", where doubles are exhausted: no digit of the state "
-                                  "beyond it is right; `digits 6` goes on");
+                                  "beyond it is right; `digits 6` goes further");
         beyond_text(session, r, line);
     }
     qdot_text_char(line, '\n');

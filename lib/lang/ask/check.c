@@ -435,7 +435,7 @@ meet_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
     QDOT_TRY(is_formal(session, q, f, &formal));
     if (formal)
         return QDOT_OK;
-    QDOT_TRY(qdot_answer_notice(session, "multipliers are what the equations make of them: checked `when eom`"));
+    QDOT_TRY(qdot_answer_notice(session, "multipliers have their values from the equations: checked `when eom`"));
     return qdot_assumed_motion(session, f);
 }
 

@@ -1,4 +1,4 @@
-/* equilibria.c -- the statement `equilibria`: lists where the scene can rest, with stability. */
+/* equilibria.c -- the statement `equilibria`: lists the equilibria of the scene, with their stability. */
 #include <math.h>
 #include <stdio.h>
 
@@ -25,7 +25,7 @@ QDOT_STATEMENT(equilibria) = {
     .word = "equilibria",
     .group = QDOT_ASKING,
     .usage = "equilibria",
-    .summary = "where the scene can rest, with stability",
+    .summary = "the equilibria of the scene, with their stability",
     .example = "equilibria",
     .alone = true,
     .handler = equilibria_list,
@@ -296,7 +296,7 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
     }
     if (all->unproved > 0)
         qdot_text_format(&text, "; %zu of them ended where the equations hold to rounding, "
-                                "but no rest is proved", all->unproved);
+                                "but none is proved to be an equilibrium", all->unproved);
     return qdot_answer_written(session, "equilibria", QDOT_OK, &text);
 }
 

@@ -246,7 +246,7 @@ tell_coordinate(assignment *a, size_t primes)
         qdot_text_add(&a->line, "(");
         qdot_token_text_written(a->session, a->name, a->behind, &a->line);
         qdot_text_char(&a->line, ')');
-        return tell(a, "`%.200s` is a coordinate: an equation as a value stands in brackets",
+        return tell(a, "`%.200s` is a coordinate: an equation as a value is written in brackets",
                     known->name);
     }
     if (primes == 2)

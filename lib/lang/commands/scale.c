@@ -10,8 +10,8 @@ QDOT_STATEMENT(scale) = {
     .word = "scale",
     .group = QDOT_NUMBERS,
     .usage = "scale Q = VALUE, t = VALUE, ...",
-    .summary = "the size near which a coordinate lives: tol and errors are relative to max(scale, |value|); "
-               "said of t, velocities have theirs from it; without, a run finds those that are below 1e-3",
+    .summary = "the typical size of a coordinate: tol and errors are relative to max(scale, |value|); "
+               "a scale of t sets those of velocities; without, a run finds scales below 1e-3",
     .example = "scale x = 1e-10, t = 1e-16",
     .handler = scale_set,
 };

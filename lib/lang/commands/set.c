@@ -113,7 +113,7 @@ check_body(qdot_pool *pool, qdot_expr formals, qdot_expr body)
     if (!(qdot_expr_node(pool, body)->holds & (motion | QDOT_HAS_TIME) & ~own))
         return QDOT_OK;
     (void)qdot_fail(QDOT_ETYPE,
-                    "the value of a function holds its arguments and parameters only");
+                    "the value of a function may contain only its arguments and parameters");
     return qdot_hint("declare it with what it depends on, as in function f(x, t)");
 }
 
@@ -193,7 +193,7 @@ check_constant(qdot_cursor *c, const qdot_token *start, qdot_expr *value)
     if (qdot_expr_node(c->session->pool, *value)->holds & (motion | QDOT_HAS_TIME)) {
         c->error_at = start->start;
         return qdot_fail(QDOT_ETYPE,
-                         "a value holds parameters only: no coordinate, no time");
+                         "a value may contain only parameters: no coordinate, no time");
     }
     return QDOT_OK;
 }

@@ -58,7 +58,7 @@ keep_errors(qdot_session *session, const qdot_named_run *named)
 
     session->values->start_errors.n = 0;
     if (status == QDOT_OK && !known)
-        status = qdot_answer_notice(session, "the start is taken as exact: errors of runs from it do not hold "
+        status = qdot_answer_notice(session, "the start is taken as exact: errors of runs from it do not include "
                                     "that of %.100s",
                                     named->name);
     for (size_t i = 0; status == QDOT_OK && known && i < 2 * report->n; i++) {

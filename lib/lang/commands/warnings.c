@@ -255,7 +255,7 @@ qdot_warnings_twice(qdot_session *session, qdot_scene_kind kind)
     if (!qdot_scene_said_twice(s, kind))
         return QDOT_OK;
     return qdot_answer_notice(session,
-                              "the scene has this %s already: it counts as often as it is said; "
+                              "the scene has this %s already: it counts as often as it is given; "
                               "`remove %s %zu` takes one away",
                               word, word, number);
 }
@@ -294,8 +294,8 @@ qdot_warnings_start(qdot_session *session)
         return QDOT_OK;
     return qdot_answer_notice_once(
         session, session->scene->constraints.n > 0
-                     ? "no `start` was said: what the constraints leave open begins at 0"
-                     : "no `start` was said: all coordinates and velocities begin at 0");
+                     ? "no `start` was given: what the constraints leave open begins at 0"
+                     : "no `start` was given: all coordinates and velocities begin at 0");
 }
 
 qdot_status

@@ -31,7 +31,7 @@ coord_check(qdot_cursor *c, const qdot_new_names *list)
                              old->file, old->line);
         for (size_t k = 0; k < i; k++)
             if (strcmp(list->at[k].name, x->name) == 0)
-                return qdot_fail(QDOT_ENAME, "`%s` stands here twice", x->name);
+                return qdot_fail(QDOT_ENAME, "`%s` is named twice", x->name);
     }
     return QDOT_OK;
 }

@@ -8,7 +8,7 @@ QDOT_STATEMENT(event) = {
     .word = "event",
     .group = QDOT_DECLARING,
     .usage = "event NAME: A = B [rising|falling] [stop] [then NAME = VALUE, ...]",
-    .summary = "a moment of a run: noted, its end, or a change there of coordinates, velocities and, for "
+    .summary = "a moment of a run: it is noted, ends the run, or changes coordinates, velocities and, for "
                "the rest of the run, parameters",
     .example = "event cross: theta = 0 rising stop",
     .handler = event_declare,

@@ -9,8 +9,8 @@ QDOT_STATEMENT(gravity) = {
     .word = "gravity",
     .group = QDOT_DECLARING,
     .usage = "gravity [NAME:] VECTOR",
-    .summary = "a uniform field that acts on every particle and body; said again it replaces the one "
-               "before, those with labels add up",
+    .summary = "a uniform field that acts on every particle and body; a second statement replaces "
+               "the first, fields with labels add up",
     .example = "gravity (0, -g)",
     .handler = gravity_declare,
 };

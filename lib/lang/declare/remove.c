@@ -32,7 +32,7 @@ tell_removed(qdot_session *session, const char *label)
         qdot_text_format(&list, "%s%s", i > 0 ? ", " : "", scene->dropped.at[i]);
     status = qdot_text_status(&list);
     if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "with %s went what acted on it: %s", label,
+        status = qdot_answer_notice(session, "with %s was removed what acted on it: %s", label,
                                     qdot_text_str(&list));
     qdot_text_clear(&list);
     return status;

@@ -287,7 +287,7 @@ may_overwrite(const char *path, const char *header)
     fclose(file);
     if (n == 0 || strcmp(begin, header) == 0)
         return QDOT_OK;
-    (void)qdot_fail(QDOT_EINVAL, "`%.200s` is there and was not written by `%s to`", path,
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` exists and was not written by `%s to`", path,
                     header == history_header ? "save history" : "scene");
     return qdot_hint("another name; only files that begin with `%.*s` are overwritten", (int)length - 1, header);
 }

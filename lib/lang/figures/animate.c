@@ -15,7 +15,7 @@ QDOT_STATEMENT(animate) = {
     .word = "animate",
     .group = QDOT_NUMBERS,
     .usage = "animate [RUN] [from A [to B]] [title TEXT] [trail T] [speed S] to \"FILE.html\"",
-    .summary = "a moving picture of a run: particles, bodies, rods, springs, dampers, with a phase portrait "
+    .summary = "an animation of a run: particles, bodies, rods, springs, dampers, with a phase portrait "
                "and the energies beside it",
     .example = "animate to \"double.html\"",
     .handler = animate_write,
@@ -94,7 +94,7 @@ animate_write(qdot_record *r)
     r->cursor.error_at = r->start->start;
     if (!qdot_ends_in(path, ".html") && !qdot_ends_in(path, ".gif")) {
         (void)qdot_fail(QDOT_EINVAL,
-                        "`%.200s` does not say what moving picture it is to be", path);
+                        "`%.200s` does not say which kind of animation to write", path);
         return qdot_hint("end its name in .html or .gif");
     }
     QDOT_TRY(qdot_runs_find(session, of, &run));

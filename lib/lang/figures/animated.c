@@ -444,7 +444,7 @@ check_scene(builder *b, bool bare)
         same = s->coordinates.at[i] == r->coordinates[i];
     if (!same) {
         (void)qdot_fail(QDOT_EINVAL, "the scene has other coordinates than the run");
-        return qdot_hint("the scene as it is now is drawn: `run` it again");
+        return qdot_hint("only the present scene is drawn: `run` it again");
     }
     if (bare || s->particles.n + s->bodies.n > 0)
         return QDOT_OK;

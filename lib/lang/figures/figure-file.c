@@ -47,7 +47,7 @@ default_path(const qdot_session *session, qdot_text *path)
         if (access(path->at, F_OK) != 0) /* where this cannot be known, writing says why */
             return QDOT_OK;
     }
-    return qdot_fail(QDOT_ELIMIT, "there are figures enough: remove some of `%s`", path->at);
+    return qdot_fail(QDOT_ELIMIT, "there are too many numbered figures: remove some of `%s`", path->at);
 }
 
 /* --- sketch in the terminal ----------------------------------------------------------- */

@@ -179,7 +179,7 @@ find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
     while (fast < *rows && rows_are_same(t, fast, 0, outer + 1))
         fast++;
     if (*rows % fast != 0 || t->rows % *rows != 0)
-        return qdot_fail(QDOT_EINVAL, "%s has no rectangle of rows: it is interrupted, or a value stands in it twice", t->name);
+        return qdot_fail(QDOT_EINVAL, "%s has no rectangle of rows: it is interrupted, or a value occurs twice", t->name);
     axes[0] = (axis){.column = outer, .stride = fast, .n = *rows / fast};
     axes[1] = (axis){.column = outer + 1, .stride = 1, .n = fast};
     QDOT_TRY(place_values(t, &axes[0]));

@@ -211,8 +211,8 @@ tell_left_out(qdot_session *session, const qdot_figure *figure)
             for (size_t j = 0; j < p->curves[k].rows; j++)
                 if ((p->log[0] && p->curves[k].x[j] < 0) ||
                     (p->log[1] && p->curves[k].y[j] < 0))
-                    return qdot_answer_notice(session, "what is below 0 has no place on a "
-                                                       "logarithmic axis: it is left out");
+                    return qdot_answer_notice(session, "values below 0 cannot be shown on a "
+                                                       "logarithmic axis and are left out");
     }
     return QDOT_OK;
 }

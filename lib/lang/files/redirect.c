@@ -73,7 +73,7 @@ redirect_refuse(const char *path, const char *ending)
             return qdot_hint("answers: .tex, .html, .txt, .json; numbers: `table ... every 0.1 to "
                              "\"x%s\"`, `save to \"x%s\"`", ending, ending);
         }
-    (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be", path);
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the ending of a file's name says its format", path);
     qdot_spelling_begin(&nearest, ending);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         qdot_spelling_offer(&nearest, endings[i].ending);

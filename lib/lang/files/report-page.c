@@ -217,7 +217,7 @@ report_write(qdot_record *r)
 
     r->cursor.error_at = r->start->start;
     if (!pdf && !qdot_ends_in(path, ".html")) {
-        (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what page it is to be", path);
+        (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say which kind of page to write", path);
         return qdot_hint("end its name in .html or .pdf");
     }
     if (p.session->scene->coordinates.n == 0) {

@@ -69,7 +69,7 @@ blank_all_unknown(qdot_session *session, qdot_grid *g, const qdot_operands *list
         QDOT_TRY(blank_unknown(&list->at[i], g->table.rows, times, g->values + next * g->table.rows, &some));
         next += list->at[i].columns.n;
     }
-    return some ? qdot_answer_notice(session, "- stands for numbers beyond the horizon of their run, "
+    return some ? qdot_answer_notice(session, "- marks numbers beyond the horizon of their run, "
                                               "of which no digit is known")
                 : QDOT_OK;
 }

@@ -256,7 +256,7 @@ call_routhian(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *val
             return qdot_fail(QDOT_ETYPE, "routhian( ) takes coordinates");
         for (uint32_t j = 0; j < i; j++)
             if (args[j] == args[i])
-                return qdot_fail(QDOT_EINVAL, "`%.200s` stands twice",
+                return qdot_fail(QDOT_EINVAL, "`%.200s` is named twice",
                                  qdot_expr_symbol(s->pool, args[i])->name);
     }
     return qdot_value_kind_give(s->pool, qdot_hamilton_routhian(s->scene, n, args), value);
@@ -428,7 +428,7 @@ static const qdot_builtin rows[] = {
     ROW(1, 1, det, "det(M)", "determinant", "det([1, 2; 3, 4])"),
     ROW(1, 1, inverse, "inverse(M)", "inverse matrix", "inverse([1, 2; 3, 4])"),
     ALGEBRA(1, 1, eigenvalues, "eigenvalues(M)",
-            "the eigenvalues of a matrix that are real, each as often as it is one",
+            "the eigenvalues of a matrix, which must be real, each repeated by its multiplicity",
             "eigenvalues([2, 1; 1, 2])"),
     ROW(1, 1, trace, "trace(M)", "sum of the diagonal", "trace([1, 2; 3, 4])"),
 
@@ -497,7 +497,7 @@ static const qdot_builtin rows[] = {
      "the mean over a range of a run; max and min likewise", "mean(theta^2, 10..20)",
      QDOT_BUILTIN_RUN, NULL},
     {"drift", 1, -1, call_drift, "drift(e), drift(e, a..b)",
-     "how far e moved from where the run, or the range, begins", "drift(energy)",
+     "the largest change of e since the beginning of the run, or of the range", "drift(energy)",
      QDOT_BUILTIN_RUN, NULL},
 };
 

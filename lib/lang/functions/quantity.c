@@ -448,7 +448,7 @@ static const qdot_quantity rows[] = {
      "rotations and boosts; each is proved",
      "conserved", false, NULL},
     {"equilibria", 0, 1, get_equilibria, "equilibria or equilibria[2]",
-     "where the scene can rest, a list of equations each; alone, with their stability",
+     "the equilibria, a list of equations each; typed alone, with their stability",
      "equilibria", false, NULL},
     {"stable", 0, 0, get_stable, "stable", "a verdict of stability(equilibria[1])",
      "check stability(equilibria[1]) == stable", false, NULL},

@@ -50,7 +50,7 @@ question_add_unknown(question *q, qdot_expr x)
     if (q->n == MOST)
         return qdot_fail(QDOT_ELIMIT, "solve takes up to %d unknowns", MOST);
     if (qdot_expr_place(q->n, q->name, x) < q->n)
-        return qdot_fail(QDOT_EINVAL, "`%.200s` stands twice",
+        return qdot_fail(QDOT_EINVAL, "`%.200s` is named twice",
                          qdot_expr_symbol(q->session->pool, x)->name);
     snprintf(name, sizeof name, "unknown#%zu", q->n + 1);
     q->name[q->n] = x;

@@ -59,7 +59,7 @@ read_question(question *q, qdot_expr equations, qdot_expr unknowns)
         QDOT_TRY(qdot_value_kind_need_symbol(pool, q->u[i],
                                              "solve takes symbols as unknowns, not %s"));
         if (qdot_expr_place(i, q->u, q->u[i]) < i)
-            return qdot_fail(QDOT_EINVAL, "`%.200s` stands twice",
+            return qdot_fail(QDOT_EINVAL, "`%.200s` is named twice",
                              qdot_expr_symbol(pool, q->u[i])->name);
         q->f[i] = qdot_value_kind_difference(pool, e);
         QDOT_TRY(qdot_value_kind_check(pool, q->f[i]));

@@ -33,7 +33,7 @@ refuse_members(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_
                 status = qdot_member_refuse(s, args[k]);
     return status == QDOT_OK
                ? status
-               : qdot_hint("the run stands outside, as in `a.(%s(...))`", row->name);
+               : qdot_hint("the run is written outside, as in `a.(%s(...))`", row->name);
 }
 
 static qdot_status

@@ -17,7 +17,7 @@ qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)
 
     status = qdot_cursor_expect_op(c, "(");
     if (status != QDOT_OK)
-        status = qdot_hint("its arguments stand in ( ): as in function x(s), y(s, t)");
+        status = qdot_hint("its arguments are written in ( ): as in function x(s), y(s, t)");
 
     while (status == QDOT_OK) {
         if (c->at->kind != QDOT_TOKEN_NAME) {
@@ -27,7 +27,7 @@ qdot_formals_read_names(qdot_cursor *c, const qdot_token ***names, size_t *n)
         for (size_t i = 0; i < list.n && status == QDOT_OK; i++)
             if (strcmp(list.at[i]->text, c->at->text) == 0) {
                 c->error_at = c->at->start;
-                status = qdot_fail(QDOT_ENAME, "the argument `%s` stands here twice",
+                status = qdot_fail(QDOT_ENAME, "the argument `%s` is named twice",
                                    c->at->text);
             }
         if (status == QDOT_OK)

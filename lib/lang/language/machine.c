@@ -131,7 +131,7 @@ qdot_machine_take(qdot_machine *m, size_t n)
             !(qdot_expr_node(m->pool, m->args.at[i])->holds & QDOT_HAS_WORDS))
             continue;
         (void)qdot_fail(QDOT_ETYPE, "a text is not a number");
-        return qdot_hint("latex(...) stands alone, behind `print`, in a list, by a name");
+        return qdot_hint("latex(...) is used alone, after `print`, in a list, or under a name");
     }
     return QDOT_OK;
 }

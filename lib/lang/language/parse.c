@@ -455,7 +455,7 @@ comma(parser *p)
     QDOT_TRY(reduce_all(p));
     w = top(p);
     if (w->kind == IN_CALL && w->ranged)
-        return qdot_cursor_expected(p->c, "`)`: a range stands last");
+        return qdot_cursor_expected(p->c, "`)`: a range comes last");
     p->c->at++;
     p->operand = true;
     w->count++;

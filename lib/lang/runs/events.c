@@ -133,7 +133,7 @@ faded_print(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
         qdot_number_text_known(text, faded->from + (faded->to - faded->from) / 2, half);
         qdot_text_add(text, " ± ");
         qdot_number_text_bound(text, half);
-        qdot_text_add(text, " its sides touch but for rounding: whether it occurs there is not known");
+        qdot_text_add(text, " its sides touch within rounding: whether it occurs there is not known");
         return;
     }
     qdot_text_format(text, "%s  from t = %.4g ", faded->event, faded->from);

@@ -198,7 +198,7 @@ longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chos
                                  .figure = {.title = "error of the energy over long times",
                                             .abscissa = "time",
                                             .ordinate = "|E - E0| / max(1, |E0|)",
-                                            .none = "no method came far enough",
+                                            .none = "no method got far enough",
                                             .figure = &chosen->figure,
                                             .panel = &chosen->panel},
                                  .most_points = l->n * QDOT_LONGTIME_WINDOWS,

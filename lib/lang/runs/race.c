@@ -88,7 +88,7 @@ race_draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice
                           .abscissa = "CPU time in s",
                           .ordinate = "error at the end",
                           .note = &note,
-                          .none = "no lane of the race got to the end",
+                          .none = "no formulation of the race reached the end",
                           .points = points,
                           .figure = choice,
                           .panel = of_panel};

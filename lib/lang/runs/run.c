@@ -16,7 +16,7 @@ QDOT_STATEMENT(run) = {
     .word = "run",
     .group = QDOT_NUMBERS,
     .usage = "run T0..T1 " QDOT_RUN_USAGE " [as NAME]",
-    .summary = "integrate, and say how well it went",
+    .summary = "integrate the equations of motion; reports steps, drift and error",
     .example = "run 0..20 tol 1e-12",
     .handler = run_make,
 };

@@ -140,7 +140,7 @@ workprecision_tell(qdot_session *session, const qdot_workprecision *w, const cho
                                  .figure = {.title = "work and precision",
                                             .abscissa = "CPU time in s",
                                             .ordinate = "error at the end",
-                                            .none = "no method came to the end",
+                                            .none = "no method reached the end",
                                             .figure = &chosen->figure,
                                             .panel = &chosen->panel},
                                  .most_points = w->n,

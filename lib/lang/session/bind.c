@@ -108,7 +108,7 @@ qdot_session_bind(qdot_session *session, qdot_expr e)
             return qdot_pool_fail(pool);
     }
     (void)qdot_fail(QDOT_EINVAL,
-                    "the values of the parameters hold one another in a circle");
+                    "the values of the parameters refer to each other in a circle");
     return qdot_pool_fail(pool);
 }
 

@@ -42,7 +42,7 @@ fail_unknown_occurrence(const qdot_named_run *named, const char *name, long k, s
 
         if (strcmp(list[i].event, name) != 0)
             continue;
-        snprintf(when, sizeof when, list[i].touched ? "about t = %.6g its sides touch but for rounding"
+        snprintf(when, sizeof when, list[i].touched ? "about t = %.6g its sides touch within rounding"
                                                     : "from t = %.6g on its sides are equal within their errors",
                  list[i].from);
         (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: %zu occurrence%s of the event %s known in %s: %s", name, k, n,

@@ -101,7 +101,7 @@ refuse_ends_apart(qdot_session *session, const char *word, uint32_t n, const qdo
         status = qdot_print(session->pool, args[i], QDOT_PLAIN, &line);
     }
     if (status == QDOT_OK) {
-        (void)qdot_fail(QDOT_ETYPE, "`%s` of a number, which does not move along a run", word);
+        (void)qdot_fail(QDOT_ETYPE, "`%s` of a number, which does not change along a run", word);
         status = qdot_hint("a range is written A..B: %s(%.200s)", word, qdot_text_str(&line));
     }
     qdot_text_clear(&line);

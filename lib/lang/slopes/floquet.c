@@ -77,7 +77,7 @@ floquet_tell(qdot_session *session, const char *run, const qdot_floquet *x)
     qdot_text_format(&text, "%s: %s", run, verdicts[x->verdict]);
     if (x->verdict == QDOT_FLOQUET_STABLE)
         qdot_text_add(&text, x->asymptotic
-                                 ? ", neighbouring motions come to it"
+                                 ? ", neighbouring motions approach it"
                                  : " in linear order, multipliers on the unit circle");
     if (x->verdict == QDOT_FLOQUET_UNSTABLE)
         qdot_text_add(&text, ", a multiplier beyond the unit circle");

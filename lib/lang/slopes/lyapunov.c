@@ -91,7 +91,7 @@ figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
                           .abscissa = "time",
                           .ordinate = "|lambda|",
                           .note = &note,
-                          .none = "the run did not come far enough",
+                          .none = "the run did not get far enough",
                           .points = points,
                           .figure = &chosen->figure,
                           .panel = &chosen->panel};

@@ -51,7 +51,7 @@ qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names, const qdot_slope_
     for (size_t i = 0; i + 1 < names->n; i++)
         if (names->at[i].symbol == x->symbol) {
             c->error_at = x->place->start;
-            return qdot_fail(QDOT_EINVAL, "%s stands here twice", x->label);
+            return qdot_fail(QDOT_EINVAL, "%s is named twice", x->label);
         }
     return QDOT_OK;
 }

@@ -172,7 +172,7 @@ refuse_question(const char *text, size_t at)
         return qdot_hint("write help %.*s", (int)(to - at - 1), text + at + 1);
     colon = memchr(text + at, ':', to - at);
     if (colon == NULL)
-        return qdot_hint("`help` tells what there is; a choice is if(CONDITION, A, B)");
+        return qdot_hint("`help` lists the statements; a choice is if(CONDITION, A, B)");
     other = (size_t)(colon - text) + 1;
     n[0] = trimmed(text, &from, at);
     n[1] = trimmed(text, &after, other - 1);

@@ -13,8 +13,8 @@ QDOT_STATEMENT(plan) = {
     .group = QDOT_NUMBERS,
     .usage = "plan [tol E] " QDOT_RUN_USAGE_OTHERS
              " | plan sweep " QDOT_MEMBERS_USAGE "EXPR, ... [as NAME] [threads N] [resume \"FILE.h5\"]",
-    .summary = "what the numerical side would do with this scene and why; or a sweep with its members: side by side or "
-               "alone, and how long it takes",
+    .summary = "how a run of this scene would be made, and why; or whether the runs of a sweep are made side by side or "
+               "alone, and how long they take",
     .example = "plan",
     .handler = plan_tell,
 };

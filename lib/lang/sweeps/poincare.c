@@ -28,7 +28,7 @@ QDOT_STATEMENT(poincare) = {
     .group = QDOT_NUMBERS,
     .usage = "poincare A = B [rising|falling] [of SWEEP | run T0..T1 " QDOT_RUN_USAGE " [as NAME]] : EXPR, ... "
              "[from A to B] [of SWEEP | run T0..T1 " QDOT_RUN_USAGE "] [as NAME]",
-    .summary = "a section: what the expressions are each time A = B is crossed in the latest run, in a run made "
+    .summary = "a section: the values of the expressions each time A = B is crossed in the latest run, in a run made "
                "for it, or in the runs of a sweep, made again; `plot poincare`, `table poincare`, `save poincare "
                "to` show it",
     .example = "poincare theta = 0 rising : theta2, theta2'",
@@ -338,11 +338,11 @@ poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                                     p->beyond));
     if (p->n_lost > 0 && p->sweep == NULL)
         QDOT_TRY(qdot_answer_notice(session,
-                                    "from t = %.4g on crossings cannot be told from rounding: they are not known",
+                                    "from t = %.4g on crossings cannot be distinguished from rounding: they are not known",
                                     p->lost));
     else if (p->n_lost > 0)
         QDOT_TRY(qdot_answer_notice(session,
-                                    "in %zu of the runs crossings cannot be told from rounding from some time on: "
+                                    "in %zu of the runs crossings cannot be distinguished from rounding from some time on: "
                                     "they are not known",
                                     p->n_lost));
     if (!session->output->json) {

@@ -192,7 +192,7 @@ random_find(qdot_record *r, const qdot_filled *part, const axis_options *o, qdot
     if (x->kind == QDOT_AXIS_NORMAL && !(x->b >= 0))
         return qdot_fail(QDOT_EINVAL, "a standard deviation is not negative");
     if (x->kind == QDOT_AXIS_UNIFORM && !(x->a <= x->b))
-        return qdot_fail(QDOT_EINVAL, "uniform(A, B) wants A <= B");
+        return qdot_fail(QDOT_EINVAL, "uniform(A, B) needs A <= B");
     return refuse_option(r, o->step);
 }
 

@@ -386,8 +386,8 @@ static void
 say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 {
     static const char *const words[] = {
-        [QDOT_END_REST] = "shrinks to a place at rest",
-        [QDOT_END_PERIOD] = "comes near a place at rest, its period grows to infinity",
+        [QDOT_END_REST] = "shrinks to an equilibrium",
+        [QDOT_END_PERIOD] = "comes near an equilibrium, its period grows to infinity",
         [QDOT_END_DOMAIN] = "ends at a coordinate's domain",
         [QDOT_END_FAR] = "is not followed further",
         [QDOT_END_BLURRED] = "ends where its orbits are too unstable: their multipliers have no digits left",
@@ -399,10 +399,10 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
     const size_t n = b->found->n;
 
     if (branch->n > 1 && is_upright(b, branch)) {
-        qdot_text_format(out, "branch[%zu] is upright: at %s = ", i + 1, name_of(b, n));
+        qdot_text_format(out, "branch[%zu] is vertical: at %s = ", i + 1, name_of(b, n));
         write_place(b, n, branch->y[n], out);
         qdot_text_add(out, b->orbits ? " alone all of these are orbits\n"
-                                     : " alone all of these are places at rest\n");
+                                     : " alone all of these are equilibria\n");
         return;
     }
     if (branch->end[0] == QDOT_END_CLOSED || branch->end[1] == QDOT_END_CLOSED) {
@@ -562,7 +562,7 @@ say_left(const qdot_branches *b, qdot_text *out)
 
     if (b->orbits || b->found->left.n == 0)
         return;
-    qdot_text_add(out, "also at rest, but degenerate, so that no branch is followed from there: ");
+    qdot_text_add(out, "also equilibria, but degenerate, so that no branch is followed from there: ");
     for (size_t k = 0; k < b->found->left.n; k += n + 1) {
         const double *y = b->found->left.at + k;
 

@@ -159,7 +159,7 @@ tell_corners(qdot_session *session, qdot_equilibrium_curve *curve)
     QDOT_TRY(qdot_rest_corner(&curve->rest, &u));
     return u == QDOT_NIL ? QDOT_OK
                          : qdot_answer_notice_of(session,
-                                                 "forces jump where %s = 0: rests that stay there are not "
+                                                 "forces jump where %s = 0: equilibria there are not "
                                                  "followed; `equilibria` lists them",
                                                  u);
 }
@@ -203,7 +203,7 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
         status = qdot_answer_notice(session, "some equilibria recur without end: of each such family one is followed");
     if (status == QDOT_OK)
         status = qdot_answer_notice(session, found.complete
-                                                 ? "these are all branches, upright ones (at one value of %.100s alone) aside"
+                                                 ? "these are all branches, except vertical ones (at one value of %.100s alone)"
                                                  : "branches that are not connected with these may be missed",
                                     qdot_expr_symbol(session->pool, w->parameter)->name);
     qdot_free(names);

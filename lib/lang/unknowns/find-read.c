@@ -325,8 +325,8 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
     if (*to != QDOT_NIL)
         return QDOT_OK;
     f->c->error_at = f->conditions.at[0].from->start;
-    (void)qdot_fail(QDOT_EINVAL, "nothing says how long the run is");
-    return qdot_hint("value(%.80s, 3) = 0, or `run 0..3` behind the conditions",
+    (void)qdot_fail(QDOT_EINVAL, "the length of the run is not known");
+    return qdot_hint("value(%.80s, 3) = 0, or `run 0..3` after the conditions",
                      session->scene->coordinates.n > 0
                          ? qdot_expr_symbol(session->pool, session->scene->coordinates.at[0])->name
                          : "theta");

@@ -389,7 +389,7 @@ refuse_shrunk(const hunt *h, const qdot_zero_result *r)
 
     h->f->c->error_at = h->f->conditions.at[0].from->start;
     write_place(h->f, r->u, 10, &place);
-    (void)qdot_fail(QDOT_EFAILED, "no orbit found: from the guess the motion shrinks to a place at rest, by now to %.150s",
+    (void)qdot_fail(QDOT_EFAILED, "no orbit found: from the guess the motion shrinks to an equilibrium, so far to %.150s",
                     qdot_text_str(&place));
     qdot_text_clear(&place);
     return qdot_hint("another guess, or other values of the start that stay as they are");
@@ -423,7 +423,7 @@ adopt_solution(hunt *h, const qdot_zero_result *r)
             qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
     if (rests)
         QDOT_TRY(qdot_answer_notice(
-            session, "this is a rest: velocities and accelerations are 0 at its start"));
+            session, "this is an equilibrium: velocities and accelerations are 0 at the start"));
     return tell_others(h, r);
 }
 

@@ -122,7 +122,7 @@ write_residuals(const qdot_fit *f, qdot_text *out)
     if (f->weighted) {
         qdot_text_format(out, "chi^2 = %.4g of %zu degree%s of freedom", f->found.chi2, f->freedom, plural);
         if (f->freedom > 0)
-            qdot_text_format(out, ": so much or more by chance in %.3g %%",
+            qdot_text_format(out, ": as large or larger by chance in %.3g %%",
                              100 * gsl_cdf_chisq_Q(f->found.chi2, (double)f->freedom));
     } else {
         qdot_text_format(out, "residuals: %.3g root mean square, %zu degree%s of freedom",
@@ -130,7 +130,7 @@ write_residuals(const qdot_fit *f, qdot_text *out)
     }
     qdot_text_char(out, '\n');
     if (f->freedom > 0 || f->weighted)
-        qdot_text_format(out, "± is the standard error: 95 %% of intervals of %.3g times it hold the truth\n",
+        qdot_text_format(out, "± is the standard error: intervals of %.3g times it hold the true value in 95 %% of cases\n",
                          interval(f));
 }
 
@@ -147,7 +147,7 @@ tell_text(qdot_fit *f, const char *residuals)
     if (f->unknowns.names.n > 1 && !isnan(f->error[0]) && f->error[0] > 0)
         status = write_correlations(f, &text);
     write_residuals(f, &text);
-    qdot_text_format(&text, "these values are set from now on (undo); %s holds data less fit\n", residuals);
+    qdot_text_format(&text, "these values are set from now on (undo); %s holds data minus fit\n", residuals);
     return qdot_answer_written(f->session, "fit", status, &text);
 }
 

@@ -93,7 +93,7 @@ take_row(qdot_fit *f, const qdot_csv *csv, size_t row, size_t to)
         case QDOT_FIT_SIGMA:
             if (!(x > 0)) {
                 (void)qdot_csv_fail(f->path, place, "a standard error is positive");
-                return qdot_hint("a number that is to count for nothing: take its row out");
+                return qdot_hint("to ignore a number, remove its row");
             }
             f->sigma[to * f->m + j - 1] = x;
             break;

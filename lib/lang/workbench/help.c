@@ -20,7 +20,7 @@ QDOT_STATEMENT(help) = {
     .word = "help",
     .group = QDOT_WORKBENCH,
     .usage = "help [WORD] | help search WORD ...",
-    .summary = "this list, what a word means, or the words whose help holds a text; at the prompt `?particle` "
+    .summary = "this list, what a word means, or the words whose help contains a text; at the prompt `?particle` "
                "and `??energy` are short for `help particle` and `help search energy`",
     .example = "help particle",
     .handler = help_tell,
@@ -175,7 +175,7 @@ help_search(qdot_record *r)
     status = qdot_text_status(&words);
     if (status == QDOT_OK && qdot_search(qdot_text_str(&words), &text) == 0) {
         qdot_record_blame(r, &r->parts.at[2]);
-        (void)qdot_fail(QDOT_ENAME, "no help holds `%.100s`", qdot_text_str(&words));
+        (void)qdot_fail(QDOT_ENAME, "no help contains `%.100s`", qdot_text_str(&words));
         status = qdot_hint("`help` lists every word");
     }
     qdot_text_clear(&words);

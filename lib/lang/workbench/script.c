@@ -273,7 +273,7 @@ statement(engine *x, size_t i)
     else
         qdot_sheet_forget(x->session);
     if (qdot_memory_ran_out() && status == QDOT_OK) /* where it was not passed on, a part of the answer may be lost */
-        status = qdot_fail(QDOT_ENOMEM, "out of memory on the way: what was answered may be incomplete");
+        status = qdot_fail(QDOT_ENOMEM, "out of memory: the answers may be incomplete");
     if (status == QDOT_OK)
         return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;
@@ -539,7 +539,7 @@ enter_block(engine *x, size_t i, size_t *next)
     if (!qdot_cursor_accept_word(&c, "for")) {
         const qdot_token *first = &x->tokens[f.body];
 
-        (void)qdot_cursor_expected(&c, "`for` behind the block");
+        (void)qdot_cursor_expected(&c, "`for` after the block");
         if (first->kind != QDOT_TOKEN_NAME || qdot_statement_find(first->text) == NULL)
             return qdot_hint("a list is written [a, b], a vector (a, b)");
         return QDOT_ESYNTAX;

@@ -13,7 +13,7 @@ QDOT_STATEMENT(timing) = {
     .word = "timing",
     .group = QDOT_WORKBENCH,
     .usage = "timing on | off",
-    .summary = "tell the CPU time of every statement",
+    .summary = "print the CPU time of every statement",
     .example = "timing on",
     .handler = timing_switch,
 };

@@ -205,7 +205,7 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
         moves)
         return qdot_fail(QDOT_EINVAL, "a body is placed by coordinates and t only");
     if ((qdot_mech_holds(s, inertia) | qdot_mech_holds(s, about)) & QDOT_HAS_COORD)
-        return qdot_fail(QDOT_EINVAL, "inertia is fixed in the body: it cannot hold "
+        return qdot_fail(QDOT_EINVAL, "inertia is fixed in the body: it cannot contain "
                                       "coordinates");
     QDOT_TRY(read_inertia(s, mass, inertia, about, plane, &b.inertia));
     QDOT_TRY(need_moments(s, b.inertia, about != QDOT_NIL));

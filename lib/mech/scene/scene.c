@@ -99,7 +99,7 @@ need_free_of(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
 
     for (size_t i = 0; holds && i < sizeof contents / sizeof *contents; i++)
         if (holds & contents[i].flag)
-            return qdot_fail(QDOT_EINVAL, "%s cannot hold %s", what, contents[i].words);
+            return qdot_fail(QDOT_EINVAL, "%s cannot contain %s", what, contents[i].words);
     return QDOT_OK;
 }
 
@@ -176,7 +176,7 @@ qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what)
     if (s->lagrangian == QDOT_NIL)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: %s beside it would not count", what);
-    return qdot_hint("what it adds stands in the formula of `lagrangian`; `reset scene` begins anew");
+    return qdot_hint("put its term into the formula of `lagrangian`; `reset scene` begins anew");
 }
 
 qdot_status
@@ -354,7 +354,7 @@ qdot_scene_spring(qdot_scene *s, const qdot_link *spring)
     QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a spring"));
     if ((qdot_expr_node(s->pool, spring->rest)->sign & QDOT_NEG) == QDOT_NEG) {
         qdot_fail(QDOT_EINVAL, "the rest length of a spring cannot be negative");
-        return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
+        return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
     }
     return add_link(s, spring, false);
 }

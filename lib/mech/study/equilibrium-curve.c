@@ -37,7 +37,7 @@ check_count(qdot_equilibrium_curve *c)
     c->n = c->rest.system.unknowns.n;
     c->coordinates = c->rest.system.places;
     if (c->coordinates == 0)
-        return qdot_fail(QDOT_EFAILED, "the equations at rest hold no coordinate: %s",
+        return qdot_fail(QDOT_EFAILED, "the equations of equilibrium contain no coordinate: %s",
                          equations == 0 ? "every place is an equilibrium"
                                         : "there is no equilibrium");
     if (equations != c->n)

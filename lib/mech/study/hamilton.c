@@ -233,7 +233,7 @@ bracket_side(qdot_scene *s, qdot_expr e)
         return qdot_hamilton_in_momenta(s, e);
     qdot_mech_fail(s, QDOT_ETYPE,
                    "a Poisson bracket is of functions of coordinates, momenta and "
-                   "velocities: here stands an acceleration");
+                   "velocities, not of accelerations");
     return QDOT_NIL;
 }
 

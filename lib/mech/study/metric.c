@@ -34,7 +34,7 @@ metric_check(qdot_scene *s, qdot_expr R)
     if (qdot_mech_holds(s, R) &
         (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_DELTA |
          QDOT_HAS_MULTIPLIER | QDOT_HAS_MOMENTUM)) {
-        qdot_mech_fail(s, QDOT_EINVAL, "a position cannot hold velocities");
+        qdot_mech_fail(s, QDOT_EINVAL, "a position cannot contain velocities");
         return false;
     }
     return true;
@@ -167,7 +167,7 @@ qdot_mech_metric(qdot_scene *s, qdot_expr R)
     n = qdot_expr_count(pool, over);
     if (n == 0)
         return qdot_mech_fail(s, QDOT_EINVAL,
-                              "no coordinate stands there: it has no metric");
+                              "it contains no coordinate, so it has no metric");
     g = qdot_calloc((size_t)n * n, sizeof *g);
     if (!g)
         return qdot_pool_fail(pool);

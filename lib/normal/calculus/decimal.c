@@ -35,7 +35,7 @@ real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
         return QDOT_OK;
     status = qdot_print(pool, e, QDOT_PLAIN, &text);
     if (status == QDOT_OK)
-        status = qdot_fail(QDOT_EDOMAIN, "%.120s%s could not be told from 0",
+        status = qdot_fail(QDOT_EDOMAIN, "%.120s%s cannot be distinguished from 0",
                            qdot_text_str(&text), text.n > 120 ? "..." : "");
     qdot_text_clear(&text);
     return status;

@@ -537,7 +537,7 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
         if (!is_polynomial(x, c)) {
             status = coefficient_shorten(x, &c);
             if (status == QDOT_OK && !is_polynomial(x, c))
-                status = no_series(x, f, "its value depends on the way to the point");
+                status = no_series(x, f, "its value depends on the path to the point");
         }
         sum = qdot_add(pool, sum, multiplied_out(x, c));
     }

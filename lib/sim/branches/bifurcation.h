@@ -54,7 +54,7 @@ typedef enum {
     QDOT_BIFURCATION_NONE,  /* no regular bifurcation was found */
     QDOT_BIFURCATION_FOUND,
     QDOT_BIFURCATION_APART, /* two curves come near each other there, and do not cross */
-    QDOT_BIFURCATION_REST   /* an orbit shrinks to a place at rest at out->y, and comes back as its mirror image */
+    QDOT_BIFURCATION_REST   /* an orbit shrinks to an equilibrium at out->y, and comes back as its mirror image */
 } qdot_bifurcation_answer;
 
 /* Locate that of the kind out->kind, near out->y: out->y, out->error; PITCHFORK stands for any crossing, whose

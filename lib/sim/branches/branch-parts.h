@@ -9,7 +9,7 @@ typedef enum {
     QDOT_END_DOMAIN,  /* the end of the domain of a coordinate */
     QDOT_END_CLOSED,  /* it came back to where it began */
     QDOT_END_FAR,     /* the branch goes to infinity */
-    QDOT_END_REST,    /* an orbit shrinks to a place at rest */
+    QDOT_END_REST,    /* an orbit shrinks to an equilibrium */
     QDOT_END_HALF,    /* an orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, jump, or have a kink */

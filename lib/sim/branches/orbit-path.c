@@ -418,7 +418,7 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
         }
     }
     return x->phase < z ? QDOT_OK
-                        : qdot_fail(QDOT_EINVAL, "no other number of the start can be held: begin "
+                        : qdot_fail(QDOT_EINVAL, "no other initial value can be kept fixed: begin "
                                                  "where a velocity is 0");
 }
 

@@ -1,7 +1,7 @@
 /* piece-back.c -- events of a run that goes back in time: whether one has just occurred where its function is 0, and
  * what was before it (sim/model/undone.h).
  *
- * Where the state behind the event is known, the one before it must meet the event the way that its statement says. Of
+ * Where the state after the event is known, the one before it must meet the event the way that its statement says. Of
  * an event that only rises or falls the motion may also have crossed there the other way, without it: the event counts,
  * for only then does a run back go the way that a run has come. */
 #include <float.h>

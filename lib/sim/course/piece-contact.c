@@ -471,7 +471,7 @@ qdot_piece_keep_contacts(qdot_piece *x)
         }
         snprintf(x->c->reason, sizeof x->c->reason,
                  "stopped at t = %.15g: an event pushes the motion into the contact at %.100s, and "
-                 "nothing says what comes of it",
+                 "it is not declared what happens then",
                  x->start.t, x->c->stage->events.at[s->surfaces.at[i].event].name);
     }
     return QDOT_OK;

@@ -227,8 +227,8 @@ turns_a_corner(qdot_piece *x, bool *corners)
     row = now->plan->constraints->rows +
           (r.position > enough ? r.worst_position : r.worst_velocity);
     snprintf(x->c->reason, sizeof x->c->reason,
-             "stopped at t = %.15g: %s %.60s %s where %.100s, and nothing says how the "
-             "motion goes on",
+             "stopped at t = %.15g: %s %.60s %s where %.100s, and it is not declared "
+             "how the motion continues",
              x->start.t, row->multiplier == QDOT_NIL ? "the" : "constraint", row->name,
              r.position > enough || row->kind != QDOT_HOLONOMIC ? "jumps" : "has a corner",
              qdot_text_str(&text));

@@ -69,8 +69,8 @@ static void
 say_open(qdot_piece *x, size_t surface)
 {
     set_reason_at(x, surface, "on",
-                  ", where the equations switch, the motion may go on in more than one way: which one "
-                  "they do not say");
+                  ", where the equations switch, the motion may continue in more than one way, and "
+                  "they do not say which");
 }
 
 /* --- the search for the right sides -------------------------------------------------- */

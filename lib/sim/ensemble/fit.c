@@ -76,7 +76,7 @@ qdot_ensemble_fit(qdot_scene *scene, const qdot_run_request *request,
     qdot_status status;
 
     if (scene->constraints.n > 0 && request->treatment != QDOT_RUN_PROJECT)
-        qdot_text_add(why, "lanes project onto constraints, and do nothing else with them");
+        qdot_text_add(why, "lanes treat constraints by projection only");
     else if (acting)
         qdot_text_format(why, "the event %s %s a run", acting->name, acting->stop ? "stops" : "changes");
     else if (request->digits > 0)

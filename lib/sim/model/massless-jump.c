@@ -43,7 +43,7 @@ write_linear(const jump *j, size_t n)
                 if (qdot_expr_contains(j->pool, slope, j->x[i]))
                     return qdot_fail(
                         QDOT_ENOTBUILT,
-                        "not built yet: what follows behind the event %.100s from an "
+                        "not built yet: what follows after the event %.100s from an "
                         "equation that is "
                         "not linear in %.100s%s",
                         j->event->name,
@@ -77,7 +77,7 @@ solve_for(const jump *j, size_t n)
     status = qdot_solve_linear(j->pool, (uint32_t)n, j->A, j->b, j->at, &pivot, &facts);
     if (status == QDOT_ESINGULAR)
         return qdot_fail(status,
-                         "behind the event %.100s the equations of coordinates without "
+                         "after the event %.100s the equations of coordinates without "
                          "mass determine nothing",
                          j->event->name);
     QDOT_TRY(status);

@@ -64,7 +64,7 @@ check(const qdot_plan *p, size_t i)
     (void)qdot_fail(QDOT_ESINGULAR,
                     "the mass matrix is singular: no mass moves with %s%s", p->names[i],
                     velocities
-                        ? ", and its equation holds velocities of other coordinates alone"
+                        ? ", and its equation contains only velocities of other coordinates"
                         : "");
     return qdot_hint("a mass, damping or a potential that determines %s", p->names[i]);
 }

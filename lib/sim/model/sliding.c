@@ -162,7 +162,7 @@ fill_forces(sliding *s)
 
             status = qdot_pool_check(p->pool);
             if (status == QDOT_OK && holds_share(s, B))
-                status = cannot("forces hold products of what switches there");
+                status = cannot("forces contain products of expressions that switch there");
             s->A[i * s->size + s->n + s->m + j] = qdot_neg(p->pool, B);
         }
         s->b[i] = qdot_subs(p->pool, p->f[i], s->k, symbols, zeros);
@@ -358,7 +358,7 @@ sliding_settle(sliding *s, size_t i, size_t j, qdot_expr B)
 
     if (s->of[j].puck || holds_share(s, B))
         return cannot(s->of[j].puck ? "friction in a plane acts on a coordinate without mass"
-                                    : "forces hold products of what switches there");
+                                    : "forces contain products of expressions that switch there");
     QDOT_TRY(held(p, &s->of[j], &u));
     if (holds_share(s, u))
         return cannot("one switch is inside another");

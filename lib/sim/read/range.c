@@ -117,8 +117,8 @@ check_bounds(const scan *s, qdot_range_kind kind)
         return QDOT_OK;
     return qdot_fail(QDOT_EDOMAIN,
                      kind == QDOT_RANGE_MEAN  ? "it has no mean: its integral diverges at t = %.9g"
-                     : kind == QDOT_RANGE_MIN ? "it has no bound: it falls below all towards t = %.9g"
-                                              : "it has no bound: it grows beyond all towards t = %.9g",
+                     : kind == QDOT_RANGE_MIN ? "it has no bound: it falls without bound towards t = %.9g"
+                                              : "it has no bound: it grows without bound towards t = %.9g",
                      s->pole);
 }
 
@@ -206,7 +206,7 @@ range_compare(const question *q, size_t k, double x, double *error)
     double theirs[2], rough, spread = 0;
 
     if (!qdot_run_covered(run, last))
-        return qdot_fail(QDOT_EDOMAIN, "a second run does not come so far");
+        return qdot_fail(QDOT_EDOMAIN, "a second run does not get so far");
     for (size_t i = 0; i < count; i++) {
         qdot_status status;
 

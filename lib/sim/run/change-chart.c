@@ -175,8 +175,8 @@ say_branches(qdot_run *run)
         if (k < x->stretches.n)
             qdot_text_format(
                 qdot_run_next_notice(run),
-                "at t = %.9g the motion passes the place where %.100s is 0 and goes on where "
-                "this cannot reach: what holds it has no value there",
+                "at t = %.9g the motion passes the place where %.100s is 0 and continues at "
+                "places that it cannot describe: expressions with it have no value there",
                 x->stretches.at[k].t, qdot_expr_symbol(c->pool, c->signs.at[i].symbol)->name);
     }
     return QDOT_OK;

@@ -104,7 +104,7 @@ say_time(const qdot_plan *p, qdot_text *out)
             time |= holds_time(p, p->M[i * p->n + j]);
     }
     qdot_text_format(out, "time: %s in the equations\n",
-                     time ? "stands" : "does not stand");
+                     time ? "occurs" : "does not occur");
 }
 
 /* Describe the constraints, how they are solved, and how the state is kept on them. */
@@ -115,7 +115,7 @@ say_constraints(const qdot_plan *p, qdot_text *out)
     static const char *const treatments[] = {
         [QDOT_RUN_PROJECT] =
             ("projection of positions and velocities in the metric of M, "
-             "after steps that end further off than rounding"),
+             "after steps that end further from them than rounding"),
         [QDOT_RUN_BAUMGARTE] = "Baumgarte's damping, 5 per unit of time",
         [QDOT_RUN_NONE] = "none",
     };
@@ -142,7 +142,7 @@ say_constraints(const qdot_plan *p, qdot_text *out)
     for (size_t i = 0, said = 0; i < p->n; i++)
         if (p->massless[i])
             qdot_text_format(out, "%s %s", said++ > 0 ? "," : "", p->names[i]);
-    qdot_text_add(out, "; their equations stand among the constraints\n");
+    qdot_text_add(out, "; their equations are treated as constraints\n");
 }
 
 static void
@@ -195,7 +195,7 @@ say_series_of_all(const qdot_plan *p, double tol, qdot_text *out)
     QDOT_TRY(qdot_bind_new(p, false, &bind));
     system = qdot_bind_system(bind);
     order = qdot_ode_taylor_order(system.series, tol, system.leading, 0);
-    qdot_text_format(out, "order: %d, by what an expansion costs at tol %g\n", order, tol);
+    qdot_text_format(out, "order: %d, chosen by the cost of an expansion at tol %g\n", order, tol);
 
     qdot_text_add(out, "recurrences: ");
     status = say_code(bind, tol, order, out);
@@ -397,7 +397,7 @@ plan_describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     else
         status = say_series_of_all(p, request->tol, out);
     qdot_text_format(out,
-                     "error: two companion runs by %s, at a tighter tolerance, on threads of "
+                     "error: two further runs by %s, at a tighter tolerance, on threads of "
                      "their own\n",
                      p->smooth && qdot_companion_is_by_series(p->method) ? "taylor"
                      : p->method->stiff                                  ? "radau"

@@ -76,7 +76,7 @@ find_touch(qdot_run *run)
         if (!c->faded.at[k].touched || !qdot_staged_event_acts(e))
             continue;
         snprintf(text, sizeof text,
-                 "about t = %.6g the event %.100s touches but for rounding, so that whether it acts there is not known",
+                 "about t = %.6g the event %.100s touches within rounding, so that whether it acts there is not known",
                  c->faded.at[k].from, e->name);
         return lose_error_estimate(run, text);
     }
@@ -180,7 +180,7 @@ qdot_status
 qdot_run_doubt_end(qdot_run *run)
 {
     run->report.error = run->report.scaled_error = NAN;
-    return qdot_run_say_doubt(run, "the run ended at a singularity, and how far from it, rounding decides");
+    return qdot_run_say_doubt(run, "the run ended at a singularity, and rounding decides how far from it");
 }
 
 qdot_status

@@ -22,7 +22,7 @@ check_length(qdot_run *run, const qdot_run_request *request)
     QDOT_TRY(qdot_plan_number(run->plan, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
     if (length == 0)
         return QDOT_OK;
-    qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but one and the same double",
+    qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but round to the same double",
               fabs(length));
     return qdot_hint("run 0..%.15g, with times counted from there", length);
 }
@@ -80,7 +80,7 @@ check_springs(const qdot_run *run, const qdot_scene *scene)
             (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
                             spring->name ? "spring " : "a spring",
                             spring->name ? spring->name : "");
-            return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
+            return qdot_hint("write rest 0, or leave it out, for a spring that pulls at any length");
         }
     }
     return QDOT_OK;

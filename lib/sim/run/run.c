@@ -153,8 +153,8 @@ say_raised(qdot_run *run, double tol)
     if (!(raised > tol))
         return QDOT_OK;
     qdot_text_format(qdot_run_next_notice(run),
-                     "tol %.3g is below what rounding leaves of the equations: where that is "
-                     "least, steps were held to %.2g",
+                     "tol %.3g is below the rounding errors of the equations: where these are "
+                     "largest, steps were held to %.2g",
                      tol, raised);
     return qdot_text_status(&run->notice);
 }
@@ -338,7 +338,7 @@ say_lost(qdot_run *run, const char *reason)
     char text[400];
 
     snprintf(text, sizeof text,
-             "a second run, from a start moved by a rounding, did not arrive%s%.300s",
+             "a second run, from a start moved by a rounding error, did not reach the end%s%.300s",
              reason[0] ? ": " : "", reason);
     return qdot_run_say_doubt(run, text);
 }
@@ -648,7 +648,7 @@ make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **ru
     return status;
 }
 
-static const char start_as_exact[] = "the error of the run that the start was taken from is not in that of this run";
+static const char start_as_exact[] = "the error of this run does not include that of the run from which the start was taken";
 
 /* Make a run in which parameters that events set are further coordinates. */
 static qdot_status

@@ -195,7 +195,7 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
         snprintf(row->status, sizeof row->status, "failed: %.280s", result.reason);
     else if (w.too_much)
         snprintf(row->status, sizeof row->status,
-                 "stopped at t = %.6g: more work than its first steps foretold", result.t);
+                 "stopped at t = %.6g: more work than its first steps suggested", result.t);
     else
         strcpy(row->status, "done");
     find_growth(row);
@@ -211,7 +211,7 @@ longtime_check(const qdot_method_run *m)
         return qdot_fail(QDOT_EFAILED, "an event or a switch may divide the run");
     if (!m->energy) {
         qdot_fail(QDOT_EFAILED, "the energy of this scene is not conserved");
-        return qdot_hint("take the friction, or what depends on time, away");
+        return qdot_hint("remove friction and forces that depend on time");
     }
     if (m->t0 == m->t1)
         return qdot_fail(QDOT_EINVAL, "the run has no length");
@@ -236,7 +236,7 @@ try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_lon
         status = foretell(&m, row->tol, &work);
     if (status == QDOT_OK && !(work <= most)) {
         snprintf(row->status, sizeof row->status,
-                 "failed: at tol %.0e it would take %.2g times the work it may", row->tol,
+                 "failed: at tol %.0e it would take %.2g times the permitted work", row->tol,
                  work / most);
     } else if (status == QDOT_OK) {
         *done = true;
