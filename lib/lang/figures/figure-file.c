@@ -83,7 +83,7 @@ sketch(qdot_session *session, const qdot_figure *figure)
 /* --- a window, or a file -------------------------------------------------------------- */
 
 static bool
-is_set(const char *variable)
+environment_is_set(const char *variable)
 {
     const char *value = getenv(variable);
 
@@ -93,7 +93,7 @@ is_set(const char *variable)
 static bool
 expects_window(const qdot_session *session)
 {
-    return has_terminal(session) && (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
+    return has_terminal(session) && (environment_is_set("DISPLAY") || environment_is_set("WAYLAND_DISPLAY"));
 }
 
 /* Show the figure in a window; *open: a window was opened. If that is impossible, give a notice. */

@@ -52,7 +52,7 @@ qdot_scales_check(qdot_session *session, qdot_expr symbol, qdot_expr value)
 
 /* Find the scale that was given for a symbol; 0 if there is none. */
 static qdot_status
-said_of(qdot_session *session, qdot_expr symbol, double *scale)
+scale_given(qdot_session *session, qdot_expr symbol, double *scale)
 {
     *scale = 0;
     for (size_t i = 0; i < session->values->scale_symbols.n; i++)
@@ -71,15 +71,15 @@ qdot_scales_of_run(qdot_session *session, double **scales)
     *scales = NULL;
     if (session->values->scale_symbols.n == 0)
         return QDOT_OK;
-    QDOT_TRY(said_of(session, QDOT_T, &unit));
+    QDOT_TRY(scale_given(session, QDOT_T, &unit));
     of = qdot_calloc(2 * n + 1, sizeof *of);
     status = of ? QDOT_OK : QDOT_ENOMEM;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         const qdot_expr q = session->scene->coordinates.at[i];
 
-        status = said_of(session, q, of + i);
+        status = scale_given(session, q, of + i);
         if (status == QDOT_OK)
-            status = said_of(session, qdot_symbol_jet(session->pool, q, 1), of + n + i);
+            status = scale_given(session, qdot_symbol_jet(session->pool, q, 1), of + n + i);
         if (status == QDOT_OK && of[n + i] == 0 && unit > 0)
             of[n + i] = of[i] / unit;
     }
