@@ -7,7 +7,7 @@
 #include "lang/session/runs.h"
 
 struct qdot_motion {
-    qdot_system *system; /* a use of it */
+    qdot_system *system; /* counted among the uses of the system */
     qdot_named_run run;  /* a use of it: kept though the session may forget it */
     bool named;          /* by `as NAME`: the session keeps it */
     qdot_arena *arena;

@@ -10,7 +10,7 @@
 #include "base/memory-failure.h"
 #include "base/scope.h"
 
-static atomic_bool ran_out; /* in any thread */
+static atomic_bool ran_out; /* whether any thread ran out of memory */
 static long fail_after = -1, fail_once_after = -1, visit_after = -1;
 static void (*visit)(void);
 

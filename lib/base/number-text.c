@@ -24,7 +24,7 @@ qdot_number_text(qdot_text *text, double value, double error)
     size_t before;
 
     value += 0.0;     /* -0 is 0 */
-    if (error == 0) { /* the shortest that reads back as the same double */
+    if (error == 0) { /* the shortest text that reads back as the same double */
         digits = qdot_double_digits(value, 1);
         if (fabs(value) >= 1 && fabs(value) < 1e15) /* 10, not 1e+01 */
             digits = (int)fmax(digits, floor(log10(fabs(value))) + 1);

@@ -27,7 +27,7 @@ typedef struct qdot_progress {
     char text[80], within[80];
     uint64_t steps, pause,
         until;                  /* steps since `what` began; between looks at the clock */
-    double begun, opened, last; /* seconds: of this work, of all, of the line shown */
+    double begun, opened, last; /* times in seconds: when this work, the whole and the line shown began */
     bool shown;
 } qdot_progress;
 

@@ -373,7 +373,7 @@ table_add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t w
         for (size_t k = from; k < last; column += t->width[k++]) {
             if (k + 1 < t->n)
                 table_add_cell(out, t, i, k, k + 1 == last);
-            else /* the last of all may be text that is too wide */
+            else /* the last column may be text that is too wide */
                 add_broken(out, cell_at(t, i, k), column, t->key_columns + USUAL_INDENT,
                            width);
         }

@@ -16,8 +16,8 @@ enum { QDOT_ABBREVIATE_SAVED = 4 };
 
 typedef struct {
     qdot_vec(qdot_expr) symbols; /* D1, D2, ...: formal symbols */
-    qdot_vec(qdot_expr) parts;   /* their values, which hold earlier ones only */
-    qdot_expr whole;             /* e, which holds them */
+    qdot_vec(qdot_expr) parts;   /* their values, which contain only earlier symbols */
+    qdot_expr whole;             /* the expression e, written with these symbols */
 } qdot_abbreviated;
 
 /* Symbols take the names D1, D2, ... that `is_taken` does not refuse. Errors: QDOT_ENOMEM,

@@ -37,7 +37,7 @@ bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bo
     b->known = true;
     b->open = open || turn;
     qdot_rational_set(&b->x, c == NULL ? &(fmpq){1, 1} : c);
-    if (turn) { /* 333/106 < pi < 355/113 */
+    if (turn) { /* by 333/106 < pi < 355/113 */
         bool more = (qdot_rational_sgn(&b->x) > 0) == up;
 
         qdot_rational_mul(&b->x, &b->x, more ? &(fmpq){355, 113} : &(fmpq){333, 106});

@@ -385,7 +385,7 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
         if (from[i] == QDOT_NIL || to[i] == QDOT_NIL)
             return QDOT_NIL;
         touches |= NODE(pool, from[i])->touches;
-        if (NODE(pool, from[i])->touches == 0) /* a number, or of numbers only */
+        if (NODE(pool, from[i])->touches == 0) /* it contains numbers only */
             holds = UINT32_MAX;
     }
     if (pool->choices && e != QDOT_NIL && (NODE(pool, e)->holds & QDOT_HAS_FUN) != 0)

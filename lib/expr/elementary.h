@@ -16,12 +16,12 @@ enum {
     QDOT_FUN_ENTIRE = 16,  /* analytic at every real number */
     QDOT_FUN_ARC = 32,     /* its sine and cosine are algebraic functions of the argument */
     QDOT_FUN_AREA = 64,    /* its hyperbolic sine and cosine are algebraic functions of the argument */
-    QDOT_FUN_POLE = 128    /* grows beyond all bounds at a finite place */
+    QDOT_FUN_POLE = 128    /* has a pole at some finite argument */
 };
 
 /* An end of the range of a function: number, or number pi/2 if `angle`. */
 typedef struct {
-    bool known; /* there is one */
+    bool known; /* a bound is known */
     bool open;  /* the function does not take the value of this end */
     bool angle;
     int number;

@@ -52,7 +52,7 @@ kind_rank(const qdot_node *node)
     static const int rank[] = {0, 1, 3, 6, 5, 4, 7, 8, 9, 10, 11, 12};
 
     if (node->kind == QDOT_SUM && factor_rank(node->holds) == 1 && node->size <= node->n / 2)
-        return 2; /* of k terms about as many operations: hardly more than symbols */
+        return 2; /* a sum of k terms with about k operations: the terms are hardly more than symbols */
     if (node->kind == QDOT_UFUN && !(node->holds & (QDOT_HAS_COORD | QDOT_HAS_TIME)))
         return rank[QDOT_FUN];
     return rank[node->kind];
@@ -91,7 +91,7 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
         if (a == b)
             return 0;
-        if (depth_beyond_64(x) != depth_beyond_64(y)) /* or a comparison would go down all the way */
+        if (depth_beyond_64(x) != depth_beyond_64(y)) /* so that the comparison of deep expressions does not visit all levels */
             return three(depth_beyond_64(x), depth_beyond_64(y));
         d = x->holds == y->holds && x->kind == y->kind ? 0 : factor_level(x) - factor_level(y);
         if (d == 0)
@@ -208,7 +208,7 @@ qdot_expr_is_negative(const qdot_pool *pool, qdot_expr e)
     switch (NODE(pool, e)->kind) {
     case QDOT_NUM: return qdot_rational_sgn(RATIONAL(pool, e)) < 0;
     case QDOT_PROD: return qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[0])) < 0;
-    case QDOT_SUM: /* what is known to be positive is not: cosh(v) - cos(u) */
+    case QDOT_SUM: /* a sum known to be positive is not turned: cosh(v) - cos(u) */
         return NODE(pool, e)->sign & (QDOT_GE0 | QDOT_LE0)
                    ? !(NODE(pool, e)->sign & QDOT_GE0)
                    : qdot_rational_sgn(RATIONAL(pool, ARGS(pool, e)[2])) < 0;

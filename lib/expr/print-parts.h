@@ -16,7 +16,7 @@ struct part {
     qdot_expr e, coefficient;
     int context;
     bool turned; /* -1 times the sum e; for a product, with its difference negated */
-    qdot_formula_id at; /* the empty SPAN that it fills */
+    qdot_formula_id at; /* the empty SPAN node of the formula that it fills */
 };
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
     qdot_expr ascending; /* a LIST: order terms by their degree in these; nil: canonical order */
     qdot_expr below; /* a difference in denominators of several matrix entries: keeps its sign */
     bool fractions; /* decimals are written as fractions, too: 1/5 beside 5/3 */
-    bool below_turned, turning; /* it is negated; such an entry is being opened */
+    bool below_turned, turning; /* this difference was negated; an entry with it is being written */
     qdot_formula *out;
     qdot_formula_id at;     /* the node to which children are appended */
     qdot_vec(struct part) todo; /* a stack */

@@ -12,10 +12,10 @@
 
 /* The factors of a product that are written under one root sign. */
 struct root {
-    bool any, above;  /* it stands above the bar */
+    bool any, above;  /* there is a common root; it is above the fraction bar */
     bool decimal;     /* the number under the root is written as a decimal one */
-    uint32_t last;    /* the last of them on its side: where it is written */
-    fmpq_t c, number; /* what stands before the whole, and under the root */
+    uint32_t last;    /* the last factor above (or below) the bar: the root is written there */
+    fmpq_t c, number; /* the coefficient before the product, and the number under the root */
 };
 
 /* Whether b^e belongs in the denominator. */
@@ -271,7 +271,7 @@ find_common_root(const printer *p, const fmpq *c, qdot_expr e, struct root *r)
     r->any = in <= 1 && out + in > 0 && out + in + (number != NULL) > 1;
     if (!r->any)
         return;
-    for (uint32_t i = 1; i < n; i += 2) { /* the last above; if there is none, below */
+    for (uint32_t i = 1; i < n; i += 2) { /* the last factor above the bar; if there is none, below it */
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
         bool up = !is_in_denominator(pool, x);
 

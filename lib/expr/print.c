@@ -505,7 +505,7 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
     printer p = {.pool = pool, .notation = notation, .ascending = in, .out = out, .at = parent};
 
     if (e == QDOT_NIL)
-        return qdot_pool_failed(pool) ? qdot_fail_again(&pool->error) /* why there is none */
+        return qdot_pool_failed(pool) ? qdot_fail_again(&pool->error) /* the reason why there is no formula */
                                       : qdot_fail(QDOT_EINVAL, "nothing to print");
     qdot_printed_begin(pool->printed, out);
     QDOT_TRY(qdot_print_wants_fractions(pool, e, &p.fractions));
@@ -517,7 +517,7 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
             p.status = out->failed ? QDOT_ENOMEM : qdot_interrupt_check();
     }
     qdot_free(p.todo.at);
-    if (p.status == QDOT_OK) /* a number or a name alone waits for nothing */
+    if (p.status == QDOT_OK) /* a number or a name needs no further steps */
         p.status = qdot_formula_status(out);
     if (p.status != QDOT_OK)
         qdot_printed_forget(pool->printed); /* nodes that were not opened */

@@ -13,7 +13,7 @@ struct slot {
 
 struct qdot_printed {
     struct slot *slot;         /* [SLOTS], 48 kB; NULL: nothing was kept yet */
-    const qdot_formula *of;    /* the nodes are of this one, as long as it has the stamp */
+    const qdot_formula *of;    /* the formula to which the nodes belong, while it has this stamp */
     uint32_t stamp;
     qdot_formula own;
 };

@@ -182,9 +182,9 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
     if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
         if (rest.n == (n - 1) / 2 &&
             qdot_rational_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
-            product_push(p, base, k); /* nothing came out */
+            product_push(p, base, k); /* no factor could be taken out of the root */
         } else if (rest.n == 0 && !(NODE(pool, base)->sign & QDOT_NE0)) {
-            p->n = 0; /* sqrt(-x^2), real where it is 0: nothing comes out */
+            p->n = 0; /* sqrt(-x^2) is real only at x = 0: take nothing out of the root */
             fmpq_one(&p->c);
             product_push(p, base, k);
         } else {

@@ -153,7 +153,7 @@ qdot_expr
 qdot_expr_turnable(const qdot_pool *pool, qdot_expr e)
 {
     uint32_t n = NODE(pool, e)->n;
-    qdot_expr power = QDOT_NIL; /* one to an odd power, where there is no other */
+    qdot_expr power = QDOT_NIL; /* a factor to an odd power, if there is no other */
 
     for (uint32_t i = 1; NODE(pool, e)->kind == QDOT_PROD && i < n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];

@@ -44,7 +44,7 @@ is_integer_rational(const fmpq *x)
 }
 
 static bool
-is_unit(const fmpq *x) /* its numerator is not written beside a factor */
+is_unit(const fmpq *x) /* +-1/n: the numerator 1 is not written beside a factor */
 {
     return fmpz_is_pm1(fmpq_numref(x));
 }

@@ -123,7 +123,7 @@ sum_add(struct sum *s, qdot_expr e, qdot_expr c)
         else if ((c = qdot_mul(pool, own, c)) == QDOT_NIL)
             fail(s);
         else
-            sum_add(s, rest, c); /* one level: a coefficient times a bare sum */
+            sum_add(s, rest, c); /* recursion of one level: `rest` has no coefficient */
         return;
     case QDOT_SUM:
         sum_add_number(s, ARGS(pool, e)[0], c);

@@ -98,7 +98,7 @@ static void
 place_nodes(qdot_walk *w)
 {
     memset(w->slot, 0, (w->mask + 1) * sizeof *w->slot);
-    for (size_t k = 0; k < w->n; k++) { /* each is new */
+    for (size_t k = 0; k < w->n; k++) { /* each node is met for the first time */
         uint32_t i = hash_id(w->at[k]) & w->mask;
 
         while (w->slot[i] != 0)
@@ -147,7 +147,7 @@ walk_begin_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32
     if (w->n == 0)
         return QDOT_OK;
     if (w->n > 1) {
-        for (size_t i = 0, k = w->n - 1; i < k; i++, k--) { /* parents came first */
+        for (size_t i = 0, k = w->n - 1; i < k; i++, k--) { /* reverse the list, in which parents came first */
             qdot_expr e = w->at[i];
 
             w->at[i] = w->at[k];

@@ -17,11 +17,11 @@
 
 typedef enum {
     QDOT_BOX_TEXT,
-    QDOT_BOX_ROW,      /* one behind the other */
+    QDOT_BOX_ROW,      /* children side by side */
     QDOT_BOX_FRACTION, /* above, below */
     QDOT_BOX_ROOT,
-    QDOT_BOX_SUPER, /* what, its superscript */
-    QDOT_BOX_SUB,   /* what, its subscript */
+    QDOT_BOX_SUPER, /* base, superscript */
+    QDOT_BOX_SUB,   /* base, subscript */
     QDOT_BOX_TABLE  /* cells row by row */
 } qdot_box_kind;
 
@@ -34,7 +34,7 @@ typedef enum {
     QDOT_BOX_OVER, /* the / of a fraction in one line */
     QDOT_BOX_COMMA,
     QDOT_BOX_END,  /* of a row of a matrix that is broken: a line ends */
-    QDOT_BOX_WORD, /* of a text, with the blank behind it */
+    QDOT_BOX_WORD, /* a word of a text, with the blank after it */
     QDOT_BOX_OPENING, /* brackets, as high as their row */
     QDOT_BOX_CLOSING
 } qdot_box_role;

@@ -28,16 +28,16 @@ typedef enum { QDOT_NOTATION_SCRIPT, QDOT_NOTATION_LINE, QDOT_NOTATION_DRAWN } q
 typedef uint32_t qdot_formula_id;
 
 typedef enum {
-    QDOT_FORMULA_SPAN,     /* one behind the other, as if they stood in the parent */
-    QDOT_FORMULA_ROW,      /* one behind the other, as one thing */
+    QDOT_FORMULA_SPAN,     /* children side by side, as if they were children of the parent */
+    QDOT_FORMULA_ROW,      /* children side by side, as one unit */
     QDOT_FORMULA_TEXT,     /* a leaf, with its role */
     QDOT_FORMULA_SIGN,     /* a leaf, a row of sign.def */
     QDOT_FORMULA_FRACTION, /* above, below */
     QDOT_FORMULA_ROOT,     /* the square root of all children */
     QDOT_FORMULA_POWER,    /* base, exponent */
-    QDOT_FORMULA_INDEX,    /* base, what stands below the line */
+    QDOT_FORMULA_INDEX,    /* base, subscript */
     QDOT_FORMULA_ACCENT,   /* one child with n dots above */
-    QDOT_FORMULA_PRIMES,   /* one child with n primes behind */
+    QDOT_FORMULA_PRIMES,   /* one child followed by n primes */
     QDOT_FORMULA_BRACKET,  /* all children in brackets of a shape */
     QDOT_FORMULA_TABLE,    /* cells, n in a row, in brackets */
     QDOT_FORMULA_TENSOR,   /* base, indices above, indices below */
@@ -50,7 +50,7 @@ typedef enum {
     QDOT_TEXT_NAME,     /* a name; where formulas are drawn its letters for the eye, θ, its indices apart */
     QDOT_TEXT_NUMBER,   /* an integer or a decimal number without its sign */
     QDOT_TEXT_FUNCTION, /* the name of a function */
-    QDOT_TEXT_LABEL,    /* what a thing is called, as it was typed */
+    QDOT_TEXT_LABEL,    /* the name of a thing, as it was typed */
     QDOT_TEXT_WORDS     /* a text for people; in LaTeX what is LaTeX already */
 } qdot_formula_role;
 

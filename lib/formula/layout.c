@@ -27,7 +27,7 @@ typedef struct {
     const qdot_layout_request *request;
     size_t width, indent;
     size_t labels; /* leading items that are names or words */
-    size_t name;   /* of these, the first of the name: behind `spring s1: ` */
+    size_t name;   /* of these, the first item of the name, after `spring s1: ` */
     bool several;  /* relations outside brackets, and words: each is one of a list */
     qdot_vec(item) todo;  /* a stack */
     qdot_vec(item) items; /* in reading order */

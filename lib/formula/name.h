@@ -12,7 +12,7 @@ const char *qdot_name_greek(const char *letter);
 
 /* An index that consists of digits: x_1 or x[1]. */
 typedef struct {
-    size_t letters; /* before it */
+    size_t letters; /* number of letters before the subscript */
     const char *at; /* the digits */
     size_t n;
     bool brackets; /* x[1] */

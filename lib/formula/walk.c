@@ -21,7 +21,7 @@ walk_step(qdot_formula_walk *walk)
     qdot_formula_frame *f = walk->open.at + walk->open.n - 1;
     const qdot_formula_node *node = qdot_formula_at(walk->formula, f->id);
 
-    if (f->child == node->child) { /* the last one, or there is none */
+    if (f->child == node->child) { /* the last child, or there are no children */
         walk->open.n--;
         return walk->leave(walk, node);
     }

@@ -87,8 +87,8 @@ typedef struct {
     qdot_status status;
     size_t kind;  /* 0 SSE2, 1 AVX2 and FMA, 2 AVX-512 */
     bool far;     /* every offset takes four bytes: like operations are equally long */
-    int mask;     /* of AVX-512, of what follows; 0: none */
-    bool zeroing; /* what it leaves out becomes 0, else stays */
+    int mask;     /* AVX-512: the mask register of the next instructions; 0: none */
+    bool zeroing; /* lanes outside the mask become 0; otherwise they keep their values */
     unsigned char nowhere[16]; /* what is written after a failure */
     /* For each register: when it was last used, and whether it is reserved. */
     unsigned clock, used[QDOT_ASM_REGISTERS];

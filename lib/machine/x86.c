@@ -248,7 +248,7 @@ product_then_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_oper
 {
     const unsigned which = (unsigned)(name - QDOT_ASM_MADD);
     const bool over = which & 4, product = which & 2,
-               other = which & 1; /* negative ones */
+               other = which & 1; /* whether the product, and whether the other term, is negative */
     const qdot_operand in_scratch = qdot_asm_in(scratch), term = over ? b : in_scratch;
 
     if (!over)

@@ -507,7 +507,7 @@ qdot_articulated_factor(qdot_articulated *a, const double *const *S, double *los
         *lost = a->plane->eliminate(a, S);
         if (*lost > 0)
             return true;
-        *failed = *unknown = 0; /* below: which */
+        *failed = *unknown = 0; /* the loop below finds which node failed */
     }
     *lost = 1;
     if (a->m == 2 && a->c == 1)

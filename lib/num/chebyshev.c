@@ -118,7 +118,7 @@ fill_half(void)
     half[1][0] = -0.5;
     half[1][1] = 0.5;
     for (int k = 2; k < most; k++) {
-        long double *now = two[k % 2]; /* k - 2, to be k */
+        long double *now = two[k % 2]; /* holds T_(k-2), to be replaced by T_k */
         const long double *last = two[(k + 1) % 2];
 
         for (int j = 0; j <= k; j++)
@@ -160,7 +160,7 @@ qdot_chebyshev_size(int n, const double *c)
 {
     double largest = 0;
 
-    for (int k = 0; k < n; k++) /* NaN counts as nothing */
+    for (int k = 0; k < n; k++) /* a NaN is ignored */
         largest = fabs(c[k]) > largest ? fabs(c[k]) : largest;
     return largest;
 }
@@ -199,7 +199,7 @@ qdot_chebyshev_sign(int n, const double *c)
 /* --- roots of a series -------------------------------------------------------------- */
 
 typedef struct {
-    double lo, hi; /* of the whole */
+    double lo, hi; /* the ends of the whole interval */
     double at_lo, at_hi;
     int n;
     double c[most];

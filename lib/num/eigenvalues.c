@@ -10,7 +10,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 
-#include <complex.h> /* behind GSL's, whose numbers stay its own */
+#include <complex.h> /* after GSL's headers, so that GSL keeps its own complex type */
 
 #include "base/memory.h"
 

@@ -17,7 +17,7 @@ typedef struct {
     double lo, hi;
 } qdot_interval;
 
-extern const qdot_interval qdot_interval_whole; /* the whole line */
+extern const qdot_interval qdot_interval_whole; /* the interval of all numbers */
 
 qdot_interval qdot_interval_point(double x);
 bool qdot_interval_is_point(qdot_interval a);

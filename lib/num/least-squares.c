@@ -240,7 +240,7 @@ least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
 
     while (true) {
         memcpy(x->u, gsl_multifit_nlinear_position(w)->data, x->p * sizeof *x->u);
-        QDOT_TRY(least_squares_evaluate(s, x->u)); /* anew only after a step that was taken back */
+        QDOT_TRY(least_squares_evaluate(s, x->u)); /* recomputed only if the last step was rejected */
         QDOT_TRY(jacobian_decompose(s));
         x->converged = over && step_is_rounding(s);
         if (reducible_part(s) <= near_offset)

@@ -112,7 +112,7 @@ next_dependency(const qdot_saddle *s, size_t sound, bool lost, const double *par
             continue;
         taking_part = depend(s, k, sound, part, &met);
         if (!lost && (met == 0 || taking_part > longest))
-            continue; /* a repetition of its own */
+            continue; /* a redundant row that is not part of this dependency */
         if (next == s->m || taking_part < *count) {
             next = k;
             *count = taking_part;

@@ -52,7 +52,7 @@ fill_tables(void)
     mpfr_sin_cos(s1, c1, step, MPFR_RNDN);
     mpfr_set_zero(s, 1);
     mpfr_set_ui(c, 1, MPFR_RNDN);
-    for (unsigned i = 0; i < QUARTER; i++) { /* the next angle */
+    for (unsigned i = 0; i < QUARTER; i++) { /* compute the sine and cosine of the next angle */
         mpfr_set(x, s, MPFR_RNDN);
         sines[i] = two_of_mpfr(x);
         mpfr_fmma(x, s, c1, c, s1, MPFR_RNDN);

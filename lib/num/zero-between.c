@@ -79,7 +79,7 @@ between_refine(qdot_zero_search *s, double *end, double *f)
             s->order = 1;
         }
         if (!(s->slope[0] != 0) ||
-            !isfinite(s->slope[0])) /* none is known: the chord's */
+            !isfinite(s->slope[0])) /* no slope is known: use that of the chord */
             s->slope[0] = (f[1] - f[0]) / (end[1] - end[0]);
         (void)qdot_zero_find_step(s);
         qdot_zero_estimate_order(s);

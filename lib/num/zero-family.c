@@ -161,7 +161,7 @@ qdot_zero_verify_family(qdot_zero_search *s)
     x.f = x.way + n;
     x.ways = x.f + 2 * m;
     keep_zero(&x, false);
-    status = qdot_zero_evaluate(s); /* J may be that of another place */
+    status = qdot_zero_evaluate(s); /* J may have been computed elsewhere */
     (void)qdot_zero_find_step(s);
     x.rank = s->r->rank;
     x.first_order = s->order < of_first_order &&

@@ -22,7 +22,7 @@ typedef struct {
     double order;              /* of the zero, by the last steps */
     double *last_u, *last;     /* [n] the place at which `order` was measured last, and `whole` there, */
     bool has_last;             /* whether these two are set */
-    double reach;              /* the step is no longer than that where J is nearly singular */
+    double reach;              /* the longest step allowed where J is nearly singular */
     double *step, *whole;      /* [n] the step, and the full step without damping (mu = 0) */
     double *from_error;        /* [n] the change of the step by errors of F */
     gsl_matrix *U, *V;

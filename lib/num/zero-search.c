@@ -46,7 +46,7 @@ walk_along(qdot_zero_search *s, bool *gone)
         if (s->damping == 0)
             *gone = qdot_zero_is_predicted(s, s->f, part);
         else
-            *gone = qdot_zero_norm(s, s->f) < size /* not of a NaN */
+            *gone = qdot_zero_norm(s, s->f) < size /* false for NaN */
                     || qdot_zero_take_step(s, s->f, s->trial) < (1 - part / 4) * s->length;
     }
     if (*gone)
@@ -67,7 +67,7 @@ descend_once(qdot_zero_search *s)
     if (isnan(r->f[0]))
         return QDOT_OK;
     qdot_zero_choose_units(s);
-    s->reach = s->p->unit != NULL && s->damping > 0 ? INFINITY : first_reach; /* units are of a good guess */
+    s->reach = s->p->unit != NULL && s->damping > 0 ? INFINITY : first_reach; /* units are given with a good guess */
     s->strongest = 0;
     s->order = 1;
     s->has_last = false;

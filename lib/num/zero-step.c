@@ -69,7 +69,7 @@ qdot_zero_choose_units(qdot_zero_search *s)
         if (s->r->f_error[i] > finest * s->unit_f[i])
             s->unit_f[i] = fmax(s->unit_f[i], fmin(s->r->f_error[i] / finest, most));
         s->unit_f[i] = s->unit_f[i] > 0 ? s->unit_f[i] : 1;
-        if (s->small[i] == 0) /* the first time, at the guess */
+        if (s->small[i] == 0) /* set once, at the guess */
             s->small[i] = fmax(fmax(1e-3 * fabs(s->r->f[i]), 1e-9 * s->unit_f[i]),
                                s->p->size != NULL ? least_part * s->p->size[i] : 0);
     }

@@ -42,7 +42,7 @@ typedef struct {
     /* Set by `at`, may be NULL: errors of J [m x n], and sizes of the terms whose differences give F [m]. */
     const double *slope_error, *size;
     bool once;                /* a search in vain is not begun again */
-    bool verify;              /* look whether what J leaves open is a family */
+    bool verify;              /* test whether the unknowns that J leaves open form a family */
     /* Whether a zero, with u and rank, is acceptable; otherwise the search goes on from other
      * points. NULL: always. */
     qdot_status (*wanted)(const double *u, size_t rank, bool *is, void *user);
@@ -52,7 +52,7 @@ typedef enum {
     QDOT_ZERO_FOUND,
     QDOT_ZERO_NONE, /* |F| has a least value that is not 0, or no sign changes between the bounds */
     QDOT_ZERO_FLAT,    /* no unknown moves F */
-    QDOT_ZERO_NOWHERE, /* F cannot be had at the guess */
+    QDOT_ZERO_NOWHERE, /* F cannot be evaluated at the guess */
     QDOT_ZERO_JUMP,    /* F changes its sign, and does not vanish there */
     QDOT_ZERO_VAGUE,   /* F is 0 within its errors, of unknowns that these leave open by a tenth or more */
     QDOT_ZERO_SLOW     /* no end after many steps */

@@ -25,11 +25,11 @@ typedef struct {
     double expansion; /* its work */
     double patience;  /* work */
     uint64_t steps;   /* of the turn */
-    double t, work;   /* where it was looked last */
+    double t, work;   /* time and work at the last comparison */
     double won_since; /* work at the first of the looks in a row that series won; NaN: none */
     double won_at;    /* t there */
     double pace;      /* of the stiff method from there to its end */
-    bool over;        /* the turn has been ended here */
+    bool over;        /* this part of the run has been ended here */
 } turns;
 
 /* Whether series have been faster for long enough and enough work is left to make a change worthwhile. */

@@ -127,7 +127,7 @@ static void
 lanes_begin_series(batch *b)
 {
     lanes *a = &b->at;
-    double t[L], *y = b->value; /* free here */
+    double t[L], *y = b->value; /* an array that is not in use here */
 
     memcpy(t, a->t, sizeof t);
     memcpy(y, b->y, b->n * L * sizeof *y);
@@ -289,7 +289,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
 static void
 choose_steps(batch *b)
 {
-    double upper[L], lower[L], steps[L], *weight = b->value; /* free here */
+    double upper[L], lower[L], steps[L], *weight = b->value; /* an array that is not in use here */
     int64_t left[L];
 
     b->kernels->weights(b->moving, b->y, weight);

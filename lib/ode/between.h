@@ -28,7 +28,7 @@ qdot_between_fits(const qdot_ode_method *method)
 
 typedef struct {
     double *P; /* [DEGREE x n], and room [n]; made where it is needed */
-    bool known, good; /* it was looked for in the step at hand, and counts */
+    bool known, good; /* the polynomial was computed for the present step; it is accurate enough */
 } qdot_between;
 
 /* The state y [n] at the part x of the step from where `s`, of the partner, was started at t0, to y1 at

@@ -53,7 +53,7 @@ typedef struct {
     double spent;         /* work on the ways before, and on reading */
     qdot_ode_meter meter; /* on this one */
     qdot_ode_result result;
-    bool given_up; /* by its cost */
+    bool given_up; /* it was ended because of its cost */
     bool arrived;
     bool running;  /* on `thread` */
     bool finished; /* result is valid */

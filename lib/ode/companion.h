@@ -85,7 +85,7 @@ typedef enum {
     QDOT_COMPANION_PARTNER,
     QDOT_COMPANION_FINER,
     QDOT_COMPANION_COARSE,
-    QDOT_COMPANION_WAYS /* no way is left */
+    QDOT_COMPANION_WAYS /* number of ways; also: no way is left */
 } qdot_companion_way;
 
 typedef struct {

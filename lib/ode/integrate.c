@@ -58,7 +58,7 @@ run_parts(const parts *p)
         }
         if (ended == QDOT_EINTR || ended == QDOT_ENOMEM)
             break;
-        for (size_t j = 0; j < k; j++) /* these went further */
+        for (size_t j = 0; j < k; j++) /* the parts before went further: repeat them to the earlier end */
             if (run_part(p, j, &r) != QDOT_OK && ended == QDOT_OK) {
                 ended = QDOT_EFAILED;
                 failure = *qdot_last_error();

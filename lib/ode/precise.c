@@ -24,8 +24,8 @@ typedef struct {
     mpfr_t *y, *next, *slope, *first; /* [n] */
     mpfr_ptr t, t1, h, end, rest, w, v;
     bool extended;
-    qdot_error undefined; /* what f said last */
-    bool met;             /* ... it did */
+    qdot_error undefined; /* the last error of f */
+    bool met;             /* f has failed */
 } state;
 
 int

@@ -48,7 +48,7 @@ typedef struct {
     size_t n, p, v; /* y = (q [p], v [v]) */
     size_t m, w;    /* unknowns (v, z); of a stage, (q, v, z) */
     size_t kind;     /* of radau-basis.h */
-    bool kept;       /* it does not change */
+    bool kept;       /* the matrices do not change along the run */
     double *room;    /* the block of those that follow */
     double *Z;       /* [MOST x w] the stages less y and z */
     double *z;       /* multipliers about which those of the stages are */
@@ -103,7 +103,7 @@ radau_make(qdot_ode_stepper *s)
     r->kind = s->tol > 1e-8 ? 1 : 2;
     return qdot_calloc_parts(&r->room, 10,
                              (const qdot_part[]){{&r->Z, MOST * r->w},
-                                                 {&r->z, r->m}, /* more than there are */
+                                                 {&r->z, r->m}, /* larger than the number of multipliers */
                                                  {&r->a, MOST * r->m},
                                                  {&r->R, MOST * r->m},
                                                  {&r->R_before, MOST * r->m},
@@ -417,7 +417,7 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
             r->rate = r->iterations == judged ? rate : sqrt(rate * r->rate_before);
             r->rate_before = rate;
             if (size > enough && rate > stagnates && size <= newton_noise(s, h)) {
-                *converged = true; /* as far as rounding lets it */
+                *converged = true; /* converged up to rounding */
                 accelerate(r, b, h);
                 return QDOT_OK;
             }

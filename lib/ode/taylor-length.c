@@ -125,7 +125,7 @@ near_length(const run *r, double h)
 static qdot_status
 length_of_step(run *r, double most, double *h)
 {
-    double ends = 0; /* a unit in which the series ends, so that any step may be its */
+    double ends = 0; /* a unit of time in which the series is finite, so that any step is allowed */
 
     for (int tries = 0;; tries++) {
         double l, far;

@@ -48,7 +48,7 @@ typedef struct {
     qdot_series_step step;       /* of those */
     double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
     qdot_series_weights weights;
-    qdot_error undefined;      /* what f said last */
+    qdot_error undefined;      /* the last error of f */
     double undefined_at;       /* the end of the step that met it; NaN before any */
     qdot_ode_crawl crawl;
     qdot_ode_stiffness stiffness;

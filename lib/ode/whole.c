@@ -43,9 +43,9 @@ typedef struct {
     double direction; /* +1 or -1 */
     double h;         /* the step to try next, positive */
     uint64_t max_steps;
-    int undefined;      /* tries in a row from this t that met no f */
+    int undefined;      /* number of attempts in a row from this t at which f was undefined */
     bool just_rejected; /* then the step that follows may not grow */
-    qdot_error last_undefined; /* what f said */
+    qdot_error last_undefined; /* the last error of f */
     double undefined_at;       /* the end of that step; NaN before any */
     double margin, margin_at;  /* system->margin where a step was taken back, and that t */
     double best;               /* the largest margin met */
@@ -53,7 +53,7 @@ typedef struct {
     double work;               /* that has been counted (meter.h) */
     qdot_ode_stiffness stiffness;
     uint64_t looked;           /* evaluations to see what a step goes over */
-    int crawled;               /* how often in a row steps were nothing beside what is ahead */
+    int crawled;               /* number of steps in a row that were tiny compared with the rest of the run */
 } run;
 
 /* A run towards a singular place stops after so many consecutive steps below this fraction of the

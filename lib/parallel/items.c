@@ -78,7 +78,7 @@ qdot_items_begin(qdot_items *items, qdot_items_chunk chunk)
 {
     if (chunk.first < items->first || chunk.first > items->end ||
         chunk.count > items->end - chunk.first)
-        return QDOT_OK; /* not of ours */
+        return QDOT_OK; /* the chunk is not one of ours */
     for (size_t k = chunk.first; k < chunk.first + chunk.count; k++)
         items->state[k - items->first] &= (unsigned char)~ANSWERED;
     items->left += chunk.count;

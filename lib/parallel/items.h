@@ -14,10 +14,10 @@ typedef struct {
 
 typedef struct {
     size_t first, end;                /* of all */
-    size_t next;                      /* from here on nobody has had any */
+    size_t next;                      /* the first item that has not been handed out */
     const bool *skip;                 /* [end] that are not to be done; NULL: all are */
-    size_t left;                      /* without answer */
-    qdot_vec(qdot_items_chunk) again; /* given back, or begun with */
+    size_t left;                      /* number of items without an answer */
+    qdot_vec(qdot_items_chunk) again; /* chunks to be handed out again, or given at the start */
     unsigned char *state;             /* [end - first] what has happened to each */
 } qdot_items;
 

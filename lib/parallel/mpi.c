@@ -217,7 +217,7 @@ qdot_mpi_take(size_t from, int what, qdot_text *bytes)
     qdot_free(at);
 }
 
-#else /* built without MPI: it never begins */
+#else /* built without MPI, which then is never started */
 
 qdot_status
 qdot_mpi_begin(size_t *count, size_t *mine)

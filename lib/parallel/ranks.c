@@ -18,7 +18,7 @@
 
 static const double beat = 1;     /* seconds between two signs of life */
 static const double patience = 5; /* a rank that waits or works is silent no longer */
-static const double longest = 30; /* one that computes for itself may be, at the end */
+static const double longest = 30; /* seconds that a rank may be silent at the end, while it computes alone */
 enum { GATHERING = 120 };         /* seconds until all ranks must have begun */
 enum { PIECE = 1 << 26 };         /* bytes of a message at most */
 
@@ -32,9 +32,9 @@ static struct {
     place *places;   /* [ranks] */
     double *heard;   /* [ranks] */
     double beaten;   /* when rank 0 was last told that this one lives */
-    uint64_t shared; /* so many times */
+    uint64_t shared; /* how often texts were shared with all ranks */
     size_t stuck;    /* messages that their receivers do not take */
-    int sentinel;    /* a pipe to it; -1: none */
+    int sentinel;    /* a pipe to the watching process; -1: none */
 } ranks = {.sentinel = -1};
 
 /* How a rank ends: together with the other ranks, or alone. */
@@ -117,7 +117,7 @@ set_sentinel(void)
             n = read(ends[0], &c, 1);
         while (n < 0 && errno == EINTR);
         if (n == 0) {
-            sleep(3); /* without recovery it ends by itself */
+            sleep(3); /* without recovery the process has ended by then */
             kill(parent, SIGTERM);
         }
         _exit(0);
@@ -291,7 +291,7 @@ qdot_ranks_is_lost(size_t rank)
 /* The header of a text sent in pieces. */
 typedef struct {
     uint64_t number, n;
-    qdot_error error; /* its status is that of all */
+    qdot_error error; /* the error whose status all ranks share */
 } share_head;
 
 /* Wait as long as ranks receive what was sent; one that received nothing is not waited for again. */
@@ -440,7 +440,7 @@ end_all(int status)
         qdot_mpi_abort(status);
     word = lost > 0 ? GO_ALONE : GO_TOGETHER;
     qdot_mpi_send(1, qdot_ranks_count(), QDOT_RANK_END, &word, 1);
-    if (lost > 0) { /* MPI would wait for them */
+    if (lost > 0) { /* MPI_Finalize would wait for the lost ranks */
         wait_until_sent(1);
         _exit(status);
     }

@@ -22,7 +22,7 @@ typedef struct {
     qdot_items_chunk has[2]; /* chunks [n] that it works at */
     size_t left[2];          /* answers that are missing of each */
     double since;            /* when it began the first of these */
-    double seconds;          /* that an item takes it; 0: unknown */
+    double seconds;          /* seconds that it takes for an item; 0: unknown */
     qdot_text come;          /* bytes of answers not complete yet */
 } qdot_hand;
 

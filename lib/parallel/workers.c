@@ -218,7 +218,7 @@ qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes, size_t n)
     const qdot_answer_head h = {.item = k, .n = bytes != NULL ? n : QDOT_NO_ANSWER};
 
     if (!qdot_items_answer(&c->items, k))
-        return QDOT_OK; /* of one that was thought lost */
+        return QDOT_OK; /* an answer from a rank that was thought lost */
     if (qdot_rank() == 0)
         return c->job->done(k, bytes, n, c->job->user);
     qdot_text_add_n(&c->out, (const char *)&h, sizeof h);
@@ -378,7 +378,7 @@ qdot_workers_run(const qdot_workers_job *job)
     status = qdot_items_new(&c.items, job->first, job->end, job->skip, qdot_rank() == 0);
     if (status == QDOT_OK && !(polled && c.workers))
         status = QDOT_ENOMEM;
-    fflush(NULL); /* what waits to be written is written once */
+    fflush(NULL); /* so that buffered output is not written twice after fork */
     if (status == QDOT_OK)
         status = start_all(&c);
     if (status == QDOT_OK)

@@ -20,7 +20,7 @@ typedef struct qdot_workers_job {
     size_t first, end; /* the items first ... end - 1 */
     const bool *skip;  /* [end] items that are not to be done; NULL: all are */
     size_t workers;    /* at least 1 */
-    double seconds;    /* that an item takes, about, to begin with; 0: unknown */
+    double seconds;    /* a first estimate of the seconds for an item; 0: unknown */
     void *user;
     size_t least;      /* items that are handed out together, where there are so many; 0: 1 */
     /* In a worker: the items first ... first + count - 1 come next; NULL: this is not needed. */

@@ -23,7 +23,7 @@ typedef void kernel(double *coefficients, const double *scalars, double *work);
 struct qdot_lanes_code {
     qdot_taylor_text *text;
     size_t entry;
-    bool halves; /* it is run for each half of a group */
+    bool halves; /* the code runs once for each half of a group */
     size_t group;
     double *coefficients; /* borrowed */
     double *scalars;

@@ -7,7 +7,7 @@
 typedef struct {
     qdot_lanes_writer *w;
     const qdot_program_step *s;
-    size_t i; /* the number of the step */
+    size_t i; /* index of the step */
     int k;
 } step;
 

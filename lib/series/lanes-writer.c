@@ -413,7 +413,7 @@ qdot_lanes_store(qdot_lanes_writer *w, qdot_lanes_sum sum, qdot_lanes_at to)
         qdot_writer_clear(w, sum);
     }
     qdot_lanes_unread(w, to);
-    (void)qdot_writer_place(w, to); /* that it is there */
+    (void)qdot_writer_place(w, to); /* make sure that its place exists */
     if (is_row(w, to.row))
         w->rows[to.row].absent = false;
     w->m.taken[sum] = false;

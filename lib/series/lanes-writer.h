@@ -53,9 +53,9 @@ typedef struct {
 typedef struct {
     bool folded; /* the step is not carried out by itself, but within its readers */
     bool idle;   /* no equation depends on the row */
-    bool lacks;  /* only the newest coefficient of its argument was missing */
+    bool lacks;  /* it is absent only because the newest coefficient of its argument is */
     int pairs;   /* products whose sum it is, with those that it carries out for others */
-    bool rests[QDOT_WRITER_RESTS]; /* there is one at the order at hand */
+    bool rests[QDOT_WRITER_RESTS]; /* whether this sum has a remainder at the present order */
 } qdot_writer_step;
 
 /* A row, its derivative or its second derivative, with a sign. */

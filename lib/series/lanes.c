@@ -50,7 +50,7 @@ static const lanes_kernels *const kinds[] = {
 struct qdot_lanes {
     const qdot_batch_kernels *kernels;
     const lanes_kernels *kind;
-    const qdot_motion *motion; /* it is of; NULL: of a program alone */
+    const qdot_motion *motion; /* the motion that it computes; NULL: a program alone */
     const qdot_program *program;
     double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* of a motion */
     bool has_rates, has_kept; /* the program has steps that take rates; rows that are kept */

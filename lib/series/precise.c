@@ -13,7 +13,7 @@ enum { SCRATCH = 3 };
 
 struct qdot_precise {
     const qdot_program *program;
-    const qdot_motion *motion; /* it is of; NULL: of a tape, whose program is */
+    const qdot_motion *motion; /* the motion that it computes; NULL: the tape whose program is */
     qdot_program own;
     size_t stride;
     qdot_reals numbers; /* [rows x stride], the inputs first */

@@ -149,7 +149,7 @@ qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
             return qdot_code_work(g->fold_slots + i);
     }
     to = qdot_code_work(g->fold_slots + g->compositions.n);
-    if (g->k >= QDOT_CODE_ANY) /* it would be written for one order of a loop */
+    if (g->k >= QDOT_CODE_ANY) /* in a loop over orders it would be valid for one order only */
         g->m.status = qdot_fail(QDOT_EINVAL, "a factor is not known before a loop");
     if (qdot_vec_push(&g->compositions, new) != QDOT_OK) {
         g->m.status = QDOT_ENOMEM;

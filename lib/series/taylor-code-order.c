@@ -208,7 +208,7 @@ operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurr
         break;
     case QDOT_DO_PER_ORDER: per_order(g, s, &v); break;
     case QDOT_DO_OVER:
-    case QDOT_DO_OVER_TWICE: break; /* it is by now */
+    case QDOT_DO_OVER_TWICE: break; /* done already */
     default: g->m.status = qdot_fail(QDOT_EINVAL, "a recurrence has no code");
     }
     return v;

@@ -284,7 +284,7 @@ give_places(qdot_generator *g)
             continue;
         }
         g->sums.at[i].v.at = at;
-        at += (size_t)(g->lanes * g->blocks + QDOT_CODE_LANES); /* 0 behind the last */
+        at += (size_t)(g->lanes * g->blocks + QDOT_CODE_LANES); /* zeros after the last number */
     }
     for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++) {
         g->rows.at[i].at = at;
@@ -358,7 +358,7 @@ emit_phase(qdot_generator *g, const qdot_code_phase *p, int number)
     }
     qdot_code_forget(g);
     from = qdot_asm_repeat_as(&g->m, qdot_code_work(QDOT_CODE_COUNTS + (size_t)number));
-    if (g->m.kind < 2) { /* a lower order has no more loops */
+    if (g->m.kind < 2) { /* lower orders need no more loops */
         qdot_asm_return_if_none(&g->m);
         from = g->m.bytes.n;
     }
@@ -558,7 +558,7 @@ qdot_taylor_code_new(const qdot_taylor *t, int to, int highest, bool kept,
     if (qdot_asm_kind() < 2)
         orders.most = least(most(to, highest), QDOT_SERIES_MOST);
     status = find_text(t, orders, kept, &c->text, why);
-    if (status == QDOT_OK && *why && orders.most > to) { /* too long for the higher ones */
+    if (status == QDOT_OK && *why && orders.most > to) { /* the code is too long for the higher orders */
         qdot_taylor_text_give(c->text);
         c->text = NULL;
         *why = NULL;

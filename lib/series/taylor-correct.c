@@ -11,7 +11,7 @@ struct qdot_taylor_change {
     uint32_t to, x, y, z;
     double a, b, c;
     const qdot_taylor_step *step;
-    bool second; /* of two rows of the step */
+    bool second; /* it changes the second of the two rows that the step writes */
     bool rate;   /* its slope is the step's c times the order */
     bool varies; /* slopes are made of rows that move */
     int lead;

@@ -61,7 +61,7 @@ struct qdot_taylor_newest {
 typedef void qdot_taylor_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
 
 struct qdot_taylor {
-    const qdot_motion *motion; /* it is of, borrowed; NULL: of a tape */
+    const qdot_motion *motion; /* the motion that it computes, borrowed; NULL: a tape */
     double unit;               /* the unit of time of the present step */
     const qdot_series_kernels *kernels;
     qdot_taylor_function *const (*functions)[QDOT_T_COUNT]; /* by order, recurrence */
@@ -80,7 +80,7 @@ struct qdot_taylor {
     qdot_taylor_block *blocks; /* [n_blocks] */
     size_t n_blocks;
     const double **negated; /* [rows] of K: the row that a row is the negative of, or NULL */
-    struct qdot_taylor_products *products; /* of the blocks (taylor-products.h); NULL: none */
+    struct qdot_taylor_products *products; /* products for the blocks of equations (taylor-products.h); NULL: none */
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
     struct qdot_taylor_unknown *unknowns; /* [of the motion, solved] */

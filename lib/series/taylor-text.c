@@ -137,7 +137,7 @@ shelf_find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
         if (found)
             atomic_fetch_add(&text->users, 1);
         if (!atomic_compare_exchange_strong(shelf + i, &none, text))
-            qdot_taylor_text_give(text); /* another one has come meanwhile */
+            qdot_taylor_text_give(text); /* another thread has stored the same code meanwhile */
         if (found)
             return text;
     }

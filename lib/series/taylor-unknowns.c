@@ -72,7 +72,7 @@ taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *
         e.j -= first;
         count_coupling(m, &e, is_explicit, rows);
     }
-    for (size_t i = 0; i < n; i++) { /* how many become where they begin */
+    for (size_t i = 0; i < n; i++) { /* turn counts into starting positions */
         const size_t of_row = rows[i];
 
         rows[i] = count;

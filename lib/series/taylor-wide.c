@@ -45,7 +45,7 @@ struct qdot_taylor_wide {
     size_t *lane;               /* [rows] */
     size_t *input;              /* [inputs] the input that each lane holds; NO_LANE: none */
     size_t constant;            /* the first lane that is 0 beyond order 0, itself 0 there; */
-    size_t changing;            /* behind the last of them */
+    size_t changing;            /* index after the last of them */
     qdot_vec(group) groups;
     double *allocated, *X, *N; /* [orders x width], [width] */
     double convolutions;

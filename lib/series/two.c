@@ -8,7 +8,7 @@
 
 struct qdot_tape_two {
     const qdot_program *program;
-    const qdot_motion *motion; /* it is of; NULL: of a tape, whose program is */
+    const qdot_motion *motion; /* the motion that it computes; NULL: the tape whose program is */
     qdot_program own;
     double unit;
     qdot_two inverse[QDOT_TWO_MOST + 3]; /* 1/k */

@@ -113,7 +113,7 @@ choose_offset(qdot_figure_axis *a)
     int power;
 
     snprintf(number, sizeof number, "%.*e", (int)fmin(fmax(digits, 0), 16), middle);
-    a->offset = strtod(number, NULL); /* in the same locale */
+    a->offset = strtod(number, NULL); /* in the locale in which it was printed */
     print_number(number, sizeof number, "%.*e", (int)fmin(fmax(digits, 0), 16), middle);
     exponent = strchr(number, 'e');
     power = atoi(exponent + 1);
@@ -393,7 +393,7 @@ void
 qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *a,
                            const qdot_figure_label *label)
 {
-    const bool above = name == 'y' && a->offset_text[0] != '\0'; /* it is long */
+    const bool above = name == 'y' && a->offset_text[0] != '\0'; /* the text of the offset is long */
 
     if (name == 'y')
         qdot_text_add(script, "unset label 1\n");
@@ -426,7 +426,7 @@ qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axe
         qdot_text_add(script, i > 0 ? ", first " : "");
         qdot_text_double(script, part * round(at[k][i] / part), 6);
     }
-    if (k == 1) /* behind the numbers */
+    if (k == 1) /* after the numbers of the axis */
         qdot_text_format(script, " offset %.1f,-1.7 left\n", 2.4 + 0.8 * (double)width);
     else
         qdot_text_add(script, k == 0 ? " offset -3,-2.6 right\n" : " offset 0,1.2 center\n");

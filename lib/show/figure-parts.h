@@ -115,7 +115,7 @@ typedef struct {
     double line;  /* width of a line, in its units */
     double point; /* its unit of letters in a point */
     double lead;  /* height of a line of text in that of its letters */
-    const char *before, *behind; /* the terminal; behind a length */
+    const char *before, *behind; /* text before the terminal's name, and after a length */
     const char *end;             /* what a whole image ends with, but for blanks */
 } qdot_figure_kind;
 

@@ -419,7 +419,7 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                              point ? "" : "lines", marks[look % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
-        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* not to hide each other */
+        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* so that many marks do not hide each other */
             qdot_text_format(d->script, " pointinterval %zu",
                              panel->curves[k].rows / (MANY_MARKS / 2));
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", qdot_figure_colour(look));

@@ -15,7 +15,7 @@ typedef struct {
     unsigned char *looks; /* of each cell: 1 + the look of the curve drawn there last */
     size_t look;          /* of the present curve */
     bool solid;           /* without gaps: marks differ */
-    long last[2], along;  /* its last dot, and how many there were before */
+    long last[2], along;  /* the last dot of a curve, and the number of dots before it */
 } grid;
 
 /* Curves differ in dashes; in ASCII in their marks; on a terminal with colours in these: blue, red, green, magenta. */

@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
     const char *name;
     piece line; /* without what ends it, and without its comment */
-    size_t number; /* of the line */
+    size_t number; /* number of the line, from 1 */
     char separator; /* ',', ';' or ' ', blanks and tabs; 0: not known yet */
     qdot_vec(double) values;
     qdot_vec(qdot_csv_place) places;

@@ -72,7 +72,7 @@ hdf5_load(const char *path, qdot_text *out)
 
 /* An iterator over the messages of an HDF5 object header. */
 typedef struct {
-    const unsigned char *at, *end; /* the next one */
+    const unsigned char *at, *end; /* the next message, and the end of all */
     int type;
     const unsigned char *body;
     size_t size;

@@ -17,7 +17,7 @@ html_add_text(const char *text, qdot_text *out)
 
 /* The differences between a table within a page and a page of its own. */
 typedef struct {
-    bool names; /* of columns, not their heads */
+    bool names; /* the names of columns are shown, not their heads */
     int digits;
     const char *none;
 } html_style;

@@ -61,7 +61,7 @@ typedef struct {
 
 struct qdot_angles {
     qdot_pool *pool;
-    long call, addition; /* what these cost */
+    long call, addition; /* costs of a call and of an addition formula */
     qdot_vec(part) parts;
     qdot_vec(argument) arguments;
     qdot_vec(base) bases;
@@ -300,7 +300,7 @@ static long
 argument_set_composed(qdot_angles *a, argument *arg, bool composed)
 {
     long change = composed ? -a->call : a->call;
-    const uint32_t before = composed ? 0 : 1; /* uses where this one alone matters */
+    const uint32_t before = composed ? 0 : 1; /* number of uses from which a base on its own pays */
 
     if (arg->composed == composed)
         return 0;

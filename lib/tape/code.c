@@ -134,7 +134,7 @@ qdot_code_power(qdot_code *code, qdot_value a, long n)
 {
     const unsigned char *chain = code->chain;
     struct {
-        int power;        /* raise to it; 0: */
+        int power;        /* raise to this power; 0: none */
         qdot_value times; /* multiply by this */
     } todo[2 * QDOT_CODE_MOST_POWER];
     int depth = 0;

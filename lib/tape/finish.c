@@ -127,9 +127,9 @@ find_last(finish *f)
 }
 
 typedef struct {
-    uint32_t *free; /* places that are free again */
+    uint32_t *free; /* places whose values are no longer needed */
     size_t n_free;
-    uint32_t next; /* the first never used */
+    uint32_t next; /* the first place that was never used */
 } places;
 
 static uint32_t

@@ -176,7 +176,7 @@ typedef struct {
     qdot_expr rest; /* other factors */
     qdot_expr left; /* e^left of those that are exponentials */
     qdot_expr sum;  /* a sum over the denominators; nil: none */
-    qdot_expr from; /* the factor that it is */
+    qdot_expr from; /* the factor from which these parts were taken */
     denominator under[MOST];
     size_t n;
 } quotients;

@@ -38,7 +38,7 @@ typedef struct {
     qdot_walk walk;
     known *known; /* [walk.n] */
     qdot_code code;
-    bool series; /* are to run through it */
+    bool series; /* Taylor series will be computed with this tape */
     qdot_angles *angles;
 
     /* Work space of the function lower_sum: */

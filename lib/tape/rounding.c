@@ -296,7 +296,7 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
 
         if (m->errors[x] == 0 || fabs(slope_times(slope[k], m->errors[x])) < counts * error || !isfinite(units))
             continue;
-        if (up == 0) /* downwards, where the factor may be nearer to 1 */
+        if (up == 0) /* round down, since the factor may be nearer to 1 */
             up = -way;
         m->count += *side == 0;
         if (*side ? *side > 0 : up == way)

@@ -140,7 +140,7 @@ qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
         if (session->output->page == NULL || session->output->style != QDOT_LATEX)
             return qdot_answer_text(session, name, words);
         s = qdot_sheet_begin(session);
-        qdot_sheet_open(&s); /* of latex(...) */
+        qdot_sheet_open(&s); /* the text that latex(...) gives */
         qdot_formula_add_latex(&s.formula, s.at, words, strlen(words));
         return qdot_sheet_end(&s, name, QDOT_OK);
     }
@@ -587,7 +587,7 @@ error_json(qdot_session *session, const qdot_source *source, size_t at,
 void
 qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
 {
-    qdot_error error = *qdot_last_error(); /* what follows may fail in its turn */
+    qdot_error error = *qdot_last_error(); /* copied, since the statements below may fail too */
     const bool colours = (session->output->colours & QDOT_COLOURS_ERRORS) != 0;
     qdot_text text = {0};
 

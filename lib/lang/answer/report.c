@@ -53,7 +53,7 @@ typedef struct {
     qdot_expr symbol;
     double value, error; /* relative to size */
     double size;         /* max(scale, |value|) */
-    size_t exact;        /* its place in report->exact */
+    size_t exact;        /* the index of its exact value in report->exact */
     bool first;          /* the first number of a line */
 } end_number;
 

@@ -19,7 +19,7 @@ name_row(const qdot_row_table *table, size_t k, qdot_text *text)
     for (size_t i = 0; i < table->n_swept; i++) {
         const double x = table->values[k * table->n + i];
 
-        if (isnan(x)) /* there is no time where a run has failed */
+        if (isnan(x)) /* a failed run has no time */
             continue;
         qdot_text_format(text, "%s%s = ", i > 0 ? ", " : "", table->labels[i]);
         qdot_number_text(text, x, 0);

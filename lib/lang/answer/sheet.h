@@ -30,13 +30,13 @@ typedef struct {
     qdot_sheet_form form;
     qdot_style style; /* of its formulas, where they become text */
     qdot_notation_kind notation;
-    struct qdot_formula_page *page; /* that its lines are of; NULL: a page of equations of the present statement */
+    struct qdot_formula_page *page; /* the page to which its lines belong; NULL: equations of the present statement */
     qdot_formula formula;
     qdot_formula_id lines, line, at; /* all lines, children of one node; the present one; where parts are appended */
     size_t columns, rows;            /* of the terminal */
     bool broken;                     /* its lines of text are broken to the width of a terminal */
     bool whole;                      /* never cut where it is higher than the terminal */
-    uint64_t operations;             /* of the one formula in it; 0: not said where it is cut */
+    uint64_t operations;             /* operations of its single formula, shown where it is cut; 0: not shown */
 } qdot_sheet;
 
 /* Begin an answer, whose formulas may be drawn over several rows. */

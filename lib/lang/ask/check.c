@@ -224,7 +224,7 @@ typedef struct {
     qdot_expr left, right;
     comparison how;
     double tol;
-    qdot_passed passed; /* on the way to the sides */
+    qdot_passed passed; /* subexpressions that were evaluated while the sides were read */
 } question;
 
 /* Split a relation such as `check (a = b)`, or a name that stands for one, into its two sides. */
@@ -333,7 +333,7 @@ look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_
     for (size_t i = 0; i < known->n_conditions && status == QDOT_OK; i++)
         status = qdot_vec_push(&conditions,
                                qdot_assumed_replace(session, f, known->conditions[i]));
-    for (size_t i = 0; i < f->from.n && status == QDOT_OK; i++) { /* bounds of what is replaced */
+    for (size_t i = 0; i < f->from.n && status == QDOT_OK; i++) { /* bounds of the symbols that the conditions replace */
         qdot_symbol s = *qdot_expr_symbol(pool, f->from.at[i]);
 
         if (s.lo != QDOT_NIL)

@@ -28,7 +28,7 @@ typedef struct {
     bool linear;          /* indices in brackets */
     qdot_expr value, over;
     uint32_t rank, n;
-    int mirror; /* of the last two indices exchanged: 1 the same, -1 the opposite, 0 neither */
+    int mirror; /* symmetry in the last two indices: 1 symmetric, -1 antisymmetric, 0 neither */
     bool zeros; /* not all components are listed */
     qdot_sheet sheet;
 } tensor;

@@ -230,7 +230,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         qdot_sheet_words(&sheet, ", ");
     }
     if (n == 0 && e->range == QDOT_NIL && !session->output->json)
-        qdot_sheet_words(&sheet, "everywhere, "); /* or wherever it exists */
+        qdot_sheet_words(&sheet, "everywhere, "); /* every position is one, under the conditions that follow */
     if (status == QDOT_OK)
         status = print_stability(&sheet, e);
     return qdot_sheet_end(&sheet, name, status);

@@ -16,11 +16,11 @@ typedef struct {
     qdot_session *session;
     const qdot_token *name, *equals, *behind, *end; /* behind: the word `for`, or `end` */
     qdot_text right, loop; /* " for k = 1..3", or nothing */
-    qdot_text line;        /* what was meant */
+    qdot_text line;        /* the line that the user probably meant */
     bool moves;            /* the right side holds coordinates, positions or the time */
     bool accelerations;
-    bool chained; /* it is an equation */
-    bool primed;  /* it holds velocities */
+    bool chained; /* the right side is itself an equation: a = b = c */
+    bool primed;  /* the name on the left has primes */
 } qdot_assignment;
 
 /* The number of components if the right side is a vector (a, b); 1 if it is none. */

@@ -8,7 +8,7 @@
 typedef struct {
     char *name;
     const qdot_token *behind; /* the token after its range */
-    bool listed;              /* values from a list, else at..last */
+    bool listed;              /* the index runs over a list; otherwise over at..last */
     long at, last;
     qdot_vec(qdot_expr) values;
     size_t next;
@@ -18,7 +18,7 @@ typedef struct {
 typedef struct {
     qdot_session *session;
     const qdot_source *source;
-    const qdot_token *clause, *end; /* the first token behind `for`; that behind the clause */
+    const qdot_token *clause, *end; /* the first token after `for`; the token after the clause */
     qdot_vec(
         qdot_loop_index) indices; /* outermost first; each is bound in session->names */
     size_t error_at;

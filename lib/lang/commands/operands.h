@@ -11,7 +11,7 @@ typedef struct {
     qdot_run *run;             /* NULL: the latest */
     bool mixed;                /* of several runs: `run` is the first of them */
     bool vector;               /* a path */
-    qdot_runs_columns columns; /* its components */
+    qdot_runs_columns columns; /* the columns of its components */
 } qdot_operand;
 
 typedef qdot_vec(qdot_operand) qdot_operands;

@@ -22,7 +22,7 @@ static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACC
 /* Names of built-in values that users define by mistake, with the statement they probably meant. */
 static const struct {
     const char *name;
-    const char *statement; /* its word; NULL: none takes this value, which follows from masses */
+    const char *statement; /* the statement that sets the value; NULL: it follows from masses */
 } names[] = {
     {"V", "potential"},
     {"potential_energy", "potential"},

@@ -133,7 +133,7 @@ qdot_assumed_motion(qdot_session *session, qdot_assumed *f)
 {
     qdot_pool *pool = session->pool;
     qdot_expr accels = qdot_mech_accels(session->scene);
-    bool unique = true; /* the multipliers; else their equations stand */
+    bool unique = true; /* the multipliers are unique; otherwise their equations are kept */
 
     f->motion = true;
     QDOT_TRY(qdot_pool_check(pool));

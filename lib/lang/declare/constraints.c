@@ -195,7 +195,7 @@ qdot_constraints_tell_disguise(qdot_session *session, size_t before)
             qdot_expr_size(session->pool, c->f) > MOST_OPERATIONS)
             continue;
         status = qdot_mech_integrable(scene, k, true, &i);
-        if (status == QDOT_EINVAL) /* not linear in the velocities */
+        if (status == QDOT_EINVAL) /* the constraint is not linear in the velocities */
             continue;
         QDOT_TRY(status);
         if (i.decision.verdict != QDOT_PROVED)

@@ -43,12 +43,12 @@ typedef struct {
     qdot_vec(expressions) effects; /* these values as they are exported */
     qdot_vec(int) orders;
     qdot_vec(qdot_export_surface) surface;
-    qdot_vec(char *) texts; /* of the surfaces, of the ends of domains */
+    qdot_vec(char *) texts; /* texts of the switching surfaces and of the ends of domains */
     names q, lambda, values;
     qdot_vec(double) start;
     bool massless; /* some coordinate has no mass: a velocity of the start may follow from its equation */
     qdot_vec(qdot_export_event) event;
-    qdot_vec(size_t) targets; /* of all events */
+    qdot_vec(size_t) targets; /* the symbols that all events set */
 } description;
 
 /* --- expressions to be exported --------------------------------------------------------- */
@@ -473,7 +473,7 @@ start_of_run(description *d, qdot_run *run)
     }
     d->x.t0 = r->t0;
     d->x.t1 = qdot_run_requested_end(run);
-    d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* of a lower order */
+    d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* the exported method has a lower order */
     return status;
 }
 

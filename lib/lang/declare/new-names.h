@@ -10,10 +10,10 @@
 typedef struct {
     const char *name;
     const qdot_token *start;
-    qdot_expr lo, hi; /* nil: none */
+    qdot_expr lo, hi; /* nil: not declared */
     bool lo_open, hi_open;
-    bool own;        /* the domain was said for this name or spread to it */
-    qdot_expr value; /* nil: none */
+    bool own;        /* the domain was declared for this name, or spread back to it */
+    qdot_expr value; /* nil: not declared */
 } qdot_new_name;
 
 typedef qdot_vec(qdot_new_name) qdot_new_names;

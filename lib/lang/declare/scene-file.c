@@ -93,7 +93,7 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
               its_over == over;
     }
     qdot_source_free(source);
-    (void)!qdot_pool_check(s->pool); /* a text without meaning here is no failure */
+    (void)!qdot_pool_check(s->pool); /* a text that cannot be evaluated here is no error */
     return qdot_grave(status);
 }
 
@@ -282,7 +282,7 @@ may_overwrite(const char *path, const char *header)
     size_t n;
 
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode) || (file = fopen(path, "rbe")) == NULL)
-        return QDOT_OK; /* writing tells why it cannot be */
+        return QDOT_OK; /* the attempt to write will report the reason */
     n = fread(begin, 1, length < sizeof begin ? length : sizeof begin - 1, file);
     fclose(file);
     if (n == 0 || strcmp(begin, header) == 0)

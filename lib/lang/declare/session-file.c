@@ -25,8 +25,8 @@ typedef struct {
     qdot_text *out, *lost;
     qdot_vec(qdot_expr) symbols, values;
     bool exactly;
-    bool runs; /* they are written */
-    size_t all; /* how many there are, with those of an earlier scene, which stand behind the others */
+    bool runs; /* runs are written, too */
+    size_t all; /* the number of runs, including those of an earlier scene, which come last */
 } writer;
 
 static qdot_status

@@ -7,7 +7,7 @@
 
 /* Options of the whole figure: to "FILE", size W, H, keep. */
 typedef struct {
-    const char *path; /* NULL: not said */
+    const char *path; /* NULL: not given */
     double width, height;
     bool keep;
 } qdot_figure_choice;

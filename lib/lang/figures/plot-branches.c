@@ -109,7 +109,7 @@ qdot_status
 qdot_plot_branches_draw(const qdot_row_table *t, qdot_branch_drawing *d)
 {
     const size_t per = KINDS + MOST_TYPES, room = 2 * per * (3 * t->rows + 1);
-    const size_t all = t->drawn; /* behind branch, p */
+    const size_t all = t->drawn; /* columns after branch and parameter */
 
     d->n = all < MOST_PANELS ? all : MOST_PANELS;
     d->panels = qdot_calloc(d->n + 1, sizeof *d->panels);

@@ -94,7 +94,7 @@ typedef struct {
     qdot_text *titles; /* [n] */
     axis axis[2];
     size_t n;
-    qdot_branch_drawing branches; /* in place of all that */
+    qdot_branch_drawing branches; /* used for branches, in place of the members above */
 } drawing;
 
 static double

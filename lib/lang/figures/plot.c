@@ -241,7 +241,7 @@ read_panels(qdot_record *r, const qdot_plot_runs *runs, qdot_figure_choice *figu
     qdot_plot_said said = {.record = r};
 
     for (said.to = r->parts.at; said.to < end; ) {
-        said.from = said.to + (said.to == r->parts.at ? 1 : 2); /* behind `plot`, `| plot` */
+        said.from = said.to + (said.to == r->parts.at ? 1 : 2); /* the token after `plot` or `| plot` */
         for (said.to = said.from; said.to < end && !qdot_filled_is(said.to, "|");)
             said.to++;
         QDOT_TRY(read_panel(&said, runs, figure, all));

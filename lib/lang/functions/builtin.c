@@ -220,7 +220,7 @@ OF_FIELD(laplacian)
 
 typedef struct {
     qdot_session *session;
-    qdot_expr f, g; /* g nil: the one that is mapped */
+    qdot_expr f, g; /* the two functions; g nil: the vector whose components are mapped */
 } bracket;
 
 static qdot_expr

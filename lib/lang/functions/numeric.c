@@ -16,7 +16,7 @@ enum { MOST_DIGITS = 100000, DIGITS = 16 };
 typedef struct {
     qdot_session *session;
     int digits;
-    bool plain; /* the digits were not said */
+    bool plain; /* no number of digits was given */
     qdot_status status;
 } order;
 

@@ -35,7 +35,7 @@ typedef struct {
     size_t n;
     qdot_expr name[MOST], x[MOST]; /* as it was written; the symbol instead */
     qdot_expr f[MOST], F[MOST]; /* left - right; numbers of runs in it as exact numbers */
-    bool measured;              /* there are such */
+    bool measured;              /* the equations contain numbers of runs */
 } question;
 
 /* --- equations, unknowns and values ------------------------------------------------------------------ */
@@ -356,7 +356,7 @@ narrow_end(const question *q, qdot_expr declared, bool open, bool upper, qdot_ex
     *end_open = false;
     if (declared == QDOT_NIL)
         return QDOT_OK;
-    if (constant_of(q, declared, &e) != QDOT_OK) /* it depends on what has no value */
+    if (constant_of(q, declared, &e) != QDOT_OK) /* the end depends on a symbol without value */
         return QDOT_OK;
     QDOT_TRY(double_of(q, e, &x));
     QDOT_TRY(double_of(q, *end, &y));

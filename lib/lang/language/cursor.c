@@ -299,7 +299,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
     }
     if (strncmp(what, "a name", 6) == 0 || strncmp(what, "the name", 8) == 0 ||
         strncmp(what, "a text", 6) == 0)
-        return found(what, t); /* behind an option word, not an operand */
+        return found(what, t); /* after an option word, not after an operand */
     if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
         !qdot_cursor_knows(c->session, t->text)) {
         found(what, t); /* `2 tol` among words is no product */

@@ -62,7 +62,7 @@ sum(qdot_machine *m, size_t n)
 static qdot_status
 product(qdot_machine *m, size_t n)
 {
-    enum { LONG = 16 }; /* from here on at once */
+    enum { LONG = 16 }; /* number of factors from which they are multiplied in one step */
     const qdot_slot *s = qdot_machine_top(m, n);
     qdot_expr value;
     bool at_once;

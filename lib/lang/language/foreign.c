@@ -11,7 +11,7 @@ typedef enum { WHOLE, BEGIN, PART } extent;
 
 typedef struct {
     extent extent;
-    bool say; /* the hint as it stands, not "write LINE" */
+    bool say; /* the hint is printed as it is, without "write" */
     const char *pattern, *message, *line;
 } form;
 

@@ -11,14 +11,14 @@ typedef struct {
     qdot_expr value;
     qdot_expr over;         /* coordinates that index its entries, or nil */
     const char *run;        /* it refers to this run, or NULL */
-    const char *label;      /* it is the position of this particle or body, or NULL */
+    const char *label;      /* the particle or body whose position it is, or NULL */
     const qdot_token *sign; /* the + - * / before it, or NULL for the first */
 } qdot_slot;
 
 /* A sum(...) that is being evaluated. */
 typedef struct {
     const char *index;
-    const qdot_token *place; /* where it stands */
+    const qdot_token *place; /* its place in the text */
     bool varies;             /* terms depend on more than the index (language/partial-sum) */
     long first, k, last;
     uint32_t resume; /* code after it */
@@ -30,7 +30,7 @@ typedef struct {
 /* The data that a call of a function of type QDOT_BUILTIN_PASSED records while its arguments are evaluated. */
 typedef struct qdot_passed_frame {
     qdot_passed passed;
-    qdot_passed *outer; /* that of the session before */
+    qdot_passed *outer; /* the record that the session had before */
     struct qdot_passed_frame *below;
 } qdot_passed_frame;
 

@@ -74,7 +74,7 @@ is_lasting(const qdot_session *session, const qdot_postfix *code, qdot_expr valu
     case QDOT_POSTFIX_INDEX:
     case QDOT_POSTFIX_RANGE:
     case QDOT_POSTFIX_MEMBER: return false;
-    default: return true; /* made of the operands */
+    default: return true; /* the value depends on the operands only */
     }
 }
 

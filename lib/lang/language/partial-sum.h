@@ -15,7 +15,7 @@
 #include "lang/source/token.h"
 
 typedef struct qdot_partial_sum {
-    const qdot_token *place; /* its index, where it stands in the text */
+    const qdot_token *place; /* the token of its index */
     long first, last;
     qdot_expr value;
 } qdot_partial_sum;

@@ -469,7 +469,7 @@ qdot_pattern_write(const qdot_cursor *c, const char *line, const qdot_pattern_ma
             line = add_placeholder(c, line, m, out);
         else if (*line == ' ' &&
                  (line[1] == '\0' || (out->n > 0 && out->at[out->n - 1] == ' ')))
-            line++; /* beside an empty text */
+            line++; /* skip a blank beside a placeholder that is empty */
         else
             qdot_text_char(out, *line++);
     }

@@ -12,7 +12,7 @@
 enum { QDOT_PATTERN_HELD = 9 };
 
 typedef struct {
-    const qdot_token *from, *to; /* what matched; `to` is behind its last token */
+    const qdot_token *from, *to; /* the matching tokens; `to` is after the last one */
     const qdot_token *place;     /* where the caret belongs */
     size_t n;                    /* placeholders */
     struct {

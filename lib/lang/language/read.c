@@ -95,7 +95,7 @@ evaluate_program(qdot_cursor *c, const qdot_compiled *program, course along, qdo
 {
     c->error_at = program->from->start;
     QDOT_TRY(qdot_evaluate(c, &program->code, value, over, run));
-    if (c->session->evaluation->declares) { /* a scene is declared in velocities, with exact numbers */
+    if (c->session->evaluation->declares) { /* in declarations momenta become velocities, and numbers are exact */
         *value = qdot_momenta_to_velocities(c->session, qdot_measured_as_rationals(c->session, *value));
         return qdot_value_kind_check(c->session->pool, *value);
     }

@@ -432,7 +432,7 @@ is_variable(const qdot_token *first, const qdot_token *token)
     if (!qdot_token_is_word(token, "p") || !qdot_token_is(token + 1, "[") || token == first ||
         !qdot_token_is(token - 1, ","))
         return false;
-    while (k > first && depth <= 0) { /* the bracket that is open at the token */
+    while (k > first && depth <= 0) { /* find the bracket that is open at the token */
         k--;
         depth += qdot_token_bracket(k);
     }

@@ -120,7 +120,7 @@ write_facts(qdot_session *session, qdot_run *run, type type, qdot_table *table, 
         status = add_parameters(session, run, &parameters);
     table->n_facts = known.n;
     table->facts = known.at;
-    if (run != NULL) { /* else the caller's */
+    if (run != NULL) { /* without a run the parameters are the caller's */
         table->n_parameters = parameters.n;
         table->parameters = parameters.at;
     }

@@ -17,7 +17,7 @@ typedef struct {
     const char *title;
     const char *abscissa, *ordinate; /* labels */
     const qdot_text *note;
-    const char *none; /* to be said where no point can be drawn */
+    const char *none; /* the message if no point can be drawn */
     size_t n;
     const qdot_error_point *points; /* [n] those without an error or a time are left out */
     const qdot_figure_choice *figure;
@@ -38,7 +38,7 @@ typedef struct {
     bool interrupted;
     qdot_status (*table)(const void *study, qdot_table *t); /* fills a table {0} for people */
     void (*words)(const void *study, qdot_text *out);       /* below it */
-    qdot_status (*data)(const void *study, qdot_table *t);  /* the same for .csv */
+    qdot_status (*data)(const void *study, qdot_table *t);  /* fill the table for a .csv file */
     qdot_status (*rows)(qdot_session *session, const void *study); /* writes the rows as JSON */
     qdot_error_time figure; /* without n, points, note, which these write: */
     size_t most_points;

@@ -91,7 +91,7 @@ again_begin(void *user)
     if (again_read_run(a) == QDOT_OK && again_find_run(a) == QDOT_OK)
         QDOT_TRY(is_repeatable(a, latest, &is));
     else
-        QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* a name that the text holds has gone */
+        QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* a name in the text is no longer declared */
     if (is)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "the scene, its values or its start are no longer those of `%.200s`, so it cannot "

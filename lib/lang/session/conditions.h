@@ -15,7 +15,7 @@ typedef struct {
     qdot_vec(bool) q_named, v_named;
     bool exactly;
     qdot_expr t0, t1;
-    qdot_expr said[2]; /* the limits as they were said; nil: t0, t1 */
+    qdot_expr said[2]; /* the limits as they were written; nil: t0, t1 */
 } qdot_conditions;
 
 /* Copy the conditions of a request to *conditions, which is {0}; clear it in any case. QDOT_ENOMEM. */

@@ -17,7 +17,7 @@ typedef struct {
 /* A parameter or coordinate with a value for the present pass of a loop (lang/session/held). */
 typedef struct {
     qdot_expr symbol, value;
-    qdot_expr before; /* its value of `set` or `start`; nil: none */
+    qdot_expr before; /* its earlier value from `set` or `start`; nil: none */
 } qdot_held;
 
 typedef struct qdot_evaluation {

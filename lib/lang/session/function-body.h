@@ -15,7 +15,7 @@ typedef struct qdot_function_body {
 /* A function body: the tokens [from, to) of a source, with reference count 1; NULL if out of memory. */
 qdot_function_body *qdot_function_body_new(const qdot_source *source, const qdot_token *from,
                                            const qdot_token *to);
-qdot_function_body *qdot_function_body_keep(qdot_function_body *body); /* one use more; NULL: NULL */
-void qdot_function_body_release(qdot_function_body *body);    /* one use less; the last frees it */
+qdot_function_body *qdot_function_body_keep(qdot_function_body *body); /* count one more use; NULL gives NULL */
+void qdot_function_body_release(qdot_function_body *body);    /* count one use less; the last one frees it */
 
 #endif

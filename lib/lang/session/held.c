@@ -56,7 +56,7 @@ qdot_held_end(qdot_session *session)
     n = starts ? session->values->start_symbols.n : session->values->set_symbols.n;
     i = index_of_symbol(starts ? session->values->start_symbols.at : session->values->set_symbols.at, n,
                         held.symbol);
-    if (i == n) /* taken out by the statement, `reset start` */
+    if (i == n) /* the statement has removed it, as `reset start` does */
         return;
     if (held.before != QDOT_NIL) {
         *(starts ? &session->values->start_values.at[i] : &session->values->set_values.at[i]) = held.before;

@@ -12,7 +12,7 @@ typedef struct {
     double value, error; /* error NaN: unknown */
     int digits;          /* > 0: of a run with `digits`, whose number is */
     qdot_expr exact;     /* ... this rational; digits 0: nil, or the value that `set` has of it */
-    bool plain;          /* without requested digits: a number with --json, not a string */
+    bool plain;          /* no digits were requested: with --json it is a number, not a string */
     qdot_origin origin;
 } qdot_measured;
 

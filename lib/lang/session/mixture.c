@@ -14,11 +14,11 @@
 
 struct qdot_mixture {
     qdot_expr e;                       /* with the values of `set` */
-    qdot_vec(qdot_run *) runs;         /* each once */
+    qdot_vec(qdot_run *) runs;         /* every run once */
     qdot_vec(qdot_run_member) members; /* also the latest run, if something that moves names no run */
     qdot_vec(qdot_expr) symbols;       /* of the members */
-    qdot_tape *tape;                   /* from the symbols */
-    size_t room;                 /* in values and errors */
+    qdot_tape *tape;                   /* the tape that computes e from the symbols */
+    size_t room;                 /* allocated length of values and errors */
     double *values, *errors;     /* [symbols x times] */
     double *in;                  /* [symbols], work space of the tape */
 };

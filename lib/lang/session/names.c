@@ -8,10 +8,10 @@
 #include "base/spelling.h"
 
 typedef struct entry {
-    qdot_name name; /* first: who keeps a name keeps its entry */
+    qdot_name name; /* the first member, so that a pointer to the name is one to its entry */
     unsigned uses;
     uint32_t hash;
-    size_t order; /* where it stood when last put in order */
+    size_t order; /* its place when the names were last sorted */
     struct entry *next;
 } entry;
 
@@ -31,7 +31,7 @@ struct qdot_names {
     qdot_vec(entry *) order;
     qdot_vec(qdot_name) bound; /* innermost last */
     size_t seen_from;          /* those before it are hidden */
-    size_t settled;            /* of `order`: not touched since */
+    size_t settled;            /* entries of `order` that have not changed since */
 };
 
 static uint32_t
@@ -551,7 +551,7 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
         size_t length = family_length(e->name.name);
 
         e->order = i;
-        names->order.at[i] = e; /* as the saved state has at least as many */
+        names->order.at[i] = e; /* the saved state has at least as many names */
         put_in_slot(names, e);
         if (length > 0)
             find_family(names, e->name.name, length)->members++;

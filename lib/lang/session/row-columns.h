@@ -15,7 +15,7 @@ typedef struct {
     qdot_text *labels; /* [n_labels] of errors */
     size_t n_labels;
     qdot_table_fact *parameters;
-    double *numbers; /* of the rows, from 0 */
+    double *numbers; /* row numbers, from 0 */
     size_t *order;   /* the rows that are done */
 } qdot_row_columns;
 

@@ -20,7 +20,7 @@ typedef struct qdot_row_table {
     bool measured;           /* rows are measured ones: drawn as points over the first column */
     qdot_function_body *members; /* of a sweep: what it ran over, and its run, up to the colon */
     char **labels;           /* [n] */
-    size_t n_parameters;     /* those that had one value in all rows: */
+    size_t n_parameters;     /* parameters that had the same value in all rows */
     char **parameters;       /* [n_parameters] their names */
     double *parameter_values; /* [n_parameters] */
     size_t rows, room;

@@ -107,7 +107,7 @@ qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, si
             continue;
         value = qdot_session_bind(session, name->value);
         status = qdot_pool_check(session->pool);
-        if (qdot_grave(status) == QDOT_OK && status != QDOT_OK) { /* it has no value */
+        if (qdot_grave(status) == QDOT_OK && status != QDOT_OK) { /* the parameter has no value */
             status = QDOT_OK;
             continue;
         }

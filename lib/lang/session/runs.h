@@ -12,7 +12,7 @@ typedef struct {
     char *name; /* "a", "run1" */
     char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
     qdot_run *run;
-    qdot_conditions *conditions; /* that it was made under; NULL: nobody told */
+    qdot_conditions *conditions; /* values under which the run was made; NULL: not recorded */
     unsigned *uses;
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* give up one use; the last one frees it */

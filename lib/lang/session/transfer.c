@@ -30,7 +30,7 @@ carry_symbol(const qdot_pool *from, qdot_pool *to, qdot_expr e)
     made = qdot_symbol_get(to, s.class, s.name);
     if (made == QDOT_NIL || qdot_expr_symbol(to, made)->lo != QDOT_NIL ||
         qdot_expr_symbol(to, made)->hi != QDOT_NIL)
-        return made; /* it was there */
+        return made; /* the target pool has the symbol already */
     if (s.lo != QDOT_NIL)
         lo = qdot_transfer(from, to, s.lo);
     if (s.hi != QDOT_NIL)

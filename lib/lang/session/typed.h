@@ -14,7 +14,7 @@
 #include "lang/session/parts.h"
 
 typedef struct qdot_typed {
-    size_t texts;   /* being carried out, one within the other */
+    size_t texts;   /* number of nested texts being carried out */
     size_t number;  /* number of the present statement; 0: there was none yet */
     uint32_t line;  /* the line where the statement begins, for JSON */
     bool under_way;

@@ -10,7 +10,7 @@
 #include "lang/session/parts.h"
 #include "mech/scene/scene.h"
 
-enum { /* behind those of the scene */
+enum { /* numbered after the parts of the scene */
     QDOT_UNDO_SET_SYMBOLS = QDOT_SCENE_PARTS,
     QDOT_UNDO_SET_VALUES,
     QDOT_UNDO_START_SYMBOLS,

@@ -29,8 +29,8 @@ typedef struct {
     uint64_t version[2]; /* of the scene */
     qdot_vec(change) changes;
     qdot_undo_single single[2];
-    size_t history[2];   /* answers given */
-    size_t bytes;        /* what it keeps that nobody else does, about */
+    size_t history[2];   /* numbers of answers before and after the statement */
+    size_t bytes;        /* approximate size of what only this record keeps */
     qdot_session *other; /* of `reset`: the session on the other side of it */
     qdot_undo_state *there;        /* ... and its qdot_undo_state */
 } record;
@@ -43,9 +43,9 @@ struct qdot_undo {
     records done, undone;
     size_t floor;     /* records that the text under way cannot take back */
     bool moved;       /* the statement under way is `undo` or `redo` */
-    size_t under_way; /* statements, within one another */
-    size_t bytes;     /* of `done` */
-    uint64_t version; /* of the scene, as the statement before left it */
+    size_t under_way; /* number of nested statements in progress */
+    size_t bytes;     /* total size of the records in `done` */
+    uint64_t version; /* version of the scene after the previous statement */
 };
 
 /* Whether a part changes with every answer, as the history of answers does. */

@@ -14,7 +14,7 @@ typedef struct {
 typedef struct qdot_values {
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
-    qdot_vec(qdot_expr) start_open; /* of these, while `find` changes others: constraints may change them */
+    qdot_vec(qdot_expr) start_open; /* start values that constraints may change while `find` varies others */
     qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
     qdot_vec(qdot_start_error) start_errors; /* of the latest `start RUN`; one counts while the start has that value */
     bool start_exactly; /* the latest `start` had `exactly` */

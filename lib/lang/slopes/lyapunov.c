@@ -27,7 +27,7 @@ QDOT_STATEMENT(lyapunov) = {
 static const double tol_default = 1e-12;
 
 typedef struct {
-    double tol; /* 0: not said */
+    double tol; /* 0: no tolerance given */
     qdot_figure_choice figure;
     qdot_panel_choice panel;
 } choices;

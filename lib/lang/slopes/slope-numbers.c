@@ -132,7 +132,7 @@ add_way_to_event(qdot_slopes *s, qdot_expr rate_up, qdot_expr rate_down, qdot_ex
     qdot_pool *pool = s->session->pool;
     qdot_expr by_up, by_down;
 
-    QDOT_TRY(at_time(s, rate_up, time, &by_up)); /* each by itself: the quotient may be 0/0 elsewhere */
+    QDOT_TRY(at_time(s, rate_up, time, &by_up)); /* evaluated separately, since the quotient may be 0/0 at other times */
     QDOT_TRY(at_time(s, rate_down, time, &by_down));
     by_down = qdot_div(pool, qdot_mul(pool, up, by_down), qdot_mul(pool, down, down));
     *slope = qdot_add(pool, *slope, qdot_mul(pool, way, qdot_sub(pool, by_down, qdot_div(pool, by_up, down))));
@@ -247,7 +247,7 @@ slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k, q
 static qdot_status
 slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
 {
-    const qdot_measured m = s->session->measured->at[i]; /* the list grows */
+    const qdot_measured m = s->session->measured->at[i]; /* copied, since the list grows meanwhile */
     qdot_named_run *named;
 
     if (i < first || m.origin.kind == QDOT_ORIGIN_OTHER)

@@ -57,7 +57,7 @@ static const struct {
     {"\xE2\x8B\x85", "*"},  /* dot operator */
     {"\xC3\x97", "*"},      /* times */
     {"\xE2\x80\xAF", "*"},  /* narrow no-break space: the product of style unicode */
-    {"\xE2\x88\x9A", "sqrt"}, /* square root: of the operand behind it */
+    {"\xE2\x88\x9A", "sqrt"}, /* square root of the operand after it */
     {"\xE2\x89\xA4", "<="}, /* less or equal */
     {"\xE2\x89\xA5", ">="}, /* greater or equal */
     {"\xE2\x89\xA0", "!="}, /* not equal */

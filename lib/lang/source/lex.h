@@ -6,7 +6,7 @@
 #include "lang/source/token.h"
 
 #define QDOT_LEX_TOKENS 10000000u  /* tokens of one source */
-#define QDOT_LEX_PRIMES 200u       /* primes behind one name */
+#define QDOT_LEX_PRIMES 200u       /* primes after one name */
 #define QDOT_LEX_BRACKETS 1000000u /* open brackets */
 
 /* Fill source->tokens from source->text. On failure *at is the position of the error. */

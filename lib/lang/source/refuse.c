@@ -207,7 +207,7 @@ qdot_refuse_open(const char *text, size_t open)
     size_t n = 0;
 
     line_of(text, open, &from, &to);
-    for (size_t i = to; i-- > open && n + 1 < sizeof missing;) /* those open at its end */
+    for (size_t i = to; i-- > open && n + 1 < sizeof missing;) /* brackets that are still open at the end */
         if (strchr("([{", text[i]) != NULL) {
             size_t depth = 1;
 

@@ -17,7 +17,7 @@
 QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text,
                                             size_t length, qdot_source **source,
                                             size_t *at);
-qdot_source *qdot_source_keep(const qdot_source *source); /* record one more use */
+qdot_source *qdot_source_keep(const qdot_source *source); /* count one more use */
 void qdot_source_free(qdot_source *source);               /* give up one use */
 
 /* Where a byte is: line and column from 1 (columns count characters), the line in the whole input. */

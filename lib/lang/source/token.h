@@ -26,7 +26,7 @@ typedef struct qdot_token {
 } qdot_token;
 
 typedef struct qdot_source {
-    unsigned uses; /* freed with the last */
+    unsigned uses; /* number of uses; the last one frees it */
     char *name;
     char *text; /* NUL-terminated copy */
     size_t length;

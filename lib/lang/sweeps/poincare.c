@@ -39,7 +39,7 @@ typedef struct {
     qdot_expr g; /* left - right */
     int way;
     qdot_columns columns;
-    const qdot_token *run_at; /* the word `run`; NULL: none was said */
+    const qdot_token *run_at; /* the word `run`; NULL: not given */
     qdot_run_options run;
     bool limited;
     double limits[2]; /* of the times, if so */

@@ -355,7 +355,7 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
     qdot_text_add(why, qdot_last_error()->message); /* a single run reports more about it */
-    if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* it is told of once */
+    if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* the failure is reported once */
         return QDOT_ENOMEM;
     return qdot_text_status(why);
 }

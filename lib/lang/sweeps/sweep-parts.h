@@ -18,14 +18,14 @@ typedef struct {
     const char *path; /* of the file that keeps the rows; NULL: none */
     const qdot_token *path_at;
     qdot_file_lock lock; /* of it */
-    qdot_text said;   /* what it is known by in that file */
+    qdot_text said;   /* the text by which the file identifies the sweep */
     qdot_row_table *table;
     bool *done;       /* [members] */
     size_t told;      /* rows that JSON has, the first of all */
     size_t n_done, failed, resumed; /* rows; of those that are done */
     bool interrupted;
     double kept_at, keeping; /* when the file was written last, how long that took */
-    size_t row;              /* that is being made */
+    size_t row;              /* the row that is being made */
     struct qdot_sweep_lanes *lanes; /* that make rows side by side; NULL: none */
 } qdot_sweep;
 

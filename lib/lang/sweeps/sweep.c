@@ -213,7 +213,7 @@ tell_starts(qdot_cursor *c, const qdot_members *m)
         status = qdot_members_begin(c, m, looked[i], swept, tell_notice, &told);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             break;
-        status = QDOT_OK; /* its row says why it fails */
+        status = QDOT_OK; /* the reason is kept in the row */
     }
     qdot_free(swept);
     return status;

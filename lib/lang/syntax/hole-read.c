@@ -120,7 +120,7 @@ begins_with_bound(const reader *m)
 
     if (t->kind != QDOT_TOKEN_NAME)
         return true;
-    if (strcmp(t->text, "pi") == 0) /* alone it is a name, which is refused */
+    if (strcmp(t->text, "pi") == 0) /* `pi` alone is read as a name and refused later */
         return more && (!is_relation(next) || next[1].kind == QDOT_TOKEN_NAME);
     if (!is_declared(m, t->text))
         return qdot_token_is(t + 1, "(") && qdot_builtin_find(t->text) != NULL;

@@ -9,7 +9,7 @@
 /* How the tokens of a hole are parsed; their meaning is evaluated when the statement is carried out. */
 typedef enum {
     QDOT_HOLE_SIDE,       /* an expression up to a relation, `and`, `or` */
-    QDOT_HOLE_VALUE,      /* an expression, with these */
+    QDOT_HOLE_VALUE,      /* an expression, which may contain relations, `and`, `or` */
     QDOT_HOLE_CONDITION,  /* SIDE = SIDE, `returns after SIDE`, or several joined by `and` */
     QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
     QDOT_HOLE_COMPARISON, /* the same, also with == < <= > >= */

@@ -26,7 +26,7 @@ typedef struct {
     qdot_record *r;
     qdot_cursor *c;
     qdot_vec(place) places;
-    size_t first; /* of those at the present token */
+    size_t first; /* the first state at the present token */
 } matcher;
 
 /* --- positions in the usage ---------------------------------------------------------- */

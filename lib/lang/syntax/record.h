@@ -29,23 +29,23 @@ typedef struct {
     const qdot_token *from, *to; /* its tokens */
     size_t first, n;             /* its expressions among record->compiled */
     const qdot_token *name;      /* of a name; its bounds may stand before it */
-    const qdot_token *primes;    /* behind the name; those of a coordinate [primes, to) */
+    const qdot_token *primes;    /* the token after the name; the primes of a coordinate are [primes, to) */
 } qdot_filled;
 
 /* A bound of a new name. */
 typedef struct {
     const qdot_token *at;
     qdot_expr value;
-    bool upper, strict; /* the name is less than it; not equal */
+    bool upper, strict; /* the bound is an upper one; it is not included */
 } qdot_bound;
 
 typedef struct qdot_record {
     const qdot_statement *row;
     qdot_cursor cursor; /* session, source; where an error is; behind the statement */
-    const qdot_token *start; /* the token behind the statement's word, start[-1] */
+    const qdot_token *start; /* the token after the statement's word, which is start[-1] */
     qdot_vec(qdot_filled) parts; /* as they were written; the first is the statement's word */
     qdot_vec(qdot_compiled) compiled;
-    qdot_usage *usage; /* compiled for this record alone; NULL: lent */
+    qdot_usage *usage; /* compiled for this record alone; NULL: shared with other records */
 } qdot_record;
 
 void qdot_record_free(qdot_record *r);

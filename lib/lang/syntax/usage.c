@@ -443,7 +443,7 @@ compile_sequence(compiler *c, int i, int to)
         } else if (p->kind == SIGN) {
             (void)emit(c, QDOT_USAGE_SIGN, p->text);
             i++;
-        } else if (p->kind == MORE) { /* as much as one likes */
+        } else if (p->kind == MORE) { /* any number of repetitions */
             fork = emit(c, QDOT_USAGE_FORK, "");
             (void)emit(c, QDOT_USAGE_HOLE, p->text);
             c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = fork;

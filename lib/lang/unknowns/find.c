@@ -31,7 +31,7 @@ typedef struct {
     double *slope_error; /* [m x n] of what must vanish */
     double length;      /* of the run at the guess */
     double reach;       /* of an orbit's guess (sim/study/floquet.h) */
-    qdot_error failure; /* of the latest trial that could not be had */
+    qdot_error failure; /* the error of the latest trial that failed */
 } hunt;
 
 /* --- the start of the run ---------------------------------------------------------------------- */
@@ -550,7 +550,7 @@ find_search(hunt *h, qdot_zero_result *r)
         h->rank = shot.rank;
         p.unit = shot.found ? h->unit : NULL;
         p.verify = !shot.found;
-        p.once = shot.found; /* an orbit that no run can follow round is not looked for elsewhere */
+        p.once = shot.found; /* if no run can follow the orbit all around, do not search from other points */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
     if (r->answer != QDOT_ZERO_FOUND && !p.once)

@@ -134,7 +134,7 @@ mark_unread(const char *text, size_t length, size_t at, uint8_t *kinds)
         end++;
     memset(kinds + at,
            quoted    ? QDOT_HIGHLIGHT_STRING
-           : goes_on ? QDOT_HIGHLIGHT_PLAIN /* it may go on, as \theta does */
+           : goes_on ? QDOT_HIGHLIGHT_PLAIN /* the word may be incomplete, like the beginning of \theta */
                      : QDOT_HIGHLIGHT_WRONG,
            end - at);
     return end;
@@ -162,7 +162,7 @@ qdot_highlight_text(const qdot_session *session, const char *text, size_t length
         if (status == QDOT_OK)
             mark_tokens(session, source, kinds + from, &end);
         end = status != QDOT_OK || at >= length - from || at < end
-                  ? length - from /* all was read, but for the end of a bracket */
+                  ? length - from /* everything was read except a missing closing bracket */
                   : mark_unread(text + from, length - from, at, kinds + from);
         qdot_source_free(source);
         QDOT_TRY(status);

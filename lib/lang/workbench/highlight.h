@@ -14,7 +14,7 @@ typedef enum {
     QDOT_HIGHLIGHT_NUMBER,
     QDOT_HIGHLIGHT_STRING,
     QDOT_HIGHLIGHT_COMMENT,
-    QDOT_HIGHLIGHT_WRONG /* a bracket that closes none, what the language has no use for */
+    QDOT_HIGHLIGHT_WRONG /* a closing bracket without an opening one, or a character without meaning */
 } qdot_highlight;
 
 /* kinds [length], one a byte, of `text` [length] as far as it is typed. Errors: QDOT_ENOMEM; the

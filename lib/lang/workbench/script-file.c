@@ -114,7 +114,7 @@ qdot_script_takes_long(const char *text, size_t length)
 
     if (qdot_source_new("", text, length, &source, &at) != QDOT_OK) {
         qdot_source_free(source);
-        return false; /* this will soon give an error */
+        return false; /* the source is wrong, so an error follows */
     }
     for (size_t i = 0; i < source->tokens.n && !found; i++) {
         const qdot_token *token = &source->tokens.at[i];
@@ -133,7 +133,7 @@ bool
 qdot_script_is_incomplete(const char *text, size_t length)
 {
     long open = 0;
-    bool more = false; /* behind a trailing backslash */
+    bool more = false; /* the line ends in a backslash */
 
     for (size_t i = 0; i < length; i++) {
         char c = text[i];

@@ -39,7 +39,7 @@ enum { FEW = 5 }; /* tokens at the begin of a statement */
 
 typedef struct {
     size_t body, close; /* tokens: the first inside, the `}` */
-    size_t resume;      /* the token behind the whole */
+    size_t resume;      /* the token after the block */
     qdot_loop loop;
 } frame;
 
@@ -75,7 +75,7 @@ unknown_word(qdot_cursor *c)
 {
     const qdot_statement *near = nearest_statement(c->session, c->at->text);
 
-    if (qdot_statement_find(c->at->text) != NULL) { /* it stands alone */
+    if (qdot_statement_find(c->at->text) != NULL) { /* a statement of one word */
         c->error_at = c->at[1].start;
         return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", c->at->text,
                          c->at[1].text);
@@ -264,7 +264,7 @@ statement(engine *x, size_t i)
     qdot_status status = qdot_interrupt_check();
     const qdot_token *to = status == QDOT_OK ? find_to(x->session, &x->tokens[i]) : NULL;
 
-    (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
+    (void)qdot_pool_unfinished_taken(x->session->pool); /* notes of a statement that failed are dropped */
     if (status == QDOT_OK)
         status = to == NULL ? dispatch_held(x, &c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     qdot_progress_clear();
@@ -614,7 +614,7 @@ carry_out_whole(engine *x, size_t *i)
     last -= last > first;
     qdot_undo_end(x->session, begun, x->source->text + first->start,
                   last->start + last->length - first->start);
-    if (status == QDOT_OK) /* else behind its error */
+    if (status == QDOT_OK) /* after a failure it ends after its error has been printed */
         qdot_typed_end(x->session, x->source->text + first->start, last->start + last->length - first->start, status);
     return status;
 }
@@ -653,7 +653,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, 
     if (x.source != NULL)
         x.source->lines_before = before;
     session->typed->texts++;
-    (void)qdot_memory_ran_out(); /* before: whoever asked then has heard of it */
+    (void)qdot_memory_ran_out(); /* clears the flag of earlier failures, which were reported */
     if (status == QDOT_OK)
         status = qdot_session_remarks_keep(session, text, length);
     if (status == QDOT_OK) {

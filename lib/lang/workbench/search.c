@@ -13,7 +13,7 @@
 
 typedef struct {
     const char *text;
-    bool by_name; /* this time round: those whose name holds it; else the others */
+    bool by_name; /* list the words whose name contains the text; otherwise the other matches */
     qdot_text *out;
     size_t n;
 } search;

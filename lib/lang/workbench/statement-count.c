@@ -18,7 +18,7 @@ qdot_typed_begin(qdot_session *session, const qdot_source *source, size_t at)
     typed->number++;
     typed->refuted = session->outcome->refuted;
     session->outcome->refuted = false;
-    if (session->output->json && source != NULL) /* else nobody asks for it */
+    if (session->output->json && source != NULL) /* only --json prints the number */
         qdot_source_locate(source, at, &typed->line, &column);
 }
 

@@ -513,7 +513,7 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     qdot_pool *pool = c->pool;
 
     e = qdot_chart_put(c, e);
-    if (e == QDOT_NIL || holds_bare(c, e)) /* no simplification would help */
+    if (e == QDOT_NIL || holds_bare(c, e)) /* an unexpressed coordinate remains, which no simplification removes */
         return QDOT_NIL;
     for (int tries = 0; tries < 4 && e != QDOT_NIL; tries++) {
         if (!is_singular(c, pool, e))

@@ -255,7 +255,7 @@ put_body(qdot_chart *c, const size_t *index, int start)
 
 /* The components X, Y in a plane; one of them may be the distance from an axis. */
 typedef struct {
-    qdot_expr X, Y, XX, YY, dX, dY; /* with their squares and rates */
+    qdot_expr X, Y, XX, YY, dX, dY; /* the components, their squares and their rates of change */
     size_t sign;
 } pair;
 

@@ -82,7 +82,7 @@ typedef enum {
 typedef struct {
     qdot_expr q; /* of an angle that is no coordinate a symbol of its own */
     qdot_chart_sort sort;
-    qdot_expr value;        /* where it is no angle */
+    qdot_expr value;        /* the value of a quantity that is not an angle */
     qdot_expr cosine, sine; /* of an angle; or cosh, sinh */
     qdot_expr x, y;         /* the angle is atan2(y, x), to whole turns; */
     qdot_expr factor;       /* or nil: y = factor sin(half of the angle `half` of these) */
@@ -91,10 +91,10 @@ typedef struct {
     int middle;
     qdot_expr bare;  /* a symbol for the angle outside of sin and cos */
     qdot_expr rate;  /* q', or nil: that of value, of x and y */
-    qdot_expr given; /* in the coordinates given */
+    qdot_expr given; /* its formula in the coordinates given */
     qdot_expr ends[2]; /* where its domain may end: singular places; nil: nowhere */
-    size_t sign;       /* it holds sign `sign` - 1; 0: none */
-    bool between;      /* its domain ends there: it has no turns */
+    size_t sign;       /* its formula contains sign number `sign` - 1; 0: no sign */
+    bool between;      /* its domain ends at singular places, so it makes no full turns */
 } qdot_chart_moved;
 
 /* A new coordinate, expressed in terms of the given ones. */
@@ -115,10 +115,10 @@ typedef struct {
 typedef struct {
     qdot_expr symbol; /* or w */
     int start;
-    bool branch; /* it is of w, the square root of `square` */
+    bool branch; /* the sign is that of w, the square root of `square` */
     bool fixed;
     qdot_expr square;
-    qdot_expr distance; /* of a sign: s N */
+    qdot_expr distance; /* the distance with its sign: s N */
 } qdot_chart_sign;
 
 typedef struct {
@@ -132,7 +132,7 @@ typedef struct {
     qdot_vec(qdot_chart_fresh) fresh;
     qdot_vec(qdot_chart_root) roots; /* values hold later ones alone */
     qdot_vec(qdot_chart_sign) signs;
-    qdot_vec(qdot_expr) unit; /* each is 0: constraints of `scene` */
+    qdot_vec(qdot_expr) unit; /* constraints of `scene`: each of these is 0 */
     qdot_text names;          /* "x = r*cos(phi), y = r*sin(phi)" of what is new */
 } qdot_chart;
 

@@ -115,7 +115,7 @@ pairs_add(const qdot_collision_equations *of, qdot_expr base, bool line,
 /* A divisor that contains coordinates, or the argument of an absolute value. */
 typedef struct {
     qdot_expr e;
-    bool whole; /* it stands in whole powers */
+    bool whole; /* e occurs in integer powers only */
 } divisor;
 
 typedef qdot_vec(divisor) divisors;

@@ -32,17 +32,17 @@ typedef struct {
     qdot_scene *s;
     const qdot_collision_equations *of;
     size_t d, m; /* components of x, of u */
-    int sign;    /* x = sign L(u) u: of d = 1 alone -1 */
-    int side;    /* of x[0] at the start */
+    int sign;    /* the sign in x = sign L(u) u; -1 only if d = 1 */
+    int side;    /* the sign of x[0] at the start */
     qdot_expr u[PARTS], energy, R;
     qdot_expr x[MOST], rate[MOST];      /* symbols for x, dx/dt */
     qdot_expr in_u[MOST], rate_u[MOST]; /* L u, 2 L u'/R */
     qdot_expr strength;                 /* k */
-    qdot_expr P[MOST];                  /* in x, dx/dt, R */
+    qdot_expr P[MOST];                  /* in terms of x, dx/dt, R */
     /* Fields with an entry for each given coordinate, [n]: */
     qdot_expr *Q, *w; /* QDOT_NIL where it is a pivot */
-    qdot_expr *value; /* in x and Q */
-    qdot_expr *speed; /* dq/dt in dx/dt and w' */
+    qdot_expr *value; /* coordinates in terms of x and Q */
+    qdot_expr *speed; /* dq/dt in terms of dx/dt and w' */
     qdot_expr *pull;  /* [n d] c: d2q/dt2 = c.x/R^3 + rest */
     qdot_expr *rest;  /* [n] */
 } work;

@@ -68,7 +68,7 @@ energy_rate(qdot_scene *s)
         qdot_expr power = constraint_power(s, k);
 
         if (s->constraints.at[k].kind == QDOT_HOLONOMIC)
-            power = qdot_neg(s->pool, power); /* q' df/dq = -df/dt */
+            power = qdot_neg(s->pool, power); /* on the constraint q' df/dq = -df/dt */
         rate = qdot_add(s->pool, rate,
                         qdot_mul(s->pool, s->constraints.at[k].multiplier, power));
     }

@@ -17,7 +17,7 @@
 
 typedef struct {
     qdot_expr w, x, y;
-    int axis; /* x = y is this component of the place of a mass w; -1: neither is one */
+    int axis; /* the axis along which x = y is a position of the mass w; -1: it is no position */
 } qdot_dalembert_term;
 
 /* The terms [*n], owned by the caller, and Q_i, a VEC (a LIST for one coordinate), which

@@ -233,7 +233,7 @@ damped_newton_step(problem *p, double mu)
             y[i] -= G[k * c + i] * y[k];
         y[i] /= G[i * c + i];
     }
-    for (size_t i = 0; i < c; i++) /* step is 0 by now */
+    for (size_t i = 0; i < c; i++) /* step holds zeros here */
         for (size_t k = p->first[i]; k < p->first[i + 1]; k++)
             p->step[p->column[k]] += A[k] * y[i];
 }
@@ -272,7 +272,7 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
         if (!(size < before))
             QDOT_TRY(constraints_evaluate(s, p, seed, &size));
         if (!(size < before) || (size < 1e-10 && size > before / 2)) {
-            p->off = size; /* what is left is rounding, or the damping's */
+            p->off = size; /* the remaining error is due to rounding or damping */
             *found = size < 1e-10;
             return QDOT_OK;
         }

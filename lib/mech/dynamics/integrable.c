@@ -27,7 +27,7 @@ typedef struct {
     qdot_expr *B;  /* [m * n] the system, reduced */
     size_t *pivot; /* [m] */
     size_t rank;
-    qdot_facts facts; /* the scene's, and its holonomic constraints */
+    qdot_facts facts; /* facts of the scene and of its holonomic constraints */
     qdot_expr *relations;
 } forms;
 

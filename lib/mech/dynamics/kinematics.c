@@ -375,7 +375,7 @@ static qdot_status
 entries_combine(qdot_scene *s, entries *all, bool slopes)
 {
     size_t kept = 0;
-    qdot_expr first = QDOT_NIL; /* what the last entry kept began with */
+    qdot_expr first = QDOT_NIL; /* the expression with which the last entry kept began */
 
     if (all->n > 1)
         qsort(all->at, all->n, sizeof *all->at, compare_entries);
@@ -502,7 +502,7 @@ qdot_kinematics_get(qdot_scene *s)
     qdot_derived *d = qdot_derived_get(s);
 
     if (!d->kinematics_ready) {
-        qdot_kinematics_clear(&d->kinematics); /* of an attempt that failed */
+        qdot_kinematics_clear(&d->kinematics); /* remove what a failed attempt left */
         if (kinematics_build(s, &d->kinematics) != QDOT_OK) {
             qdot_pool_fail(s->pool);
             return NULL;
@@ -518,7 +518,7 @@ groups_of(qdot_scene *s, qdot_kinematics *k, want want, qdot_groups *out, bool *
 {
     if (*ready)
         return out;
-    out->n = 0; /* of an attempt that failed */
+    out->n = 0; /* remove what a failed attempt left */
     if (group_all(s, k, want, false, out) != QDOT_OK) {
         qdot_pool_fail(s->pool);
         return NULL;
@@ -594,7 +594,7 @@ qdot_kinematics_pair(qdot_scene *s, qdot_kinematics *k, const qdot_groups *a,
             uint32_t set = qdot_kinematics_and(s, k, a->at[i].set, b->at[j].set);
             weighed w;
 
-            if (set == 0) /* as of two axes */
+            if (set == 0) /* no term in common, as for two axes */
                 continue;
             w.weight = qdot_kinematics_weight(s, k, set);
             w.product = qdot_mul(s->pool, a->at[i].e, b->at[j].e);

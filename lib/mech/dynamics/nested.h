@@ -6,7 +6,7 @@
 
 /* Sets of items with values; bits of items >= `items` are 0. */
 typedef struct {
-    size_t items, sets, words; /* words of 64 bits a set */
+    size_t items, sets, words; /* numbers of items and of sets; 64-bit words in a set */
     const qdot_expr *value;    /* [items] */
     const uint64_t *bits;      /* [sets * words] */
 } qdot_family;

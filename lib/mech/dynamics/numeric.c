@@ -32,7 +32,7 @@
  * takes milliseconds; a rotation in space is long but simplifies well. */
 static const struct {
     size_t coordinates;
-    uint64_t units; /* units of cost() */
+    uint64_t units; /* a limit in units of cost() */
 } both_forms = {4, 150}, both_forms_in_space = {12, 600};
 
 /* Entries with at most this many operations are simplified individually, at negligible cost. */
@@ -219,7 +219,7 @@ bill_function(bill *b, qdot_expr e)
         b->units += 15;
         return true;
     }
-    b->units += f > QDOT_COS; /* a division */
+    b->units += f > QDOT_COS; /* a quotient of sine and cosine costs a division */
     if (qdot_expr_kind(pool, x) != QDOT_SUM)
         return bill_angle(b, x);
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2)

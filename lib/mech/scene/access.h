@@ -21,7 +21,7 @@ uint32_t qdot_mech_holds(const qdot_scene *s, qdot_expr e);
  * d; the dot product. */
 uint32_t qdot_mech_dimension(const qdot_pool *pool, qdot_expr r);
 qdot_expr qdot_mech_component(const qdot_pool *pool, qdot_expr r, uint32_t d);
-qdot_expr qdot_mech_dot(qdot_pool *pool, qdot_expr a, qdot_expr b); /* scalars too */
+qdot_expr qdot_mech_dot(qdot_pool *pool, qdot_expr a, qdot_expr b); /* also of scalars */
 /* e simplified with the scene's facts; e itself if it is above a certain size. */
 qdot_expr qdot_mech_tidy(qdot_scene *s, qdot_expr e);
 /* A sum of simplified parts, simplified as a whole if it is short; otherwise unchanged. */

@@ -63,8 +63,8 @@ typedef struct {
 } qdot_cyclic_known;
 
 struct qdot_derived {
-    uint64_t newest;  /* the highest version the scene has had; of no state alone */
-    uint64_t version; /* of the scene all below belongs to */
+    uint64_t newest;  /* the highest version number given to any state of the scene */
+    uint64_t version; /* the version of the scene for which the results below hold */
     size_t n;
     bool kinematics_ready;
     qdot_kinematics kinematics;

@@ -128,7 +128,7 @@ bool
 qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind)
 {
     switch (kind) {
-    case QDOT_GRAVITY: return false; /* it replaces */
+    case QDOT_GRAVITY: return false; /* a second field replaces the first */
     case QDOT_POTENTIAL: LAST_AGAIN(s->potentials, same_term);
     case QDOT_SPRING: LAST_AGAIN(s->springs, same_link);
     case QDOT_DAMPER: LAST_AGAIN(s->dampers, same_link);

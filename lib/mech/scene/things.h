@@ -111,7 +111,7 @@ typedef struct qdot_scene {
     qdot_vec(qdot_event) events;
     qdot_vec(qdot_assumption) assumed;
     qdot_vec(qdot_expr) conditions; /* its inequalities */
-    qdot_vec(qdot_expr) relations;  /* its equations and their derivatives, each 0 */
+    qdot_vec(qdot_expr) relations;  /* equations and their derivatives, as expressions that are 0 */
     qdot_expr lagrangian;           /* stated; nil: T - V */
     qdot_vec(char *) dropped;       /* what the latest call dropped, for a notice: components of
                                        a constraint that hold identically ("pin, 2"); springs,

@@ -393,13 +393,13 @@ by_slopes(line *l, qdot_bands *out, bool *found)
         up = qdot_positive(pool, slope, l->facts, 0, NULL) == QDOT_TRUE;
         *found = up || qdot_positive(pool, qdot_neg(pool, slope), l->facts, 0, NULL) == QDOT_TRUE;
         end = qdot_subs(pool, l->g[i], 1, &l->u, &zero);
-        if (end == QDOT_NIL && qdot_pool_check(pool) == QDOT_EDOMAIN) { /* it is no line through u = 0 */
+        if (end == QDOT_NIL && qdot_pool_check(pool) == QDOT_EDOMAIN) { /* the relation has no value at u = 0, so it is not linear in u */
             *found = false;
             break;
         }
         end = qdot_simplify(pool, qdot_neg(pool, qdot_div(pool, end, slope)), l->facts);
         to = up ? &band.lo : &band.hi;
-        *found = *found && *to == QDOT_NIL; /* of two bounds neither may be the nearer one */
+        *found = *found && *to == QDOT_NIL; /* of two bounds it is not known which is nearer */
         *to = end;
         *(up ? &band.lo_open : &band.hi_open) = l->strict[i];
         QDOT_TRY(qdot_pool_check(pool));

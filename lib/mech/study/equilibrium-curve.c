@@ -80,7 +80,7 @@ curve_domain_end(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_ex
         qdot_expr zero = QDOT_ZERO;
 
         *moving = e;
-        e = qdot_subs(c->pool, e, 1, &c->parameter, &zero); /* what remains if the parameter is 0 */
+        e = qdot_subs(c->pool, e, 1, &c->parameter, &zero); /* the part without the parameter */
         if (e == QDOT_NIL)
             return qdot_pool_check(c->pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_pool_check(c->pool);
         if ((qdot_expr_node(c->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)

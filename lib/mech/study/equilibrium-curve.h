@@ -31,7 +31,7 @@ typedef struct {
     double *lo, *hi;       /* [n + 1] the domains; of ends that move with p the whole line */
     qdot_expr *end;        /* [2 n] ends that move with p, lower and upper of each unknown; nil: it does not */
     bool moving;           /* some end of a domain depends on p */
-    size_t all;            /* coordinates of the scene and constraints */
+    size_t all;            /* number of coordinates of the scene plus constraints */
     qdot_expr *K, *Gamma, *M; /* [all * all] H with A and A^T beside it; Gamma, M with 0 */
     bool damped;           /* Gamma has values at rest: no |v| v */
     qdot_rest rest;

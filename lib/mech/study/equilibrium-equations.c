@@ -46,7 +46,7 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         e[i] = qdot_simplify(r->pool, qdot_rest_value(s, nowhere, e[i]), &r->facts);
         status = qdot_pool_check(r->pool);
-        if (status == QDOT_EDOMAIN && i < n) { /* a force along v/|v|, as a rule */
+        if (status == QDOT_EDOMAIN && i < n) { /* usually a force along v/|v| */
             const char *q = qdot_expr_symbol(r->pool, s->coordinates.at[i])->name;
 
             (void)qdot_fail(QDOT_EDOMAIN, "the force along %.60s has no value at rest: division by zero", q);

@@ -54,7 +54,7 @@ qdot_equilibrium_set_add_folds(qdot_equilibrium_set *set)
     range[n] = (qdot_zeros_range){.lo = fold_range_end(c->pool, least), .hi = fold_range_end(c->pool, most)};
     QDOT_TRY(qdot_pool_check(c->pool));
     status = qdot_zeros_find(c->pool, n + 1, F, c->unknown, range, budgets[n], &zeros);
-    if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) /* beyond it */
+    if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) /* equations that the search for zeros cannot handle */
         return QDOT_OK;
     QDOT_TRY(status);
     for (size_t i = 0; i < zeros.count && set->wall.n < before + MOST_WALLS && status == QDOT_OK; i++)

@@ -93,7 +93,7 @@ qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     QDOT_TRY(qdot_pool_check(rest->pool));
     status =
         qdot_zeros_find(rest->pool, n, r, rest->system.unknowns.at, range, budgets[n], &zeros);
-    if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) /* beyond it */
+    if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) /* equations that the search for zeros cannot handle */
         return QDOT_OK;
     QDOT_TRY(status);
     out->complete = zeros.complete && zeros.count <= QDOT_PLACES_MOST;

@@ -31,7 +31,7 @@ append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr e
     qdot_expr ends[2];
     size_t n = 0;
 
-    if (band->lo != QDOT_NIL && band->lo == band->hi) { /* one place */
+    if (band->lo != QDOT_NIL && band->lo == band->hi) { /* the interval is a single point */
         qdot_expr at = qdot_rel(pool, QDOT_EQ, u, band->lo),
                   others = qdot_subs(pool, all->equations, 1, &u, &band->lo);
 
@@ -84,7 +84,7 @@ list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
     }
     if (bands.touched && r->s->coordinates.n > 1)
         *done = false;
-    for (size_t i = 0; i < bands.at.n && *done; i++) /* a place in numbers would want numbers alone */
+    for (size_t i = 0; i < bands.at.n && *done; i++) /* a single point in decimals is not listed among exact ranges */
         *done = !bands.at.at[i].numeric || bands.at.at[i].lo != bands.at.at[i].hi;
     if (*done && bands.also != QDOT_NIL)
         exists = qdot_conditions_all(pool, exists, bands.also);

@@ -166,7 +166,7 @@ qdot_rest_none(qdot_rest *r, qdot_expr *special)
 {
     for (size_t i = 0; i < r->system.special.n; i++)
         QDOT_TRY(qdot_rest_add_factors(r->pool, r->system.special.at[i], special));
-    return r->formulas ? add_single_values(r, special) : QDOT_OK; /* numbers have values of parameters */
+    return r->formulas ? add_single_values(r, special) : QDOT_OK; /* equilibria in numbers hold for the given values of parameters */
 }
 
 /* --- poles --------------------------------------------------------------------------------------- */

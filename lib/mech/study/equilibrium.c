@@ -234,7 +234,7 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
                                        "friction they are regions, which are not searched for in "
                                        "numbers");
     name = unset(r, bound);
-    for (size_t k = 0; k < r->system.places && name == NULL; k++) /* what a domain ends at, too */
+    for (size_t k = 0; k < r->system.places && name == NULL; k++) /* also names in the ends of domains */
         for (int which = 0; which < 2 && name == NULL; which++) {
             qdot_expr end = qdot_rest_domain_end(r, k, which);
 
@@ -252,7 +252,7 @@ rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
         return qdot_hint("set %.100s = ...", name);
     }
     if (qdot_expr_count(pool, bound) != n && r->found.n > 0)
-        return QDOT_OK; /* what was found exactly stays */
+        return QDOT_OK; /* keep the equilibria that were found exactly */
     if (qdot_expr_count(pool, bound) != n)
         return qdot_fail(QDOT_EFAILED,
                          "the equilibria cannot be found: %u equations for %zu unknowns",
@@ -316,7 +316,7 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     if (qdot_solve_integers(pool, e->equations) == 0)
         return qdot_judge_place(judge, e);
     QDOT_TRY(is_alike(r, e, &alike));
-    if (!alike) { /* what holds whatever the integers are */
+    if (!alike) { /* keep only a verdict that holds for all integers n */
         QDOT_TRY(qdot_judge_place(judge, e));
         if (e->stability == QDOT_UNSTABLE || (e->stable_when != QDOT_NIL && holds_integer(pool, e->stable_when))) {
             e->stability = QDOT_STABILITY_UNDECIDED;
@@ -383,7 +383,7 @@ qdot_rest_begin(qdot_rest *r, qdot_scene *s)
     QDOT_TRY(qdot_rest_equations(r, &r->system.equations));
     r->energy = qdot_rest_value(s, qdot_list(s->pool, 0, NULL), qdot_mech_lagrangian(s));
     status = qdot_pool_check(r->pool);
-    if (status == QDOT_EDOMAIN) { /* L has no value at rest: nothing is asked of it */
+    if (status == QDOT_EDOMAIN) { /* L is undefined at rest and is not examined */
         r->energy = QDOT_ZERO;
         status = QDOT_OK;
     }
@@ -499,7 +499,7 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
         status = qdot_rest_meetings(&r, &out->meeting);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_undefined(&r, &out->undefined, &out->special);
-    if (status == QDOT_OK && !first_only) /* behind the ends: these are not ends of what is assumed */
+    if (status == QDOT_OK && !first_only) /* after the ends, which are not ends of assumed domains */
         status = keep_assumed(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))
         status = qdot_rest_pole(&r, &out->pole);

@@ -140,7 +140,7 @@ quadratic(legendre *l)
         return qdot_pool_fail(pool);
     for (uint32_t i = 0; i < l->n; i++)
         at_rest = qdot_subs(pool, at_rest, 1, &l->qdot[i], (qdot_expr[]){QDOT_ZERO});
-    if (l->s->lagrangian != QDOT_NIL) /* T - V is in its form */
+    if (l->s->lagrangian != QDOT_NIL) /* T - V is in simplified form already */
         at_rest = qdot_simplify(pool, at_rest, &l->facts);
     return qdot_sub(pool, sum, at_rest);
 }

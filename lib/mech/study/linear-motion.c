@@ -237,7 +237,7 @@ slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *sl
     out->exact = out->exact && e != QDOT_NIL && (qdot_mech_holds(s, e) & motion) == 0;
     *slope = value_at_place(p, e);
     status = qdot_pool_check(s->pool);
-    if (status != QDOT_EDOMAIN || order != 1) /* else a root of velocities */
+    if (status != QDOT_EDOMAIN || order != 1) /* undefined by a velocity: it has a root of velocities, as |v| v */
         return status;
     out->damped = false;
     *slope = QDOT_ZERO;

@@ -529,7 +529,7 @@ in_numbers(job *j)
             ? QDOT_ENOMEM
             : QDOT_OK;
 
-    if (status == QDOT_OK) /* M, Gamma, H, N lie one behind another */
+    if (status == QDOT_OK) /* the arrays M, Gamma, H, N follow each other in memory */
         status = evaluate_all(j, 3 * m * m + n * m, j->m.M, v);
     for (size_t i = 0; i < m * m && status == QDOT_OK; i++) {
         M->data[i] = v[i];

@@ -335,7 +335,7 @@ turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
     size_t lead = m;
     int best = 0;
 
-    for (size_t k = m; k-- > 0;) { /* what is declared first stands last */
+    for (size_t k = m; k-- > 0;) { /* from the end, where the unknowns of the first coordinates are */
         int rank = u[k].kind == TIME                          ? 4
                    : u[k].kind == ROTATION && u[k].i > u[k].j ? 3
                    : u[k].kind == TRANSLATION                 ? 2
@@ -511,7 +511,7 @@ search_linear(search *f)
         bool jumps = true;
 
         status = qdot_pool_check(f->pool);
-        if (status == QDOT_OK && one != QDOT_NIL) /* where L's slopes jump, it may */
+        if (status == QDOT_OK && one != QDOT_NIL) /* where the derivatives of L jump, the quantity may jump, too */
             status = qdot_jumps(f->pool, one, UINT32_MAX, &jumps);
         if (status == QDOT_OK && !jumps)
             status = qdot_vec_push(&f->found, one);
@@ -560,7 +560,7 @@ conserved(search *f)
         if (status == QDOT_OK && !jumps)
             status = search_linear(f);
     }
-    for (size_t k = 0; k < f->s->constraints.n && status == QDOT_OK; k++) { /* disguised ones */
+    for (size_t k = 0; k < f->s->constraints.n && status == QDOT_OK; k++) { /* holonomic constraints in disguise */
         qdot_expr mu, F = QDOT_NIL;
 
         if (f->s->constraints.at[k].kind == QDOT_VELOCITY)

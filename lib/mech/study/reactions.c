@@ -103,7 +103,7 @@ moving_rows(uint32_t rows, uint32_t k, qdot_expr *J, uint32_t kept[6])
     }
     for (uint32_t i = 0; i < k; i++)
         for (uint32_t d = 0; d < m; d++)
-            J[i * m + d] = J[i * rows + kept[d]]; /* m <= rows: nothing is lost */
+            J[i * m + d] = J[i * rows + kept[d]]; /* in place, since m <= rows */
     return m;
 }
 

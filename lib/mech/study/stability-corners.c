@@ -218,7 +218,7 @@ ray_of(const corner *c, unsigned which, size_t rank, qdot_expr *d, bool *found)
     for (size_t k = 0; k < c->m; k++)
         for (size_t i = 0; i < c->n && (which >> k & 1) != 0; i++)
             rows[count++] = c->a[k * c->n + i];
-    for (size_t i = 0; i < c->n && count == 0; i++) /* one plane, of no others */
+    for (size_t i = 0; i < c->n && count == 0; i++) /* no plane: a single row of zeros */
         rows[i] = QDOT_ZERO;
     QDOT_TRY(qdot_null_space(c->pool, count == 0 ? 1 : count / c->n, c->n, rows, &basis, &m));
     *found = false;

@@ -394,13 +394,13 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
     qdot_dof dof;
     qdot_status status = qdot_linear_motion_about(j->s, e->equations, e->exists, &j->m);
 
-    if (status == QDOT_EDOMAIN) /* no slopes there */
+    if (status == QDOT_EDOMAIN) /* the forces have no derivatives there */
         return QDOT_OK;
     QDOT_TRY(status);
     QDOT_TRY(take_blocks(j));
     QDOT_TRY(qdot_mech_dof(j->s, &dof));
     j->regular = j->m.rank == dof.independent;
-    if (j->n == 0) { /* nothing can move, but along what changes nothing */
+    if (j->n == 0) { /* no motion is possible except along coordinates that change nothing */
         if (j->m.n == 0 && !j->judge->timed)
             e->stability = QDOT_STABLE;
         return QDOT_OK;

@@ -271,7 +271,7 @@ points_inside(held *h, qdot_expr end, bool upper, bool *yes)
     if (upper)
         F = qdot_neg(pool, F);
     QDOT_TRY(qdot_pool_check(pool));
-    if (end == symbol->lo || end == symbol->hi) /* of the domain: F is not at the limit */
+    if (end == symbol->lo || end == symbol->hi) /* an end given by the coordinate's domain, where friction is not at its limit */
         return QDOT_OK;
     if (qdot_is_constant(pool, F)) {
         qdot_constant_sign sign;

@@ -399,7 +399,7 @@ whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
 
         pick_block(&j->m, of, k, x);
         QDOT_TRY(block_motion(j, x, &one));
-        if (one == GROWS) /* under the conditions of another: they contradict each other */
+        if (one == GROWS) /* its conditions may contradict those of another block */
             one = OPEN;
         worst = one > worst ? one : worst;
     }

@@ -13,7 +13,7 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
-enum { MOST_ASKED = 150 }; /* operations of conditions of which some may follow of others */
+enum { MOST_ASKED = 150 }; /* largest conditions (in operations) that are tested for redundancy */
 
 /* --- definite or not ---------------------------------------------------------------------- */
 

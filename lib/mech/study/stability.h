@@ -13,7 +13,7 @@ typedef struct {
     qdot_binder bind;
     void *user;
     qdot_energy_law law;
-    bool holonomic;     /* every constraint is, or is so in disguise (qdot_mech_is_holonomic) */
+    bool holonomic;     /* every constraint is holonomic, possibly in disguise (qdot_mech_is_holonomic) */
     bool timed;         /* the equations depend on t */
     bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */

@@ -25,7 +25,7 @@ static _Thread_local struct {
     qdot_status why;
     jmp_buf out;
     qdot_scope own;     /* what memory.h allocated in this computation */
-    qdot_scope library; /* what FLINT and GMP did, since the thread began */
+    qdot_scope library; /* what FLINT and GMP allocated since the thread began */
     size_t cached;      /* bytes of `library` when the computation began */
 } guard;
 

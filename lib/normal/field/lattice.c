@@ -10,7 +10,7 @@
 #include "expr/node.h"
 
 #define FARTHEST 200
-#define FEW 16 /* are looked through one by one */
+#define FEW 16 /* up to this number a linear search is used */
 
 static qdot_status
 monomial(qdot_lattice *l, qdot_expr mono, uint32_t *index)

@@ -163,7 +163,7 @@ qdot_root_parts_add(qdot_pool *pool, qdot_root_parts *parts, const qdot_expr *E)
     division d = {.pool = pool, .to = parts, .first = parts->roots.n};
     qdot_status status = division_sort_terms(&d, E);
 
-    if (status == QDOT_OK && parts->roots.n == d.first + 1) /* as it stands: not expanded */
+    if (status == QDOT_OK && parts->roots.n == d.first + 1) /* the factor as written, not expanded */
         memcpy(parts->entries.at + d.first * parts->n, E, parts->n * sizeof *E);
     else if (status == QDOT_OK)
         status = division_add_terms(&d);

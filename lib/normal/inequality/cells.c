@@ -42,7 +42,7 @@ typedef struct {
     arb_t root;   /* with one symbol: in place of x[0] */
     bool at_root;
     qdot_ball ball;
-    int64_t *work; /* what is left of the budget */
+    int64_t *work; /* the remaining budget */
     bool too_much, any, inside, touches;
     bool denied; /* e < 0 was found where a condition that is not used does not hold, or may not */
     qdot_expr point;
@@ -520,7 +520,7 @@ look_at_zeros(cells *c)
         c->touches |= n < 0;
         for (slong k = 0; k < n && !c->touches; k++) {
             c->touches = may_be_zero(c, zero + k, c->zero.at + i);
-            if (c->touches && room == 1) { /* a rational one */
+            if (c->touches && room == 1) { /* a rational point */
                 fmpz_poly_get_coeff_fmpz(fmpq_numref(&c->x[0]), p, 0);
                 fmpz_poly_get_coeff_fmpz(fmpq_denref(&c->x[0]), p, 1);
                 fmpq_neg(&c->x[0], &c->x[0]);

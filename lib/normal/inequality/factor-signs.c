@@ -45,7 +45,7 @@ by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
     fmpz_mpoly_evaluate_one_fmpz(at_one, p, v, end, f->ctx);
     if (f->gen[v].kind == QDOT_GEN_COSH) {
         fmpz_mpoly_derivative(at_other, p, v,
-                              f->ctx); /* A itself: its sign, at least as >= */
+                              f->ctx); /* the sign of A itself, at least as >= 0 */
         sign =
             common_sign(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
     } else {

@@ -539,7 +539,7 @@ cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_fa
     qdot_facts known;
 
     *equal = status == QDOT_OK && contradicts(c, order, sign);
-    if (*equal) { /* there is no such point */
+    if (*equal) { /* no point satisfies these signs */
         qdot_free(condition);
         return status;
     }

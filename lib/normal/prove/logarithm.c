@@ -93,7 +93,7 @@ against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
     for (slong i = 0; i < groups->n; i++) {
         fmpz_mpoly_zero(key, f->ctx);
         fmpz_mpoly_push_term_si_ui(key, 1, groups->key + i * f->n, f->ctx);
-        if (i == with) { /* its term without a logarithm is of the rest */
+        if (i == with) { /* the term without a logarithm belongs to the rest */
             fmpz_t number;
 
             fmpz_init(number);

@@ -46,7 +46,7 @@ add_symbol(qdot_pool *pool, struct range *r, qdot_expr c, qdot_expr x)
     if (s == NULL || s->lo == QDOT_NIL || s->hi == QDOT_NIL ||
         !qdot_is_constant(pool, s->lo) || !qdot_is_constant(pool, s->hi))
         return false;
-    own = *s; /* constructors may move it */
+    own = *s; /* copied, since constructors may move the pool's nodes */
     r->lo = qdot_add(pool, r->lo, qdot_mul(pool, c, up ? own.lo : own.hi));
     r->hi = qdot_add(pool, r->hi, qdot_mul(pool, c, up ? own.hi : own.lo));
     r->lo_open |= up ? own.lo_open : own.hi_open;

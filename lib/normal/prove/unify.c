@@ -17,7 +17,7 @@ enum {
     MOST_SEEN = 150,
     MOST_PROOFS = 80,
     TRIES = 100,
-    PATIENCE = 80, /* tries for points where all is defined */
+    PATIENCE = 80, /* number of attempts to find points at which everything is defined */
     LARGEST_RATIO = 1000,
     POINTS = 3
 };
@@ -35,7 +35,7 @@ struct place {
 /* An argument that represents all multiples of it. */
 struct seen {
     struct place place;
-    qdot_expr arg; /* as it is now */
+    qdot_expr arg; /* the argument in its present form */
     arb_struct at[POINTS];
 };
 

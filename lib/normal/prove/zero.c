@@ -298,7 +298,7 @@ is_analytic(const qdot_pool *pool, qdot_expr e)
         switch (qdot_expr_kind(pool, w.at[i])) {
         case QDOT_NUM:
         case QDOT_SUM:
-        case QDOT_UFUN: break; /* a value of its own */
+        case QDOT_UFUN: break; /* an undefined function is a variable of its own */
         case QDOT_SYM: all = is_in_interval(pool, w.at[i]); break;
         case QDOT_PROD: all = analytic_product(pool, w.at[i]); break;
         case QDOT_FUN: all = analytic_function(pool, w.at[i]); break;

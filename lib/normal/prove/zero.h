@@ -33,7 +33,7 @@ typedef struct {
     const qdot_ideal *ideal; /* relations that hold; NULL: none */
     size_t n_positive;
     const qdot_expr *positive; /* expressions in the field that are > 0 */
-    bool sure;                 /* they are so on the whole declared domain */
+    bool sure;                 /* they are positive on the whole declared domain */
     uint8_t *sign;             /* [f->n] of generators */
     /* Proves that two prepared sides, simpler than p, are equal; set by the caller. */
     qdot_status (*prove)(qdot_pool *pool, qdot_expr left, qdot_expr right, size_t n_positive,

@@ -256,7 +256,7 @@ of_one(uint32_t op, qdot_interval a)
     default:
         if (qdot_fun_is((qdot_fun_id)op, QDOT_FUN_ARC) || qdot_fun_is((qdot_fun_id)op, QDOT_FUN_AREA))
             return inverse_function(op, a);
-        qdot_fun_ends((qdot_fun_id)op, &a.lo, &a.hi); /* all that is known of it */
+        qdot_fun_ends((qdot_fun_id)op, &a.lo, &a.hi); /* only the range of the function is known */
         return (image){a, qdot_interval_whole, QDOT_ENCLOSURE_PARTLY};
     }
 }
@@ -354,7 +354,7 @@ eval_product(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
         image f;
         qdot_enclosure_value part = {.state = QDOT_ENCLOSURE_WHOLE};
 
-        if (isnan(p.lo)) { /* the exponent stands behind its base */
+        if (isnan(p.lo)) { /* the exponent follows its base in the list */
             f = general_power(s, v, operand(s, k, ++i), &part);
         } else {
             f = image_power(v->y, p, s->integer[k->at + i]);

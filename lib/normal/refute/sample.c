@@ -15,7 +15,7 @@
 #include "normal/field/prepare.h"
 
 #define SIMPLE 24 /* points with small numbers */
-#define FAR 96    /* from here on some with large ones */
+#define FAR 96    /* number of points from which on some have large coordinates */
 
 /* --- preparing samples ------------------------------------------------------------- */
 

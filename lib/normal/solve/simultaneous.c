@@ -135,7 +135,7 @@ effort_to_solve(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
     slope = qdot_diff(s->pool, factor, u);
     if (slope == QDOT_NIL || qdot_expr_contains(s->pool, slope, u))
         return 3;
-    if (slope != QDOT_ZERO && holds_others(s, factor) && has_kinks(s, factor, u)) /* the others first */
+    if (slope != QDOT_ZERO && holds_others(s, factor) && has_kinks(s, factor, u)) /* after factors without kinks */
         return 2;
     if (holds_shares(s, factor) && !holds_shares(s, u)) /* a share's bounds are those of a region of places */
         return 2;
@@ -409,7 +409,7 @@ with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_si
         .whole = qdot_sides_put(sides, side, b->whole == QDOT_NIL ? s->equations : b->whole)};
     qdot_status status = qdot_pool_check(pool);
 
-    if (status != QDOT_OK) /* not defined there */
+    if (status != QDOT_OK) /* the equation is not defined at this value */
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     if (jump != QDOT_NIL)
         next.equations = qdot_list_appended(pool, next.equations, 1, &jump);

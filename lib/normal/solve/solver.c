@@ -100,7 +100,7 @@ is_root(qdot_solver *s, qdot_expr value, const qdot_facts *facts, bool *yes)
     bool sometimes;
 
     *yes = false;
-    if (at == QDOT_NIL) { /* not defined there */
+    if (at == QDOT_NIL) { /* the value is not defined */
         qdot_status status = qdot_pool_check(s->pool);
 
         return status == QDOT_EDOMAIN ? look_for_choices(s) : status;

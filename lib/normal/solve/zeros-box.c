@@ -556,7 +556,7 @@ cutting_point(qdot_interval X)
     } else if (hi <= 0 && -lo > 100 * -hi && hi < 0) {
         return -sqrt(-lo) * sqrt(-hi);
     }
-    return lo + 0.485 * (hi - lo); /* zeros like to be in the middle */
+    return lo + 0.485 * (hi - lo); /* not the middle, where zeros often lie */
 }
 
 static qdot_status

@@ -82,7 +82,7 @@ qdot_zeros_vanish(qdot_pool *pool, size_t m, const qdot_expr *f, size_t n,
         qdot_expr at = qdot_subs(pool, f[i], n, x, value);
         qdot_status status = qdot_pool_check(pool);
 
-        if (status == QDOT_EDOMAIN) /* not defined there */
+        if (status == QDOT_EDOMAIN) /* the equation is not defined at this candidate */
             *yes = false;
         else
             QDOT_TRY(status);

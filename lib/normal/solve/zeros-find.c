@@ -470,7 +470,7 @@ give(qdot_zeros_task *t, qdot_zeros *out)
         for (size_t j = 0; j < n; j++) {
             bool nothing = fabs(p->at[j]) <= p->radius[j] && p->radius[j] < 1e-14;
 
-            out->at[k * n + j] = nothing ? 0 : p->at[j]; /* 0 as far as is known */
+            out->at[k * n + j] = nothing ? 0 : p->at[j]; /* 0 within its error */
             out->radius[k * n + j] = p->radius[j] + (nothing ? fabs(p->at[j]) : 0);
         }
     }

@@ -298,7 +298,7 @@ refine(fine *d, const arf_t lo, const arf_t hi, int depth)
 
         return qdot_vec_push(&d->s->doubt, left);
     }
-    if (sign_over(d, 1, lo, hi) != 0) { /* it rises or falls */
+    if (sign_over(d, 1, lo, hi) != 0) { /* the function is monotone */
         arf_t x, y;
 
         if (a == b)

@@ -77,7 +77,7 @@ descend(qdot_zeros_system *s, double *z)
             if (after < size)
                 break;
         }
-        if (!(after < size)) /* rounding, or no way down */
+        if (!(after < size)) /* rounding, or no direction of descent */
             return true;
         for (size_t i = 0; i < s->n; i++)
             length = fmax(length, fabs(by * step[i]) / fmax(fabs(next[i]), 1e-300));

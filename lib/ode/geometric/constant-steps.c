@@ -38,7 +38,7 @@ typedef struct {
     double *before, *halves, *full; /* [4n] state with its low part; [2n] (q, q') */
     double work;      /* that has been counted */
     double length;    /* that steps from a singular place grow to; else 0 */
-    int undefined;    /* tries in a row from this t that met no f */
+    int undefined;    /* number of attempts in a row from this t at which f was undefined */
 } run;
 
 qdot_status

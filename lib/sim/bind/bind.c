@@ -342,7 +342,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
         const qdot_plan_block *block = p->blocks + k;
 
         if (block->n > 1)
-            continue; /* the solvers look themselves */
+            continue; /* the solver of a larger block tests this itself */
         M = p->M[block->index[0] * (p->n + 1)];
         QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &M, &masses));
         work = qdot_malloc((qdot_tape_work(masses) + 1) * sizeof *work);

@@ -149,7 +149,7 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
 
         if (!qdot_path_go(x, a, half, &middle, &steps) ||
             qdot_path_product(x, a->t, middle.t) < straight)
-            break; /* too near to a crossing, or over to the other curve */
+            break; /* too near to a crossing, or the step has jumped to the other curve */
         memcpy(out->y, middle.y, x->width * sizeof *out->y);
         if (out->kind == QDOT_HOPF || out->kind == QDOT_DOUBLING)
             status = x->judge(x, &middle);

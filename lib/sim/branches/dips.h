@@ -30,7 +30,7 @@ typedef struct {
 typedef enum {
     QDOT_DIPS_NONE,
     QDOT_DIPS_AGAIN, /* go on from at[0] once more, steps at most `careful` */
-    QDOT_DIPS_ZERO   /* f vanishes to rounding beside at[*place] */
+    QDOT_DIPS_ZERO   /* f vanishes within rounding next to at[*place] */
 } qdot_dips_answer;
 
 QDOT_MUST_CHECK qdot_status qdot_dips_begin(const qdot_path *x, qdot_dips *d);

@@ -438,7 +438,7 @@ orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
     for (size_t i = 0; i < n; i++)
         far = fmax(far, fabs(x->of.z[i]));
     if (most[0] <= still * far)
-        most[0] = most[1] = 0; /* at rest, at a place that is not 0 */
+        most[0] = most[1] = 0; /* the orbit is at rest, away from 0 */
     x->size = most[0];
     if (!x->driven && !(most[0] > 0 && most[1] > 0)) {
         (void)qdot_fail(QDOT_EINVAL, "the run is at rest");

@@ -67,7 +67,7 @@ typedef struct {
     double *B, *E;              /* [K x c x c] */
     double *sizes;              /* [2n] of the states of the first orbit */
     double *domain;             /* [2 path.n] of the unknowns: least, largest */
-    bool *angle;                /* [path.n] none is one */
+    bool *angle;                /* [path.n] all false: no unknown is an angle */
 } qdot_orbit_path;
 
 /* From {0}, of->z taken over; ended in any case. QDOT_EINVAL: the drive has not the period

@@ -45,7 +45,7 @@ struct qdot_path {
     double most_det;         /* the largest determinant so far */
     double gauge;            /* what the determinant is divided by, as `at` found it */
     double shortest, longest; /* steps along the curve */
-    double upright;          /* of a unit direction: below, its part along p is rounding */
+    double upright;          /* below this, the component along p of a unit direction is rounding */
     bool dips;               /* test functions are accurate: their dips tell of pairs (dips.h) */
     int least_jump;          /* of `growing`, which says that an oscillation begins */
     int halvings;            /* of the way to a bifurcation, before it is located */

@@ -484,7 +484,7 @@ qdot_rest_continuation_find(qdot_equilibrium_curve *c, double least, double most
     if (status == QDOT_OK)
         status = follow_all(c, &set, &s);
     status = qdot_continuation_finish(&s, status);
-    if (out->interrupted && qdot_pool_check(c->pool) == QDOT_ENOMEM) /* the interruption is told */
+    if (out->interrupted && qdot_pool_check(c->pool) == QDOT_ENOMEM) /* the interruption is reported */
         status = QDOT_ENOMEM;
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED, out->complete ? "there is no equilibrium in this range, except at single values of %.100s"

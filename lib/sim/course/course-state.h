@@ -68,7 +68,7 @@ typedef struct qdot_course {
     const struct qdot_course *leader; /* of a companion: the run, which says when a contact lasts; else NULL */
     size_t most_pieces; /* a companion with more is given up; 0: no limit */
     qdot_trajectory tr;
-    qdot_vec(qdot_bind *) binds;         /* by mode; NULL for modes not yet met */
+    qdot_vec(qdot_bind *) binds;         /* by mode; NULL for modes that have not occurred yet */
     qdot_vec(qdot_ode_system) systems;   /* by mode */
     qdot_vec(qdot_watch *) watches;      /* by mode */
     qdot_vec(qdot_occurrence) occurrences;

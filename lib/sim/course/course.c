@@ -139,7 +139,7 @@ integrate_pieces(qdot_piece *x, const double *y0)
     if (status == QDOT_OK)
         status = qdot_piece_enter(x);
     x->start.from = x->mode;
-    if (status == QDOT_OK) /* the start, to go on from */
+    if (status == QDOT_OK) /* record the start, from which the course continues */
         status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method, x->options,
                                      x->start.t, x->start.t, y0);
     if (status == QDOT_OK)

@@ -56,7 +56,7 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
     const qdot_status status =
         qdot_watch_step(w, tr->t[k + 1], tr->y + (k + 1) * tr->n, last, NULL, &roots, &n);
 
-    if (status == QDOT_EFAILED) { /* rounding is all there is to see */
+    if (status == QDOT_EFAILED) { /* only rounding is left */
         s->lost = tr->t[k];
         return QDOT_OK;
     }

@@ -80,7 +80,7 @@ qdot_multipliers_measure(qdot_bind *const *binds, const qdot_trajectory *tr,
     for (size_t k = 0; k < tr->count; k++) {
         qdot_constrained_residual r;
 
-        if (k % 1024 == 0 && qdot_interrupt_check() != QDOT_OK) { /* the end is worth its moment */
+        if (k % 1024 == 0 && qdot_interrupt_check() != QDOT_OK) { /* after Ctrl-C only the end is still evaluated */
             b->position = b->velocity = NAN;
             break;
         }

@@ -18,7 +18,7 @@ static const double roundings = 16;
 static const double alike = 1e-9;
 
 typedef enum {
-    PASSES, /* the event has not occurred: the motion passes */
+    PASSES, /* the event did not occur, and the motion continues */
     UNDONE,
     LOST,  /* it may have: what was before cannot be known */
     RESTS, /* the motion may have been at rest there, for any time */

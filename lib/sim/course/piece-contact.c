@@ -72,7 +72,7 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
 
 /* The bounces left out when a lasting contact begins, and how the start is moved onto the contact. */
 typedef struct {
-    double off[2]; /* u, u' of the start before that */
+    double off[2]; /* u and u' of the original start */
     double pull;   /* u'' without the contact, against u'; 0: nothing presses it */
     double share;  /* the part of |u'| that an impact leaves */
     double size;   /* of the terms of u */

@@ -251,7 +251,7 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
         return false;
     since = t - tr->t[tr->pieces.at[tr->pieces.n - LOOKED_AT].first];
     to_come = LOOKED_AT * ((x->t1 - t) / since);
-    if (to_come <= qdot_piece_most_to_come) /* not so for a NaN or if time stands still */
+    if (to_come <= qdot_piece_most_to_come) /* false for a NaN, or if time does not advance */
         return false;
     name_end(x, w, &text);
     snprintf(x->c->reason, sizeof x->c->reason,
@@ -461,7 +461,7 @@ follow_blows(qdot_piece *x)
     bool endless, known;
 
     QDOT_TRY(qdot_piece_try_blows(x, &endless, &known));
-    if (endless) /* they have been carried out */
+    if (endless) /* the events without end have been carried out */
         x->pushed.n = 0;
     if (!known)
         say_accumulated(x, &qdot_piece_mode(x)->watched[x->roots.at[0].function], x->t_act, 0);

@@ -158,7 +158,7 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
 
         most = fmax(most, fabs(mean) / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
         x->rim[k] = out;
-        if (leaves && is_in_time(x, i)) /* it is made good */
+        if (leaves && is_in_time(x, i)) /* the displacement within the layer is added */
             x->start.y[k] += mean * time;
     }
     qdot_free(inside);

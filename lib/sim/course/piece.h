@@ -43,7 +43,7 @@ typedef struct {
     qdot_course *c;
     const qdot_ode_options *options;
     const qdot_ode_method *method;
-    const qdot_ode_method *now; /* of the step at hand, where the run changes it; else NULL */
+    const qdot_ode_method *now; /* the method of the present step if the run changes methods; else NULL */
     double t1, direction;
     size_t n;           /* components of y */
     size_t mode;        /* of this piece */
@@ -72,7 +72,7 @@ typedef struct {
     bool *turned;       /* [functions] an event on it ended that piece, and its own `then` turned it back */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
-    double *bare;  /* [n] the start, before a try has moved it; then start.low and .low_of [n] there */
+    double *bare;  /* [n] the start before an attempt moved it; then its low parts, start.low and start.low_of */
     double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
     bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
@@ -100,7 +100,7 @@ typedef struct {
     size_t noted, noted_faded;
     struct {
         double since; /* start of the piece, or of a step */
-        size_t parts; /* looked at since then */
+        size_t parts; /* parts of steps that were searched since then */
     } searched;
 
     /* Data with which the state within the step is read. */

@@ -10,7 +10,7 @@ typedef struct {
     qdot_expr quantity;  /* the conserved quantity (energy, a cyclic momentum) */
     const char *name;    /* "energy", "p[phi]" */
     double start, drift; /* drift = max |c - c0| / max(1, |c0|) over the run */
-    bool changed;        /* an event changed it, which is no drift: it is conserved between events alone */
+    bool changed;        /* an event changed its value, which is not counted as drift */
     bool kept;           /* the integration keeps it exactly (sim/plan/routh.h): drift is 0 */
 } qdot_drift;
 

@@ -30,7 +30,7 @@ struct qdot_run {
     bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
     int t0_side, t1_side; /* sign of the exact limit less t0, t1 */
     char *reason;
-    qdot_text notice;     /* its lines, the report's in the end */
+    qdot_text notice;     /* notices of the run, a line each; the report takes them over */
     qdot_text part_names;               /* for report.parts, each ended by a 0 */
     qdot_vec(qdot_run_part) parts;
     qdot_run_report report;

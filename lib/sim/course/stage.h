@@ -28,7 +28,7 @@ typedef struct {
 typedef struct qdot_staged_event {
     char *name;
     qdot_expr function; /* left - right, with parameter values; u of |u| = 0 and u^2 = 0 */
-    bool touches;       /* it is that u: where it changes its sign, |u| or u^2 only touches 0 */
+    bool touches;       /* the function is u: where u changes sign, |u| or u^2 only touches 0 */
     qdot_expr turn;     /* left - right goes as the function times this (sim/model/repeated-zeros.h); NIL: as it */
     bool half;          /* and is not 0 where that is negative */
     int way;            /* 1 rising, -1 falling as t grows, 0 either */
@@ -85,7 +85,7 @@ typedef struct {
     double *scales; /* [2n] of the state (ode/scale.h); NULL: all are 1 */
     size_t n, n_states; /* coordinates of the run; how many of these are parameters that events
                            set */
-    bool back;          /* time goes back */
+    bool back;          /* the run goes backwards in time */
     qdot_vec(qdot_staged_event) events;
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;

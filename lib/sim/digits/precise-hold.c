@@ -28,7 +28,7 @@ struct qdot_precise_hold {
     size_t *order; /* [n + m] of the factors */
     double *scale; /* [n + m] */
     qdot_reals numbers;
-    mpfr_t *x0;                 /* [n] as given */
+    mpfr_t *x0;                 /* [n] the values as given */
     mpfr_t *W, *A, *A_moved;    /* [n x n], [m x n] twice */
     mpfr_t *K, *b, *y, *lambda; /* the linear system [(n + m)^2], [n + m] twice, [m] */
     mpfr_t *w;                  /* [SCRATCH] */

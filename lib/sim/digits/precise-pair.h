@@ -17,7 +17,7 @@ typedef struct {
 
 /* One of the two runs of a pair: the run or its companion. */
 typedef struct {
-    qdot_precise_bind **binds; /* [modes]; NULL for modes not met */
+    qdot_precise_bind **binds; /* [modes]; NULL for modes that do not occur */
     size_t n_binds;
     qdot_vec(qdot_precise_segment) segments;
     const qdot_course *guide; /* NULL: nothing divides the run */

@@ -17,7 +17,7 @@ typedef struct {
     const qdot_reading *of;
     qdot_precise_side *side;
     qdot_precise *program;
-    size_t segment;     /* of the side, that is read */
+    size_t segment;     /* the segment of the side that is read */
     qdot_reals numbers; /* t, y [2n] */
 } reader;
 

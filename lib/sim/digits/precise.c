@@ -58,7 +58,7 @@ qdot_precise_request(const qdot_run_request *request)
     qdot_run_request r = *request;
 
     r.method = "taylor";
-    r.tol = 1e-15; /* of the trajectory in doubles beside it */
+    r.tol = 1e-15; /* tolerance of the trajectory in doubles that accompanies it */
     return r;
 }
 

@@ -77,7 +77,7 @@ write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole
         e->passes[0].momenta[c] = y[n + qdot_ensemble_equations(e)->kept[c]];
     qdot_ensemble_momenta_derive(e->momenta, t, e->passes[0].momenta, y);
     memcpy(whole + n + e->varied, y + n, n * bytes);
-    for (size_t c = 0; c < kept; c++) /* as it was */
+    for (size_t c = 0; c < kept; c++) /* restore the momenta */
         y[n + qdot_ensemble_equations(e)->kept[c]] = e->passes[0].momenta[c];
 }
 

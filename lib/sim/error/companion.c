@@ -303,7 +303,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
      * switch that is crossed here and not there is doubt of the run. */
     for (move how = EACH; how < MOVES; how++) {
         if (how == ALIKE && !qdot_companion_has_alike(n, run->start))
-            continue; /* it would be the same once more */
+            continue; /* a further attempt would give the same result */
         if (how != EACH)
             options.carry = y + n;
         c->exact = how == NOT && run->course.exact;

@@ -134,7 +134,7 @@ distance_compare(qdot_distance *d, size_t piece, double t, const double *values,
 
     for (size_t k = 0; k < d->n_others && there; k++, theirs += d->m) {
         const size_t pieces = (k == 0 ? &d->run->companion : &d->run->twin)->tr.pieces.n;
-        const size_t same = piece < pieces ? piece : pieces - 1; /* one without length */
+        const size_t same = piece < pieces ? piece : pieces - 1; /* a piece without length */
         qdot_status status = qdot_reader_at(d->others + k, same, t, theirs);
 
         if (status != QDOT_OK && !qdot_reader_has_nothing(status))

@@ -14,7 +14,7 @@ typedef struct {
     qdot_distance *distance;
     size_t n;  /* occurrences of the event */
     double *t; /* [n + 2] the start of the run, the times of the occurrences, and the end of what is looked at */
-    double *errors; /* [n + 2] of the times; NaN: the companions do not meet it */
+    double *errors; /* [n + 2] errors of the times; NaN: the event does not occur in the companions */
     double size;      /* the largest |g| that was seen along the run */
     double tol, end;  /* of the run */
 } look;

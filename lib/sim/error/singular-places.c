@@ -43,9 +43,9 @@ typedef struct {
     size_t step; /* whose end is stored point `step`: where between[] is of */
     double *between; /* [4n] of a method without series: slopes of its ends' states */
     bool sloped;     /* they are known; else those of cubics stand for them */
-    double enough; /* of q, to be 0 */
+    double enough; /* values of q below this count as 0 */
     double t[3], q[3]; /* time and quality of the last places of the piece that were evaluated, */
-    size_t taken;      /* the number of these */
+    size_t taken;      /* the number of places evaluated */
     double most;       /* the largest q since the last place that was reported */
     qdot_vec(group) groups;
 } search;
@@ -258,7 +258,7 @@ search_take_place(search *s, double t, double q)
     memmove(s->q, s->q + 1, 2 * sizeof *s->q);
     s->t[2] = t;
     s->q[2] = q;
-    s->most = fmax(s->most, s->q[1]); /* the newest may lie behind the minimum about to be told */
+    s->most = fmax(s->most, s->q[1]); /* the newest value may lie after the minimum that will be reported */
     if (++s->taken < 3 || !comes_down(s->q))
         return QDOT_OK;
     QDOT_TRY(search_descend(s, s->t, s->q, &at, &least));

@@ -29,7 +29,7 @@ struct qdot_ensemble_series {
     qdot_lanes *lanes;
     qdot_constrained_lanes *held; /* NULL: without constraints */
     size_t stride;                /* groups */
-    double *q, *v, *t;            /* rows of the inputs; behind t numbers: parameters, momenta */
+    double *q, *v, *t;            /* rows of the inputs; after t follow constant inputs: parameters and momenta */
     solver *solvers;              /* [blocks] */
     size_t blocks;
     double *by; /* [solved groups] */

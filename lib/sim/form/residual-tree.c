@@ -12,7 +12,7 @@ typedef struct {
     qdot_residual_tree *t;
     size_t n;
     uint32_t
-        *group; /* [functions] another of the same node, before it; itself: the first */
+        *group; /* [functions] the previous function of the same node; itself for the first one */
     uint32_t *first; /* [n] a function that moves with a coordinate */
 } builder;
 

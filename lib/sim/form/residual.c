@@ -145,7 +145,7 @@ terms_apart(const builder *b, qdot_expr e, qdot_expr g, size_t most)
 {
     const qdot_pool *pool = b->plan->pool;
     const uint32_t n = terms_of(pool, e), m = terms_of(pool, g);
-    size_t apart = n > m ? n - m : 0; /* if all others of g are common */
+    size_t apart = n > m ? n - m : 0; /* the number of different terms if all terms of g are common */
 
     if (qdot_expr_kind(pool, g) != QDOT_SUM)
         return n - 1;

@@ -49,7 +49,7 @@ struct qdot_residual {
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
     /* Tapes with the inputs q, q' and t: */
-    qdot_tape *places; /* d_f in their order, slopes, Q_i without velocities */
+    qdot_tape *places; /* outputs: the d_f in their order, their slopes, and the parts of Q_i without velocities */
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
                           plan without M (sim/plan/tree-alone.h) */

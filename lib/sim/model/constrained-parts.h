@@ -10,7 +10,7 @@ typedef struct {
     qdot_saddle saddle;
     size_t m;
     size_t *row; /* [m] index of each in the constraints */
-    double *residual; /* [m] residuals of those rows, including the carry */
+    double *residual; /* [m] residuals of these rows, with the low parts of the state (carry) */
     double *noise;    /* [m] what rounding of a state makes of them */
     bool filled; /* M and A have been evaluated */
     bool few;    /* few rows and M diagonal: projections use `move`, if it is factored */

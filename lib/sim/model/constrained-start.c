@@ -24,7 +24,7 @@ enum { tries = 4, iterations = 12 };
 typedef struct {
     qdot_constrained *h;
     double t;
-    double *y; /* [2n] a state beside the start */
+    double *y; /* [2n] a state near the start */
     double *A; /* [m x n] holonomic rows, the others 0; or all */
     double *b, *x;
     qdot_row_space rows;
@@ -297,7 +297,7 @@ check_place(qdot_constrained *h, double t, const double *y)
             status = start_refuse(&p, y, repeated);
     }
     p.t = t;
-    if (status == QDOT_OK) { /* as it was, for what reads it next */
+    if (status == QDOT_OK) { /* restore the state for the next reader */
         memcpy(p.y, y, 2 * n * sizeof *y);
         take_slopes(&p, true);
         status = qdot_constrained_solve(h, t, y, h->a, NULL);

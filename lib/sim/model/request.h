@@ -18,7 +18,7 @@ typedef struct {
                                      from the constraints; NULL: all */
     bool exactly;                 /* a start that breaks a constraint is refused */
     qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
-    qdot_expr said[2]; /* the limits as they were said, of symbols with values; nil: as above */
+    qdot_expr said[2]; /* the limits as they were written, with symbols that have values; nil: t0, t1 */
     double tol;                   /* local error of each component in each step, relative to
                                      max(s, |value|) */
     const double *scales;         /* [2n] s of q, then of q', in order of the coordinates; 0: found
@@ -36,7 +36,7 @@ typedef struct {
     bool lanes;                   /* for an ensemble, eight members at a time
                                      (sim/ensemble/ensemble.h) */
     bool by_clock;                /* the time is a coordinate of the scene (sim/run/collide.h) */
-    bool no_drifts;               /* what is conserved is not looked for: nobody reads the report */
+    bool no_drifts;               /* conserved quantities are not searched for, since nobody reads the report */
     const double *apart;          /* [2 x 2n] how far the run's two companions start from it, each in q and q', where the
                                      start has an error (qdot_run_end_apart); NULL: it is exact */
 } qdot_run_request;

@@ -305,7 +305,7 @@ put_in(sliding *s, bool all)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
         } else {
             p->f[i] = qdot_subs(p->pool, p->f[i], k, symbols, to);
-            if (all) /* else they are among the others */
+            if (all) /* otherwise they are among the other rows */
                 add_reactions(s, i);
         }
     }

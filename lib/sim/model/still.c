@@ -69,7 +69,7 @@ reduce(set *z)
     }
     if (!is_regular(z))
         memset(z->still, 0, p->n * sizeof *z->still);
-    return qdot_grave(qdot_pool_check(p->pool)); /* there may be no value there */
+    return qdot_grave(qdot_pool_check(p->pool)); /* the expression may be undefined there */
 }
 
 /* Find the coordinates that are 0, at rest, and not accelerated. */

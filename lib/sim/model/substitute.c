@@ -70,7 +70,7 @@ qdot_substitute(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols
     size_t count = 0;
 
     if (e != QDOT_NIL && (qdot_expr_node(pool, e)->holds & ~constant) == 0)
-        return e; /* as starts are, one for each coordinate */
+        return e; /* a constant, as most start values are */
     for (size_t i = 0; i < n; i++)
         functions |= qdot_expr_kind(pool, symbols[i]) == QDOT_UFUN;
     for (int round = 0; functions && e != QDOT_NIL; round++) {

@@ -40,7 +40,7 @@ typedef struct {
 enum { QDOT_PUCK_MOST = 6, QDOT_PUCK_MOST_TIED = 4 };
 
 typedef struct {
-    size_t surface; /* its surface */
+    size_t surface; /* index of its surface */
     size_t k;       /* components */
     size_t velocity[QDOT_PUCK_MOST];  /* the coordinates j, */
     qdot_expr symbol[QDOT_PUCK_MOST]; /* and their q'_j */

@@ -23,7 +23,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
                                                   size_t m, const qdot_expr *exprs,
                                                   double t);
-/* Whether the expressions are also valid at t: it lies in the same stretch. */
+/* Whether the expressions are also valid at t, which then lies between the same two changes of the chart. */
 bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
 void qdot_in_chart_clear(qdot_in_chart *in);
 

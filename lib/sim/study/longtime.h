@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
     const char *method; /* the only one; NULL: all */
     double tol;         /* the tolerance of all methods; 0: each its own */
-    double budget;      /* work of a run, in about nanoseconds; 0: 1e10, of the only one without bound */
+    double budget;      /* largest work of a run, in units of about 1 ns; 0: 1e10, or no limit for a single method */
     size_t n, capacity;
     qdot_longtime_row *rows;
     qdot_methods_left_out left_out;

@@ -33,7 +33,7 @@ typedef struct {
     qdot_expr period;       /* in the unknowns */
     const double *low, *high; /* [k] bounds, infinite where there are none */
     size_t segments;          /* 0: as many as the guess needs */
-    bool followed;            /* the guess is an orbit as far as its run knows: the states begin along it, all round */
+    bool followed;            /* the guess closes within the error of its run: the states begin along it, all around */
 } qdot_shooting_of;
 
 typedef struct {

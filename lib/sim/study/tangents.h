@@ -39,7 +39,7 @@ QDOT_MUST_CHECK qdot_status qdot_tangents_settle(qdot_tangents *x, double t, con
 /* At the last projected state: project the derivative slope [2n] onto the constraints; it is taken
  * by parameter `by`, or SIZE_MAX: by none. */
 void qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope);
-/* At the last projected state: orthonormal tangents [count x 2n] that stay on its leaf; returns count. */
+/* At the last projected state: orthonormal tangents [count x 2n] of the constraints and their integrals; returns count. */
 size_t qdot_tangents_basis(qdot_tangents *x, double *basis);
 
 #endif
