@@ -415,7 +415,7 @@ look_at_base(qdot_zeros_task *t, qdot_expr base)
     QDOT_TRY(qdot_enclosure_new(t->pool, 1, &base, t->n, t->x, &bounds));
     qdot_enclosure_eval(bounds, t->bounds, false);
     v = qdot_enclosure_get(bounds, 0);
-    if (v->state != QDOT_ENCLOSURE_NOWHERE && (t->n > 1 ? v->y.hi : v->y.lo) < 0) {
+    if (v->state != QDOT_ENCLOSURE_NOWHERE && v->y.lo < 0) {
         t->single = true;
         t->nowhere = t->nowhere || v->y.hi < 0;
     }
