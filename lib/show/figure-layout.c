@@ -73,7 +73,7 @@ panel_measure(const qdot_panel *panel, extent *e)
                 continue;
             from = fmin(from, c->x[k]);
             to = fmax(to, c->x[k]);
-            if (!range_contains(&panel->range[1], c->y[k]))
+            if (!range_contains(&panel->range[1], c->y[k]) || (!panel->log[1] && !range_contains(&c->shown, c->y[k])))
                 continue;
             extent_widen(e, 0, c->x[k]);
             extent_widen(e, 1, c->y[k]);

@@ -184,11 +184,13 @@ tikz_add_key(qdot_text *s, const qdot_panel *panel)
 
 /* --- curves ------------------------------------------------------------------------------- */
 
-/* The value of a point as its axis shows it. */
+/* The value of a point as its axis shows it; far beyond the axis, as near a pole, not more than TeX can calculate with. */
 static double
 shown(const qdot_figure_axis *a, double value)
 {
-    return (value - a->offset) / pow(10, a->power);
+    const double v = (value - a->offset) / pow(10, a->power), far = 20 * (a->most - a->least);
+
+    return a->log || a->step == 0 ? v : fmin(fmax(v, a->least - far), a->most + far);
 }
 
 static void

@@ -21,19 +21,20 @@ typedef struct {
     bool formula;
 } qdot_figure_label;
 
+/* The range of an axis, least < most; `set` false: chosen from the data. */
+typedef struct {
+    double least, most;
+    bool set;
+} qdot_figure_range;
+
 typedef struct {
     qdot_figure_label label;  /* in the key; one curve has no key */
     size_t rows;
     const double *x, *y, *z;  /* [rows] borrowed; z NULL: in the plane */
     size_t look;              /* 1 + the place in the lists of colours, dashes and marks; 0: its own place */
     bool points;              /* marks that are not joined */
+    qdot_figure_range shown;  /* of a curve that runs to infinity the ordinates that the axis is chosen by */
 } qdot_curve;
-
-/* The range of an axis, least < most; `set` false: chosen from the data. */
-typedef struct {
-    double least, most;
-    bool set;
-} qdot_figure_range;
 
 /* Numbers over a grid, drawn as colours. */
 typedef struct {

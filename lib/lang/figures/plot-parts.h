@@ -22,6 +22,7 @@ typedef struct {
     double *work;
     qdot_trace_source source;
     qdot_trace points;
+    qdot_figure_range shown; /* if it has a pole */
 } qdot_plot_curve;
 
 /* An item between commas: an operand; its abscissa, counted from 1 in `versus`, 0: t; the pass of a

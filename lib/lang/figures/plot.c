@@ -6,6 +6,7 @@
 #include "lang/figures/plot.h"
 #include "lang/figures/plot-rows.h"
 #include "lang/answer/answer.h"
+#include "show/pole.h"
 
 enum { LONGEST_LABEL = 48 };
 
@@ -144,7 +145,27 @@ point_at(const qdot_plot_curve *from, qdot_curve *to)
                        .rows = from->points.n,
                        .x = from->points.at[0],
                        .y = from->points.at[1],
-                       .z = from->points.at[2]};
+                       .z = from->points.at[2],
+                       .shown = from->shown};
+}
+
+/* Look for poles of the curves of a panel whose ordinate is chosen by them. */
+static qdot_status
+find_poles(qdot_plot_panel *p)
+{
+    const bool path = p->operands.n > 0 && p->operands.at[0].vector;
+
+    if (path || p->choice.range[1].set || p->choice.points || (p->choice.logs && p->choice.log[1]))
+        return QDOT_OK;
+    for (size_t k = 0; k < p->curves.n; k++) {
+        qdot_plot_curve *curve = p->curves.at[k];
+
+        if (curve->drift)
+            continue;
+        QDOT_TRY(qdot_pole_find(&curve->source, &curve->points, &curve->shown));
+        curve->source.jumps = curve->source.jumps || curve->shown.set;
+    }
+    return QDOT_OK;
 }
 
 /* Build the figure from the points computed so far. */
@@ -260,7 +281,8 @@ qdot_plot_figure(qdot_record *r, const qdot_plot_runs *runs)
     if (qdot_plot_rows_is(r))
         return qdot_plot_rows(r);
     status = read_panels(r, runs, &choice, &all);
-
+    for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
+        status = find_poles(&all.at[i]);
     if (status == QDOT_OK)
         status = build_figure(&all, &f);
     if (status == QDOT_OK) {
