@@ -4,7 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "sim/digits/precise-course.h"
 #include "sim/digits/precise.h"
+#include "sim/error/companion.h"
 #include "sim/error/failure.h"
 
 enum { MOST_NAMES = 8 };
@@ -116,6 +118,48 @@ keep_end(qdot_run *run)
     return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
 }
 
+static size_t
+count_occurrences(const qdot_course *c, size_t event)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        n += c->occurrences.at[i].event == event;
+    return n;
+}
+
+/* Tell of each event that a companion of the guide met more often: all digits are looked for where the guide met it. */
+static qdot_status
+say_missed(qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++) {
+        const size_t own = count_occurrences(&run->course, i), other = count_occurrences(&run->companion, i),
+                     third = count_occurrences(&run->twin, i), most = other > third ? other : third;
+
+        if (most > own)
+            qdot_text_format(qdot_run_next_notice(run),
+                             "the event %s may occur more often: doubles, which `digits` follows through events, do not "
+                             "tell whether it does so %zu or %zu times",
+                             run->stage.events.at[i].name, own, most);
+    }
+    return qdot_text_status(&run->notice);
+}
+
+/* The guide must not be one of several ways in which rounding of the start leads: its companions go the same one. */
+static qdot_status
+check_guide(qdot_run *run)
+{
+    double t;
+
+    if (run->course.failed)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_twin(run));
+    t = qdot_run_parts(run);
+    QDOT_TRY(say_missed(run));
+    qdot_run_drop_companions(run);
+    return isnan(t) ? QDOT_OK : qdot_precise_beyond_doubles(t);
+}
+
 /* The guide: a run in doubles that finds the sequence of events and switches and their times. What
  * follows its end is not known: if it did not arrive, its reason becomes that of the run. */
 static qdot_status
@@ -123,12 +167,15 @@ find_guide(qdot_run *run, const qdot_run_request *request)
 {
     qdot_course *c = &run->course;
     qdot_ode_options options = {
-        .tol = request->tol, .carry = run->start_low, .t1_low = run->t1_low};
+        .tol = request->tol, .carry = run->start_low, .t1_low = run->t1_low, .meter = &run->meter};
     const char *why;
     double end;
     qdot_status status;
 
+    run->report.tol = request->tol;
+    qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     status = qdot_course_run(c, run->plan->method, &options, run->t0, run->t1, run->start);
+    qdot_ode_meter_end(&run->meter);
     if (status != QDOT_OK
         && (c->tr.count == 0 || (status != QDOT_EFAILED && status != QDOT_ESINGULAR
                                  && status != QDOT_EDOMAIN)))
@@ -197,6 +244,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     QDOT_TRY(refuse_layers(run));
     if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {
         QDOT_TRY(find_guide(run, request));
+        QDOT_TRY(check_guide(run));
         guide = &run->course;
     }
     status = qdot_precise_pair_new(run->plan, request, run->start, domains, guide,

@@ -139,8 +139,8 @@ begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size
     return found;
 }
 
-static qdot_status
-beyond_doubles(double t)
+qdot_status
+qdot_precise_beyond_doubles(double t)
 {
     qdot_fail(QDOT_ELIMIT,
               "what happens at t = %.15g cannot be told apart in doubles, which `digits` "
@@ -176,7 +176,7 @@ qdot_precise_course_init(qdot_precise_side *s)
     }
     for (size_t i = 0; i < g->faded.n; i++)
         if (g->faded.at[i].touched && qdot_staged_event_acts(&g->stage->events.at[g->faded.at[i].event]))
-            return beyond_doubles(g->faded.at[i].from);
+            return qdot_precise_beyond_doubles(g->faded.at[i].from);
     for (size_t i = 0; i < g->ends.n; i++) {
         const qdot_course_end *e = &g->ends.at[i];
         bool many;
@@ -270,14 +270,14 @@ end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end 
     QDOT_TRY(qdot_precise_locate(s, segment, formula_find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
                     2 * pad * length_of(s->guide, k), &found));
     if (!found)
-        return beyond_doubles(ends[0].t);
+        return qdot_precise_beyond_doubles(ends[0].t);
     mpfr_set(t, at[X], RN);
     for (size_t k = 1; k < n; k++) { /* what happens with it happens in all digits */
         const qdot_precise_formula *f = formula_find(s, mode, ends[k].function, SIZE_MAX);
 
         QDOT_TRY(qdot_precise_formula_at(s, segment, f, t, at[F_X]));
         if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
-            return beyond_doubles(ends[0].t);
+            return qdot_precise_beyond_doubles(ends[0].t);
     }
     QDOT_TRY(shorten_segment(s, segment, t));
     return state_change(s, segment, ends, n, t);
@@ -308,7 +308,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     qdot_status status;
 
     if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* the piece ended without a known root */
-        return beyond_doubles(tr->t[last]);
+        return qdot_precise_beyond_doubles(tr->t[last]);
     s->course->segment_of[k] = segment;
     QDOT_TRY(qdot_vec_push(&s->segments, ((qdot_precise_segment){
                                              .mode = piece->mode, .jumped = piece->jumped})));

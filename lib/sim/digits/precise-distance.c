@@ -163,11 +163,15 @@ qdot_precise_check_progress(qdot_precise_pair *pair, qdot_precise_progress *p)
         p->digits = pair->run.digits;
         p->log10_error = pair->log10_error;
     } else if (more >= 8 && p->log10_error - pair->log10_error < 0.6 * more) {
+        const bool ends = pair->guide && pair->guide->ends.n > 0;
+
         qdot_fail(QDOT_EFAILED,
-                  "%.0f digits more have brought %.1f: the motion goes through a singularity, "
+                  "%.0f digits more have brought %.1f: the motion %sgoes through a singularity, "
                   "behind which no digits are sure",
-                  more, p->log10_error - pair->log10_error);
-        return qdot_hint("such as a cusp, where a constraint has no direction");
+                  more, p->log10_error - pair->log10_error,
+                  ends ? "meets an event or a switch without speed, whose time has fewer digits, or it " : "");
+        return qdot_hint(ends ? "a run in doubles states the error of its times"
+                              : "such as a cusp, where a constraint has no direction");
     }
     return QDOT_OK;
 }

@@ -67,6 +67,38 @@ qdot_run_comparable(const qdot_run *run)
            && (!run->has_twin || went_alike(&run->course, &run->twin));
 }
 
+/* Pieces begin at one time if they do within so much of the time since the start. */
+static const double near_enough = 1e-3;
+
+/* The time from which on a course is another one than the run: its piece there has other equations, or begins at another
+ * time. NaN: it is the same. */
+static double
+time_of_parting(const qdot_course *run, const qdot_course *other)
+{
+    const qdot_trajectory *a = &run->tr, *b = &other->tr;
+    const size_t n = a->pieces.n < b->pieces.n ? a->pieces.n : b->pieces.n;
+    const double direction = a->t[a->count - 1] < a->t[0] ? -1 : 1;
+
+    if (went_alike(run, other))
+        return NAN;
+    for (size_t i = 0; i < n; i++) {
+        const double t = a->t[a->pieces.at[i].first], theirs = b->t[b->pieces.at[i].first];
+
+        if (a->pieces.at[i].mode != b->pieces.at[i].mode || fabs(t - theirs) > near_enough * fabs(t - a->t[0]))
+            return direction * (theirs - t) < 0 ? theirs : t;
+    }
+    return a->pieces.n > n ? a->t[a->pieces.at[n].first] : b->t[b->pieces.at[n].first];
+}
+
+double
+qdot_run_parts(const qdot_run *run)
+{
+    const double first = run->has_companion ? time_of_parting(&run->course, &run->companion) : NAN,
+                 second = run->has_twin ? time_of_parting(&run->course, &run->twin) : NAN;
+
+    return run->t1 < run->t0 ? fmax(first, second) : fmin(first, second);
+}
+
 static bool
 covers(const qdot_course *c, double t)
 {
