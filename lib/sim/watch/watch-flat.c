@@ -169,7 +169,7 @@ qdot_watch_value_deep(qdot_watch *w, double t, double *g)
 static const double clearly = 0x1p12;
 
 qdot_status
-qdot_watch_leave_deep(qdot_watch *w)
+qdot_watch_leave_deep(qdot_watch *w, double t)
 {
     const double by = fmin(clearly * step_of_double(w->t), 0.5 * w->length);
 
@@ -177,7 +177,7 @@ qdot_watch_leave_deep(qdot_watch *w)
     for (size_t i = 0; i < w->m; i++)
         w->leaves[i] =
             w->deep[i] ? qdot_watch_sign(value_of_state(w, i, w->t + w->direction * by, SIZE_MAX, 0)) : 0;
-    return QDOT_OK;
+    return qdot_watch_value_deep(w, t, w->final);
 }
 
 void

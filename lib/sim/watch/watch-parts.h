@@ -337,9 +337,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_settle_flat(qdot_watch *w, const qdot_wat
  * that is. */
 QDOT_MUST_CHECK qdot_status qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, bool hidden,
                                                     qdot_root *root, bool *is);
-/* Where a piece starts: set w->deep [m], and w->start.g0 of these. Then values at t within the step, into g [m]. */
+/* Where a piece starts: set w->deep [m], and w->start.g0 of these. Then, for a step to t, w->leaves and w->final of these;
+ * then values at t within the step, into g [m]. */
 QDOT_MUST_CHECK qdot_status qdot_watch_begin_deep(qdot_watch *w, const double *low);
-QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w);
+QDOT_MUST_CHECK qdot_status qdot_watch_leave_deep(qdot_watch *w, double t);
 QDOT_MUST_CHECK qdot_status qdot_watch_value_deep(qdot_watch *w, double t, double *g);
 void qdot_watch_end_deep(qdot_watch *w);
 /* What rounding of the state makes of a deep function at the ends of the part. */

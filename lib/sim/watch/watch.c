@@ -367,8 +367,6 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     w->roots.n = 0;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->final));
-    if (w->any_deep)
-        QDOT_TRY(qdot_watch_value_deep(w, t, w->final));
     w->length = fabs(t - w->t);
     w->shortest = least_of_length * w->length;
     w->reached = t;
@@ -379,7 +377,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     qdot_polynomial_bounds_begin(&w->bounds, NULL);
     QDOT_TRY(qdot_watch_find_fading(w, t, y));
     if (w->any_deep)
-        QDOT_TRY(qdot_watch_leave_deep(w));
+        QDOT_TRY(qdot_watch_leave_deep(w, t));
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = !qdot_watch_has_faded(w, i)
                      && (w->start.on[i] || qdot_watch_sign(w->final[i]) != w->start.sign[i] || !is_far(w, i, t, y, step));
