@@ -43,18 +43,18 @@ extern "C" {
 typedef enum {
     QDOT_RESULT_OK = 0,
     QDOT_RESULT_INVALID = 1,     /* an argument that makes no sense: NULL, a count that does not fit */
-    QDOT_RESULT_SYNTAX = 2,      /* text that is not of the language */
+    QDOT_RESULT_SYNTAX = 2,      /* text that is not in the language */
     QDOT_RESULT_NAME = 3,        /* a name that is unknown, or taken */
     QDOT_RESULT_TYPE = 4,        /* a vector where a number belongs, wrong dimensions */
-    QDOT_RESULT_DOMAIN = 5,      /* undefined: 1/0, log 0, a time outside the motion */
+    QDOT_RESULT_DOMAIN = 5, /* a value that is undefined: 1/0, log 0, a time outside the motion */
     QDOT_RESULT_UNSET = 6,       /* a parameter or function without a value */
     QDOT_RESULT_SINGULAR = 7,    /* a matrix without an inverse */
     QDOT_RESULT_LIMIT = 8,       /* larger than a stated limit of work or size */
     QDOT_RESULT_FAILED = 9,      /* a numerical method gave up; the message says where and why */
     QDOT_RESULT_NOT_BUILT = 10,  /* a word of the language that this version does not carry out */
-    QDOT_RESULT_IO = 11,         /* a file or pipe */
+    QDOT_RESULT_IO = 11,         /* a file or pipe cannot be read or written */
     QDOT_RESULT_NO_MEMORY = 12,
-    QDOT_RESULT_INTERRUPTED = 13 /* by qdot_interrupt_set() */
+    QDOT_RESULT_INTERRUPTED = 13 /* interrupted by qdot_interrupt_set() */
 } qdot_result;
 
 /* A result in a few words, "unknown or taken name"; never NULL. */
@@ -147,18 +147,18 @@ void qdot_motion_free(qdot_motion *motion);
 const qdot_system *qdot_motion_system(const qdot_motion *motion);
 
 typedef struct {
-    double start, end;       /* times; it may end before what was asked for */
+    double start, end; /* times of the first and last state; the end may be earlier than requested */
     double tolerance;
     double error;            /* of the state at the end: the largest of its components relative to
                                 max(1, |value|); estimated; NaN: unknown */
-    double horizon;          /* time beyond which no digit of the state is right; NaN: none */
-    double energy_drift;     /* max |h - h0| / max(1, |h0|) of the energy; NaN: it is not conserved */
+    double horizon;          /* time after which no digit of the state is reliable; NaN: none */
+    double energy_drift; /* max |h - h0| / max(1, |h0|), h the energy; NaN: h is not conserved */
     double constraint_drift; /* the largest |f| of the constraints f = 0; NaN: there are none */
-    double cpu;              /* seconds of the integration alone */
+    double cpu;              /* CPU seconds of the integration alone */
     size_t steps, rejected, evaluations;
-    const char *method;      /* "taylor"; borrowed from the motion, as are the others */
-    const char *reason;      /* why it ended early; NULL: it did not */
-    const char *doubt;       /* why the error is unknown; NULL: it is known, or no reason is */
+    const char *method; /* name of the method, as "taylor"; borrowed from the motion, as are the next two */
+    const char *reason;      /* why the run ended early; NULL: it did not */
+    const char *doubt; /* why the error is unknown; NULL: it is known, or no reason is given */
 } qdot_motion_summary;
 
 /* Fill *summary. size: sizeof *summary, so that a later version may have more members. */
@@ -188,8 +188,8 @@ qdot_result qdot_motion_values(qdot_motion *motion, const char *expression, size
 typedef enum {
     QDOT_OVER_MAX = 0,
     QDOT_OVER_MIN = 1,
-    QDOT_OVER_MEAN = 2, /* over time */
-    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), e0 at `from` */
+    QDOT_OVER_MEAN = 2, /* mean over time */
+    QDOT_OVER_DRIFT = 3 /* max |e - e0| / max(1, |e0|), e0 the value of the expression at `from` */
 } qdot_over;
 
 /* The largest or least value of a scalar expression between two times, its mean or its drift, with its

@@ -100,7 +100,7 @@ print_value(qdot_session *session, qdot_expr value, formula *f)
                                     several ? qdot_expr_arg(session->pool, value, i) : value,
                                     f->style, &f->text));
     }
-    qdot_text_add(&f->text, ""); /* an empty list is a text too */
+    qdot_text_add(&f->text, ""); /* an empty list gives the empty text, not NULL */
     return qdot_text_status(&f->text);
 }
 

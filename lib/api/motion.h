@@ -8,10 +8,10 @@
 
 struct qdot_motion {
     qdot_system *system; /* counted among the uses of the system */
-    qdot_named_run run;  /* a use of it: kept though the session may forget it */
-    bool named;          /* by `as NAME`: the session keeps it */
+    qdot_named_run run;  /* the run; held here even if the session forgets it */
+    bool named;          /* named by `as NAME`: the session keeps the run, too */
     qdot_arena *arena;
-    const char **coordinates; /* [qdot_motion_coordinates], in the arena */
+    const char **coordinates; /* names of the coordinates [qdot_motion_coordinates], in the arena */
 };
 
 /* The index of the run among the session's runs; runs.n if the session no longer has it. */

@@ -18,13 +18,13 @@ enum { QDOT_API_ANSWERS, QDOT_API_ERRORS, QDOT_API_NOTICES, QDOT_API_STREAMS };
 
 struct qdot_system {
     qdot_session *session;
-    size_t uses; /* the caller's, and one for each motion */
+    size_t uses; /* number of holders: the caller, and one for each motion */
     struct {
-        FILE *file; /* open during a call */
-        char *text; /* of the latest call, from open_memstream; NULL: none */
+        FILE *file; /* stream for output, open during a call */
+        char *text; /* output of the latest call, from open_memstream; NULL: none */
         size_t length;
     } stream[QDOT_API_STREAMS];
-    qdot_error error; /* of the latest call; QDOT_OK: none */
+    qdot_error error; /* failure of the latest call; QDOT_OK: none */
 };
 
 /* Begin a call of the library. If it returns QDOT_ENOMEM, qdot_api_end must still be called. */

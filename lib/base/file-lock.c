@@ -31,7 +31,7 @@ lock_whole(const char *path, int fd, bool *gone)
     if (fcntl(fd, F_SETLK, &all) != 0 || fstat(fd, &held) != 0)
         return errno;
     *gone = stat(path, &now) != 0 || now.st_ino != held.st_ino || now.st_dev != held.st_dev;
-    if (held.st_size > 0) /* a lock file is empty: this is another file of that name */
+    if (held.st_size > 0) /* a lock file is empty: a file with content of that name is not ours */
         return EEXIST;
     return 0;
 }
@@ -39,7 +39,7 @@ lock_whole(const char *path, int fd, bool *gone)
 qdot_status
 qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
 {
-    char *behind = realpath(path, NULL); /* links to one file have one lock */
+    char *behind = realpath(path, NULL); /* with links resolved, so that all links to one file share one lock */
     qdot_text name = {0};
     int failed = 0;
     bool gone = true;

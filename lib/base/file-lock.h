@@ -11,7 +11,7 @@
 #include "base/status.h"
 
 typedef struct {
-    char *path; /* of the lock; NULL: none is held */
+    char *path; /* name of the lock file, owned; NULL: no lock is held */
     int fd;
 } qdot_file_lock;
 

@@ -5,7 +5,8 @@
 
 volatile sig_atomic_t qdot_interrupt_flag = 0;
 
-static atomic_long checks_left = -1; /* until the simulated Ctrl-C; companions check on threads of their own */
+/* calls of the test until the simulated Ctrl-C; atomic: companions run on other threads */
+static atomic_long checks_left = -1;
 
 void
 qdot_interrupt_set(void)

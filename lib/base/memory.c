@@ -111,7 +111,7 @@ qdot_realloc(void *block, size_t size)
         qdot_scope_release(block);
     bigger = realloc(block, size ? size : 1);
     if (bigger == NULL && inside && block != NULL)
-        (void)qdot_scope_note(block, 0); /* succeeds: the scope had room for this block */
+        (void)qdot_scope_note(block, 0); /* cannot fail: the scope already had an entry for this block */
     return inside ? record_block(bigger, size) : checked(bigger, size);
 }
 

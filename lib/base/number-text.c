@@ -23,10 +23,10 @@ qdot_number_text(qdot_text *text, double value, double error)
     int digits = 10;
     size_t before;
 
-    value += 0.0;     /* -0 is 0 */
+    value += 0.0;     /* turns -0 into 0 */
     if (error == 0) { /* the shortest text that reads back as the same double */
         digits = qdot_double_digits(value, 1);
-        if (fabs(value) >= 1 && fabs(value) < 1e15) /* 10, not 1e+01 */
+        if (fabs(value) >= 1 && fabs(value) < 1e15) /* as an integer: 10, not 1e+01 */
             digits = (int)fmax(digits, floor(log10(fabs(value))) + 1);
     } else if (isfinite(error) && isfinite(value) && value != 0) {
         digits = (int)floor(log10(fabs(value))) - (int)floor(log10(error)) + 1;

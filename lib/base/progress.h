@@ -14,10 +14,10 @@
 #include <stdint.h>
 
 typedef struct qdot_progress {
-    const char *what; /* "run", "dop853, tol 1e-09" */
-    double t0, t1, t; /* the variable that advances: its start, its end, where it is */
+    const char *what; /* what is being computed: "run", "dop853, tol 1e-09" */
+    double t0, t1, t; /* the variable that advances: start, end and present value */
     double speed;     /* steps a second; 0: not known yet */
-    double left;      /* seconds; NaN: not known yet */
+    double left;      /* estimated seconds that remain; NaN: not known yet */
     /* called after half a second and then a few times a second; may show a line */
     void (*show)(const struct qdot_progress *progress);
     /* called before other output is written, if a line was shown */
@@ -26,7 +26,7 @@ typedef struct qdot_progress {
     /* fields used by base/progress.c only */
     char text[80], within[80];
     uint64_t steps, pause,
-        until;                  /* steps since `what` began; between looks at the clock */
+        until; /* steps since `what` began; steps between looks at the clock; the step of the next look */
     double begun, opened, last; /* times in seconds: when this work, the whole and the line shown began */
     bool shown;
 } qdot_progress;

@@ -14,11 +14,11 @@
 
 typedef struct {
     struct qdot_noted {
-        void *block; /* NULL: free */
+        void *block; /* the allocated block; NULL: this slot is free */
         size_t size;
     } * slot;
     size_t mask, n;
-    size_t bytes; /* of all blocks noted */
+    size_t bytes; /* total size of all recorded blocks */
 } qdot_scope;
 
 /* The thread's scope; NULL outside of any. */

@@ -35,7 +35,8 @@ find_place(qdot_sink *sink, struct stat *old, bool *direct)
         if (errno != ENOENT)
             return fail_to_write(sink, errno);
         *old = (struct stat){0};
-        *direct = lstat(sink->path, &(struct stat){0}) == 0; /* a link to a file to be */
+        /* the path is a link to a file that does not exist yet: write directly */
+        *direct = lstat(sink->path, &(struct stat){0}) == 0;
     } else if (S_ISDIR(old->st_mode)) {
         return fail_to_write(sink, EISDIR);
     } else if (!S_ISREG(old->st_mode)) {
@@ -106,7 +107,7 @@ qdot_sink_open(qdot_sink *sink, const char *path)
     *sink = (qdot_sink){.path = path};
     if (path[0] == '\0')
         return qdot_fail(QDOT_EINVAL, "a file needs a name");
-    if (qdot_rank() > 0 || strcmp(path, "-") == 0) { /* rank 0 writes */
+    if (qdot_rank() > 0 || strcmp(path, "-") == 0) { /* with MPI only the process of rank 0 writes files */
         sink->file = qdot_rank() > 0 ? fopen("/dev/null", "wbe") : stdout;
         return sink->file != NULL ? QDOT_OK : fail_to_write(sink, errno);
     }
@@ -187,7 +188,8 @@ qdot_sink_is_free(const char *path, const char *mark)
 
     if (stat(path, &info) != 0)
         return errno == ENOENT;
-    file = S_ISREG(info.st_mode) ? fopen(path, "rbe") : NULL; /* a pipe would be waited for */
+    /* only a regular file is opened: opening a pipe would block */
+    file = S_ISREG(info.st_mode) ? fopen(path, "rbe") : NULL;
     if (file == NULL)
         return false;
     ours = length <= sizeof head && fread(head, 1, length, file) == length

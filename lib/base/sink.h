@@ -17,8 +17,8 @@
 typedef struct {
     FILE *file;
     const char *path; /* borrowed; "-" is standard output */
-    char *beside;     /* the name of the file that is written: path.part */
-    char *place;      /* the file that it becomes by renaming at the end; NULL: the file is written directly */
+    char *beside;     /* name of the temporary file that is written: path.part */
+    char *place; /* the file that replaces it by renaming at the end; NULL: the file is written directly */
 } qdot_sink;
 
 /* Begin. QDOT_EIO with the system's reason; QDOT_EINVAL for an empty path; QDOT_ENOMEM. */

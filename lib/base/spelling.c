@@ -49,7 +49,7 @@ qdot_spelling_begin(qdot_spelling *s, const char *name)
     size_t length = strlen(name);
 
     *s = (qdot_spelling){.name = name, .length = length};
-    s->least = length == 1 ? 2 /* one letter is near only to itself in the other case */
+    s->least = length == 1 ? 2 /* for a name of one letter only the other case of the same letter is near */
                            : 2 * (length < 7 ? 1 : length < 11 ? 2 : 3) + 2;
 }
 

@@ -202,14 +202,14 @@ add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t widt
 {
     const size_t room = width > indent ? width - indent : 1;
     size_t i = 0;
-    bool any = false; /* whether the present line holds a word */
+    bool any = false; /* whether the present line already holds a word */
 
     while (i < line.n) {
         const size_t blanks = blanks_at(line, i),
                      end = end_of_chunk(line, i + blanks, room);
         const piece chunk = {line.at + i + blanks, end - i - blanks};
 
-        if (chunk.n == 0) /* blanks at the end */
+        if (chunk.n == 0) /* the text ends with blanks */
             break;
         if ((any || column > indent) && column + blanks + piece_columns(chunk) > width) {
             begin_next_line(out, indent);
@@ -236,11 +236,11 @@ wrap_add_line(qdot_text *out, piece line, size_t width)
 /* --- folding tables ------------------------------------------------------------------- */
 
 typedef struct {
-    qdot_vec(piece) cells; /* row by row; the first is the head */
-    size_t rows, n;        /* n cells a row */
-    size_t keys;           /* the first of them, which tell one row from the next */
+    qdot_vec(piece) cells; /* the cells row by row; the first row is the head */
+    size_t rows, n;        /* number of rows, the head included; columns */
+    size_t keys;           /* number of leading columns that identify a row */
     size_t key_columns;    /* the width of all key columns together */
-    size_t *width;         /* [n] */
+    size_t *width;         /* [n] width of each column */
 } table;
 
 /* Cell k of a table line; empty if the line has fewer cells. */
@@ -367,7 +367,7 @@ table_add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t w
         size_t last = to, column = t->key_columns;
 
         while (last > from && trimmed(cell_at(t, i, last - 1)).n == 0)
-            last--; /* only blanks follow */
+            last--; /* leave out trailing cells that are blank */
         for (size_t k = 0; k < t->keys; k++)
             table_add_cell(out, t, i, k, last == from && k + 1 == t->keys);
         for (size_t k = from; k < last; column += t->width[k++]) {

@@ -184,7 +184,8 @@ shorten(struct bound *b, bool up)
     enum { LONG = 1024, SHORT = 256 };
     fmpq_t y;
 
-    if (qdot_rational_is_small(&b->x) || fmpz_bits(fmpq_denref(&b->x)) <= LONG) /* small: FLINT is not called */
+    /* small numbers need no call of FLINT */
+    if (qdot_rational_is_small(&b->x) || fmpz_bits(fmpq_denref(&b->x)) <= LONG)
         return;
     fmpq_init(y);
     fmpz_mul_2exp(fmpq_numref(y), fmpq_numref(&b->x), SHORT);

@@ -200,7 +200,7 @@ derive_by(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
     derivation d = {.pool = pool, .w = &w, .holds = holds};
     qdot_expr result = QDOT_NIL;
 
-    touches |= QDOT_TOUCHES_VALUE; /* a vector of constants has a vector of zeros */
+    touches |= QDOT_TOUCHES_VALUE; /* the derivative of a constant vector is a vector of zeros */
     d.touches = touches;
     if (e == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;

@@ -87,7 +87,7 @@ is_same_function(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 qdot_status
 qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
 {
-    enum { MOST = 160 }; /* bytes of names that are shown */
+    enum { MOST = 160 }; /* largest number of bytes of names that a message shows */
     qdot_text names = {0}, values = {0}, one = {0};
     qdot_expr first = QDOT_NIL;
     size_t settable = 0, left = 0;
@@ -97,7 +97,8 @@ qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
         return QDOT_OK;
     for (size_t i = 0; i < n; i++)
         applied = applied || qdot_expr_kind(pool, e[i]) == QDOT_UFUN;
-    for (size_t i = 0; i < n; i++) /* arguments follow from the function's definition */
+    /* an argument of an undefined function is set by the function's definition: not listed */
+    for (size_t i = 0; i < n; i++)
         if (!is_settable(pool, e[i]) &&
             !(applied && (qdot_expr_is_class(pool, e[i], QDOT_FORMAL) || e[i] == QDOT_T)))
             return qdot_constant_unset(pool, e[i]);
@@ -196,7 +197,7 @@ ball_logic(arb_t y, qdot_logic_op op, uint32_t n, const arb_struct *const *x)
         if (!arb_is_exact(x[i]))
             open = true;
         else if (arb_is_zero(x[i]) == (op == QDOT_AND))
-            decided = true; /* a false in `and`, a true in `or` */
+            decided = true; /* one operand decides: a false one in `and`, a true one in `or` */
     }
     if (decided)
         arb_set_si(y, op == QDOT_OR);
@@ -252,8 +253,8 @@ ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const 
 typedef struct {
     const qdot_pool *pool;
     qdot_walk walk;
-    arb_struct *ball;          /* [walk.n] */
-    const arb_struct **args;   /* scratch: balls of one node's args */
+    arb_struct *ball;          /* [walk.n] the value of each node as a ball */
+    const arb_struct **args;   /* scratch: the balls of one node's arguments */
     size_t args_capacity;
 } evaluation;
 
@@ -381,7 +382,7 @@ rounds_to_one_double(const arb_t ball, double *value)
     b = arf_get_d(hi, ARF_RND_NEAR);
     arf_clear(lo);
     arf_clear(hi);
-    *value = a + 0.0; /* no minus zero */
+    *value = a + 0.0; /* turns -0 into 0 */
     return a == b;
 }
 

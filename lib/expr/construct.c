@@ -152,7 +152,7 @@ qdot_rebuild(qdot_pool *pool, qdot_expr e, const qdot_expr *args)
     qdot_expr few[64], *own = few, result;
     bool same = true;
     uint32_t n =
-        node.kind == QDOT_UFUN ? node.n / 2 : node.n; /* orders are no arguments */
+        node.kind == QDOT_UFUN ? node.n / 2 : node.n; /* the last n/2 entries of a UFUN are orders of derivatives */
 
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)

@@ -11,8 +11,8 @@
 enum {
     QDOT_FUN_ODD = 1,      /* f(-x) = -f(x) */
     QDOT_FUN_EVEN = 2,     /* f(-x) = f(x) */
-    QDOT_FUN_RISING = 4,   /* strictly, where f is defined, an interval */
-    QDOT_FUN_FALLING = 8,  /* likewise */
+    QDOT_FUN_RISING = 4,   /* strictly increasing on its domain, which is an interval */
+    QDOT_FUN_FALLING = 8,  /* strictly decreasing on its domain, which is an interval */
     QDOT_FUN_ENTIRE = 16,  /* analytic at every real number */
     QDOT_FUN_ARC = 32,     /* its sine and cosine are algebraic functions of the argument */
     QDOT_FUN_AREA = 64,    /* its hyperbolic sine and cosine are algebraic functions of the argument */
@@ -33,7 +33,7 @@ typedef struct {
     int least, most; /* numbers of arguments; most < 0: any number */
     unsigned traits;
     qdot_fun_end lo, hi;
-    qdot_fun_id inverse; /* x = inverse(v) solves f(x) = v, of an even f also -x; QDOT_FUNCTION_KINDS: none */
+    qdot_fun_id inverse; /* x = inverse(v) solves f(x) = v; for an even f so does -x; QDOT_FUNCTION_KINDS: no inverse */
 } qdot_fun_facts;
 
 /* The known properties of a function; of `hold` only its name and that it has one argument. */

@@ -7,7 +7,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 
-enum { MOST_TERMS = 1500000 }; /* products of terms, all of one expansion */
+enum { MOST_TERMS = 1500000 }; /* limit of one call: products of terms computed */
 
 /* The number of terms of e as a sum; 1 if e is no sum. */
 static uint32_t
@@ -143,7 +143,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
             result = qdot_rebuild(pool, node, args.at);
             if (NODE(pool, node)->kind == QDOT_SUM && result != QDOT_NIL &&
                 NODE(pool, result)->kind == QDOT_PROD)
-                result = distribute(pool, result, &work); /* one term is left: 2 times a sum */
+                result = distribute(pool, result, &work); /* only one term is left: expand its product with the sum */
         } else {
             result = node;
         }
@@ -157,7 +157,7 @@ qdot_expand(qdot_pool *pool, qdot_expr e)
 /* --- collecting powers of a symbol ---------------------------------------------------------- */
 
 struct group {
-    qdot_expr power; /* of x: QDOT_ONE for x^0 */
+    qdot_expr power; /* the power of x as an expression: QDOT_ONE for x^0 */
     qdot_vec(qdot_expr) coefficients;
 };
 

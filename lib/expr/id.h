@@ -51,15 +51,15 @@ typedef enum {
 #define QDOT_PI 5u
 #define QDOT_TRUE 6u
 #define QDOT_FALSE 7u
-#define QDOT_T 8u /* the time */
+#define QDOT_T 8u /* the symbol t of the time */
 
 typedef enum { QDOT_EQ, QDOT_LT, QDOT_LE } qdot_rel_op; /* a > b is kept as b < a */
 typedef enum { QDOT_AND, QDOT_OR, QDOT_NOT } qdot_logic_op;
 
-qdot_pool *qdot_pool_new(void); /* NULL: no memory */
+qdot_pool *qdot_pool_new(void); /* returns NULL if memory runs out */
 void qdot_pool_free(qdot_pool *pool);
-size_t qdot_pool_count(const qdot_pool *pool); /* nodes so far */
-size_t qdot_pool_bytes(const qdot_pool *pool); /* their memory, without large numbers */
+size_t qdot_pool_count(const qdot_pool *pool); /* number of nodes so far */
+size_t qdot_pool_bytes(const qdot_pool *pool); /* bytes used by the pool, without large numbers */
 
 /* The first failure since the last check, QDOT_OK if none. It becomes the thread's last error
  * again, and the pool drops it and is usable as before. */

@@ -9,7 +9,7 @@
 enum { SLOTS = 4096 };
 
 struct qdot_memo {
-    qdot_expr question; /* nil: free */
+    qdot_expr question; /* the expression asked about; nil: this slot is free */
     uint32_t asked, stamp;
     _Alignas(max_align_t) unsigned char answer[QDOT_MEMO_BYTES];
 };
@@ -40,7 +40,8 @@ qdot_memo_keep(qdot_pool *pool, qdot_expr question, uint32_t asked, const void *
     if (question == QDOT_NIL || pool->budget != UINT64_MAX)
         return;
     if (pool->memo == NULL) {
-        qdot_scope *scope = qdot_scope_pause(); /* the pool outlives it */
+        /* not recorded in the present scope, because the pool outlives the scope */
+        qdot_scope *scope = qdot_scope_pause();
 
         pool->memo = qdot_calloc(SLOTS, sizeof *pool->memo);
         qdot_scope_resume(scope);

@@ -14,16 +14,16 @@ enum { QDOT_GE0 = 1, QDOT_LE0 = 2, QDOT_NE0 = 4 };
 
 typedef struct {
     uint8_t kind; /* qdot_kind */
-    uint8_t sign; /* QDOT_GE0 ... */
-    uint16_t op;  /* by kind, see above */
+    uint8_t sign; /* what is known of the sign of the value: bits QDOT_GE0 ... */
+    uint16_t op;  /* meaning depends on the kind, see qdot_kind (id.h) */
     uint32_t n;   /* number of args */
-    uint32_t at;  /* index of the first arg; for NUM and SYM the index in its table */
-    uint32_t holds; /* QDOT_HAS_PARAM ... (symbol.h) */
+    uint32_t at; /* index of its first argument in pool->args; for NUM and SYM its index in their table */
+    uint32_t holds; /* the kinds of symbols in it: bits QDOT_HAS_PARAM ... (symbol.h) */
     uint32_t hash;
     uint32_t touches; /* a hash set of its symbols: a symbol whose bit is not set does not occur
                           */
-    uint32_t height;  /* of the tree: 0 for a NUM or SYM */
-    uint32_t size;    /* operations as a tree, at most 2^32 - 1: ask qdot_expr_size() */
+    uint32_t height;  /* height of the expression tree: 0 for a NUM or SYM */
+    uint32_t size; /* operations of the expression as a tree, at most 2^32 - 1: ask qdot_expr_size() */
 } qdot_node;
 
 const qdot_node *qdot_expr_node(const qdot_pool *pool, qdot_expr e);
@@ -35,7 +35,7 @@ qdot_kind qdot_expr_kind(const qdot_pool *pool, qdot_expr e);
 qdot_expr qdot_expr_arg(const qdot_pool *pool, qdot_expr e, uint32_t i);
 uint32_t qdot_expr_count(const qdot_pool *pool, qdot_expr e);
 
-bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* NUM ... UFUN, no words */
+bool qdot_expr_is_scalar(const qdot_pool *pool, qdot_expr e); /* true for NUM ... UFUN, but not for a text */
 /* The canonical order of factors: total, structural, the same on every machine; returns <0, 0, >0. */
 int qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b);
 

@@ -47,7 +47,7 @@ qdot_expr_int(qdot_pool *pool, long n)
 static bool
 small_decimal(qdot_pool *pool, const char *digits, size_t n, long exponent, qdot_expr *e)
 {
-    enum { MOST = 18 }; /* 10^18 < 2^62 */
+    enum { MOST = 18 }; /* most digits that fit: 10^18 < 2^62 */
     int64_t top = 0, bottom = 1;
     fmpq x = {0, 1};
 

@@ -102,10 +102,11 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
             return qdot_rational_cmp(RATIONAL(pool, a), RATIONAL(pool, b));
         if (x->kind == QDOT_SYM)
             return compare_symbols(&pool->symbols.at[x->at], &pool->symbols.at[y->at]);
-        if (x->kind != y->kind) /* an elementary and an undefined function */
+        if (x->kind != y->kind) /* one is an elementary function, the other an undefined one */
             return three(x->kind, y->kind);
         if (x->kind == QDOT_FUN && x->n == 1 && y->n == 1 &&
-            ARGS(pool, a)[0] != ARGS(pool, b)[0]) { /* sinh(u)^2 + sin(v)^2 */
+            /* different arguments: order sinh(u)^2, sin(v)^2 by u and v first */
+            ARGS(pool, a)[0] != ARGS(pool, b)[0]) {
             a = ARGS(pool, a)[0];
             b = ARGS(pool, b)[0];
             continue;
@@ -247,7 +248,7 @@ sign_of_power(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
 
     if (x == NULL)
         return (s & QDOT_POS) == QDOT_POS ? QDOT_POS : 0;
-    if (!fmpz_is_one(fmpq_denref(x))) /* a real root: its base is not negative */
+    if (!fmpz_is_one(fmpq_denref(x))) /* the exponent is a fraction: a real root, so its base is not negative */
         return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0) | (qdot_rational_sgn(x) < 0 ? QDOT_NE0 : 0));
     if (fmpz_is_even(fmpq_numref(x)))
         s = (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));

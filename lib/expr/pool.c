@@ -132,7 +132,8 @@ pool_append(qdot_pool *pool, const qdot_node *node)
     if (pool->nodes.n >= 0x40000000u)
         return qdot_pool_refuse(pool, QDOT_ELIMIT, "too large: more than 10^9 nodes");
     if (pool->nodes.n * 2 > pool->mask) {
-        qdot_scope *scope = qdot_scope_pause(); /* the pool outlives it */
+        /* not recorded in the present scope, because the pool outlives the scope */
+        qdot_scope *scope = qdot_scope_pause();
         qdot_status status = rehash(pool);
 
         qdot_scope_resume(scope);
@@ -268,7 +269,7 @@ qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
 static void *
 pool_room(qdot_pool *pool, size_t bytes)
 {
-    qdot_scope *scope = qdot_scope_pause(); /* the pool outlives it */
+    qdot_scope *scope = qdot_scope_pause(); /* not recorded in the present scope, because the pool outlives the scope */
     void *room = qdot_arena_take(pool->arena, bytes);
 
     qdot_scope_resume(scope);

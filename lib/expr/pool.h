@@ -13,21 +13,21 @@
 typedef struct qdot_memo qdot_memo;
 
 struct qdot_pool {
-    qdot_vec(qdot_node) nodes;     /* [0] is nil */
+    qdot_vec(qdot_node) nodes;     /* nodes.at[0] is nil */
     qdot_vec(qdot_expr) args;
-    qdot_vec(fmpq *) numbers; /* in the arena: they never move. Only read; FLINT is never to clear one */
+    qdot_vec(fmpq *) numbers; /* in the arena, at fixed addresses; read only: FLINT must not clear them */
     qdot_vec(qdot_symbol) symbols;
     qdot_vec(qdot_ufun) ufuns;
-    uint32_t *table; /* open hash table of ids */
+    uint32_t *table; /* open hash table of node ids, mask + 1 slots */
     uint32_t mask;
-    qdot_arena *arena; /* names, limbs of large numbers */
-    qdot_error error;  /* status QDOT_OK: none */
+    qdot_arena *arena; /* memory for names and limbs of large numbers */
+    qdot_error error;  /* the first failure; status QDOT_OK: none */
     uint64_t budget;
     bool unfinished;
-    struct qdot_printed *printed; /* texts, a cache: printing leaves the pool as it is */
-    qdot_memo *memo;              /* answers (expr/memo), NULL: none was kept yet */
-    uint32_t domains;             /* how often the domain of a symbol changed */
-    bool choices;                 /* some expression holds if(...) */
+    struct qdot_printed *printed; /* cache of printed texts, which printing may change in a const pool */
+    qdot_memo *memo;              /* stored answers (expr/memo); NULL: none yet */
+    uint32_t domains;             /* how many times the domain of a symbol has changed */
+    bool choices;                 /* some expression in the pool contains if(...) */
 };
 
 /* The node with these args, created if new; args may point into the pool. Nil on failure. */
@@ -99,9 +99,10 @@ bool qdot_pool_interrupted(qdot_pool *pool);
 /* Refuse a number with more digits than the language allows, and return true. */
 bool qdot_number_too_large(qdot_pool *pool, const fmpq_t x);
 
-#define QDOT_MAX_BITS 3321929 /* 10^6 decimal digits */
+#define QDOT_MAX_BITS 3321929 /* 10^6 decimal digits in bits */
 #define QDOT_SIZE_LARGE UINT32_MAX
-#define QDOT_TOUCHES_VALUE (1u << 31) /* in touches: a vector, an equation ... is inside */
+/* bit of node.touches: the expression contains a vector, an equation or the like */
+#define QDOT_TOUCHES_VALUE (1u << 31)
 #define NODE(pool, e) (&(pool)->nodes.at[e])
 #define ARGS(pool, e) ((pool)->args.at + (pool)->nodes.at[e].at)
 #define WHERE(pool, e, h, t) ((NODE(pool, e)->holds & (h)) | (NODE(pool, e)->touches & (t)))

@@ -92,7 +92,8 @@ as_decimal(const fmpq_t x, struct decimal *d)
     d->factor = twos > fives ? 5 : 2;
     d->times = twos > fives ? twos - fives : fives - twos;
     d->places = twos > fives ? twos : fives;
-    more = twos > fives ? d->times * 7 / 10 : d->times * 31 / 100; /* digits by the factor */
+    /* number of decimal digits that the missing factor 2^k or 5^k adds */
+    more = twos > fives ? d->times * 7 / 10 : d->times * 31 / 100;
     return count_digits(fmpq_numref(x)) + more <= LONGEST_DECIMAL ||
            more <= count_digits(fmpq_denref(x));
 }
@@ -117,7 +118,7 @@ struct numbers {
     bool fraction, decimal, long_decimal;
 };
 
-enum { LARGEST_SHORT = 20 }; /* in numerator and denominator: 1/5 and 3/20, but 9.81 stays */
+enum { LARGEST_SHORT = 20 }; /* largest numerator and denominator of a short fraction: 1/5, 3/20; 9.81 stays decimal */
 
 static void
 note_number(const fmpq_t x, struct numbers *seen)
@@ -325,7 +326,7 @@ print_size(printer *p, const fmpz_t n)
     const size_t from = out->n;
 
     integer(n, out);
-    if (out->n > from && out->at[from] == '-') { /* |n| */
+    if (out->n > from && out->at[from] == '-') { /* drop the minus sign: print |n| */
         memmove(out->at + from, out->at + from + 1, out->n - from);
         out->n--;
     }

@@ -15,20 +15,20 @@ enum { TOP, TERM, FACTOR, BASE, MAGNITUDE = -1, DENOMINATOR = -2, NUMERATOR = -3
 struct part {
     qdot_expr e, coefficient;
     int context;
-    bool turned; /* -1 times the sum e; for a product, with its difference negated */
+    bool turned; /* print -1 times the sum e; for a product, with one difference negated */
     qdot_formula_id at; /* the empty SPAN node of the formula that it fills */
 };
 
 typedef struct {
     const qdot_pool *pool;
     qdot_notation_kind notation;
-    qdot_expr ascending; /* a LIST: order terms by their degree in these; nil: canonical order */
-    qdot_expr below; /* a difference in denominators of several matrix entries: keeps its sign */
-    bool fractions; /* decimals are written as fractions, too: 1/5 beside 5/3 */
+    qdot_expr ascending; /* a LIST of symbols: order terms by their degree in them; nil: canonical order */
+    qdot_expr below; /* a difference in the denominators of several matrix entries: printed with one sign in all */
+    bool fractions; /* decimals are printed as fractions, too: 1/5 beside 5/3 */
     bool below_turned, turning; /* this difference was negated; an entry with it is being written */
     qdot_formula *out;
-    qdot_formula_id at;     /* the node to which children are appended */
-    qdot_vec(struct part) todo; /* a stack */
+    qdot_formula_id at;     /* the formula node to which children are appended */
+    qdot_vec(struct part) todo; /* stack of parts still to be printed */
     qdot_status status;
 } printer;
 

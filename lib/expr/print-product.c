@@ -112,7 +112,7 @@ print_exponent(printer *p, qdot_expr e, bool turned)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
-    bool integer = exponent_is_integer(pool, e, turned), bare = integer; /* without brackets */
+    bool integer = exponent_is_integer(pool, e, turned), bare = integer; /* `bare`: printed without brackets */
 
     if (integer && p->notation == QDOT_NOTATION_LINE) {
         say_number(p, fmpq_numref(x), NULL);
@@ -120,7 +120,7 @@ print_exponent(printer *p, qdot_expr e, bool turned)
     }
     if (x != NULL)
         bare = integer || ((qdot_rational_sgn(x) > 0 || turned) && qdot_print_says_decimal(p, x));
-    else if (turned) /* -n as n: the coefficient's sign is left out */
+    else if (turned) /* print -n as n: the sign of the coefficient is left out */
         bare = NODE(pool, e)->n == 3 && ARGS(pool, e)[0] == QDOT_MINUS_ONE &&
                ARGS(pool, e)[2] == QDOT_ONE &&
                NODE(pool, ARGS(pool, e)[1])->kind == QDOT_SYM;
@@ -408,7 +408,8 @@ joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
     if (NODE(p->pool, b)->kind != QDOT_NUM)
         return QDOT_SIGN_TIMES;
-    return is_sqrt(p->pool, e) && qdot_print_is_compact(p, number) ? QDOT_SIGN_TIMES /* 2 √3 */
+    /* 2 √3: a short number times a root needs no sign between */
+    return is_sqrt(p->pool, e) && qdot_print_is_compact(p, number) ? QDOT_SIGN_TIMES
                                                                 : QDOT_SIGN_DOT;
 }
 

@@ -149,7 +149,7 @@ arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
     uint32_t late = NODE(pool, e)->holds & QDOT_HAS_MULTIPLIER;
     bool first = constants_first(pool, e);
 
-    if (NODE(pool, e)->holds == 0 && args[0] != QDOT_ZERO) /* 2 + sqrt(2) */
+    if (NODE(pool, e)->holds == 0 && args[0] != QDOT_ZERO) /* a number first, then roots: 2 + sqrt(2) */
         order[count++] = 0;
 
     for (uint32_t i = 1; i < n; i += 2)
@@ -162,7 +162,7 @@ arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
         if (!term_is_constant(pool, args[i]))
             order[count++] = i;
     others = count;
-    for (uint32_t i = 1; i < n; i += 2) /* m g + lambda x */
+    for (uint32_t i = 1; i < n; i += 2) /* order of the terms: m g + lambda x, multipliers last */
         if (NODE(pool, args[i])->holds & late)
             order[count++] = i;
     if (others == 0)
@@ -350,11 +350,11 @@ open_number(printer *p, qdot_expr e, int context)
     qdot_rational_set(c, RATIONAL(p->pool, e));
     if (context == MAGNITUDE)
         fmpq_abs(c, c);
-    if (context == NUMERATOR) { /* the numerator alone */
+    if (context == NUMERATOR) { /* print only the numerator */
         fmpz_abs(fmpq_numref(c), fmpq_numref(c));
         fmpz_one(fmpq_denref(c));
     }
-    if (context == DENOMINATOR) { /* the denominator alone */
+    if (context == DENOMINATOR) { /* print only the denominator */
         fmpz_set(fmpq_numref(c), fmpq_denref(c));
         fmpz_one(fmpq_denref(c));
     }
@@ -520,7 +520,8 @@ qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_notati
     if (p.status == QDOT_OK) /* a number or a name needs no further steps */
         p.status = qdot_formula_status(out);
     if (p.status != QDOT_OK)
-        qdot_printed_forget(pool->printed); /* nodes that were not opened */
+        /* forget the formula nodes of expressions that were not printed completely */
+        qdot_printed_forget(pool->printed);
     return p.status;
 }
 

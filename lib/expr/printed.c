@@ -6,13 +6,13 @@
 enum { SLOTS = 4096, MOST = 1 << 17 };
 
 struct slot {
-    qdot_expr e; /* nil: free */
+    qdot_expr e; /* the expression; nil: this slot is free */
     uint32_t how;
     qdot_formula_id id;
 };
 
 struct qdot_printed {
-    struct slot *slot;         /* [SLOTS], 48 kB; NULL: nothing was kept yet */
+    struct slot *slot;         /* [SLOTS] hash table, 48 kB; NULL: nothing was stored yet */
     const qdot_formula *of;    /* the formula to which the nodes belong, while it has this stamp */
     uint32_t stamp;
     qdot_formula own;

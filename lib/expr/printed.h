@@ -12,7 +12,7 @@
 
 typedef struct qdot_printed qdot_printed;
 
-qdot_printed *qdot_printed_new(void); /* NULL: no memory */
+qdot_printed *qdot_printed_new(void); /* returns NULL if memory runs out */
 void qdot_printed_free(qdot_printed *printed);
 
 /* Forget all nodes, because expressions now print differently. */

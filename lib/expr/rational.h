@@ -132,7 +132,7 @@ qdot_rational_equal(const fmpq *a, const fmpq *b)
 {
     if (COEFF_IS_MPZ(a->num) || COEFF_IS_MPZ(a->den))
         return fmpq_equal(a, b);
-    return a->num == b->num && a->den == b->den; /* the form of a large one is unique */
+    return a->num == b->num && a->den == b->den; /* large numbers: FLINT stores equal values as equal words */
 }
 
 /* Whether an integer is k, |k| < 2^62. */

@@ -54,7 +54,7 @@ extract_root(fmpz_t outside, fmpz_t inside, const fmpz_t n, ulong q)
 
     fmpz_one(outside);
     fmpz_init(power);
-    if (fmpz_root(power, n, (slong)q)) { /* exact */
+    if (fmpz_root(power, n, (slong)q)) { /* n is the q-th power of an integer */
         fmpz_set(outside, power);
         fmpz_one(inside);
         fmpz_clear(power);

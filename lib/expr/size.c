@@ -84,10 +84,10 @@ size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
         size = plus(size, child_size(pool, w, args[i]));
         if (x == NULL)
             size = plus(plus(size, 1), child_size(pool, w, args[i + 1]));
-        else if (!is_unit(x) || !is_integer_rational(x)) /* a power or a root */
+        else if (!is_unit(x) || !is_integer_rational(x)) /* the exponent is written: a power or a root */
             size = plus(size, 1);
     }
-    return plus(size, operands - above); /* 1/x divides too */
+    return plus(size, operands - above); /* a quotient counts as one more operation: 1/x divides too */
 }
 
 static uint64_t
@@ -105,7 +105,7 @@ size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     default:
         for (uint32_t i = 0; i < n; i++)
             size = plus(size, child_size(pool, w, args[i]));
-        for (uint32_t i = n; i < node->n; i++) /* orders of derivatives */
+        for (uint32_t i = n; i < node->n; i++) /* the orders of derivatives of a UFUN */
             size = plus(size, args[i] != QDOT_ZERO);
         return plus(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);
     }

@@ -11,14 +11,14 @@
 typedef enum {
     QDOT_CONST,        /* pi, true, false */
     QDOT_PARAM,        /* a parameter */
-    QDOT_FORMAL,       /* a formal argument, an index, an unknown */
-    QDOT_TIME,         /* t */
+    QDOT_FORMAL,       /* a formal argument, a loop index, an unknown of an equation */
+    QDOT_TIME,         /* the symbol t */
     QDOT_COORD,        /* a coordinate or, with order > 0, its time derivative q', q'' ... */
     QDOT_MOMENTUM,     /* p[q], the independent variable of a Hamiltonian or Routhian */
-    QDOT_MULTIPLIER,   /* lambda[rod], lambda[pin, 1] */
-    QDOT_DIFFERENTIAL, /* dq, dt */
+    QDOT_MULTIPLIER,   /* Lagrange multiplier of a constraint: lambda[rod], lambda[pin, 1] */
+    QDOT_DIFFERENTIAL, /* dq, dt: a differential in a constraint or one-form */
     QDOT_DELTA,        /* delta[q], a virtual displacement */
-    QDOT_WORDS         /* a text, what latex(e) gives: its name as it stands; no number */
+    QDOT_WORDS /* a text, as latex(e) gives it; printed as it stands, has no value as a number */
 } qdot_class;
 
 /* The kinds of symbols in an expression, as a set of bits in qdot_node.holds (node.h). */
@@ -26,14 +26,14 @@ enum {
     QDOT_HAS_PARAM = 1 << QDOT_PARAM,
     QDOT_HAS_FORMAL = 1 << QDOT_FORMAL,
     QDOT_HAS_TIME = 1 << QDOT_TIME,
-    QDOT_HAS_COORD = 1 << QDOT_COORD, /* a coordinate itself, order 0 */
+    QDOT_HAS_COORD = 1 << QDOT_COORD, /* a coordinate itself, not its derivatives */
     QDOT_HAS_MOMENTUM = 1 << QDOT_MOMENTUM,
     QDOT_HAS_MULTIPLIER = 1 << QDOT_MULTIPLIER,
     QDOT_HAS_DIFFERENTIAL = 1 << QDOT_DIFFERENTIAL,
     QDOT_HAS_DELTA = 1 << QDOT_DELTA,
     QDOT_HAS_WORDS = 1 << QDOT_WORDS,
-    QDOT_HAS_VELOCITY = 1 << 10,     /* order 1 */
-    QDOT_HAS_ACCELERATION = 1 << 11, /* order 2 or more */
+    QDOT_HAS_VELOCITY = 1 << 10,     /* a first time derivative q' of a coordinate */
+    QDOT_HAS_ACCELERATION = 1 << 11, /* a time derivative q'', q''' ... of a coordinate */
     QDOT_HAS_UFUN = 1 << 12,
     QDOT_HAS_FUN = 1 << 13
 };
@@ -41,12 +41,12 @@ enum {
 typedef struct {
     qdot_class class;
     const char *name;  /* plain: "theta[1]", "theta[1]'", "dr", "lambda[rod]", "delta[r]" */
-    qdot_expr base;    /* of a jet, momentum, differential, delta: the coordinate (or t) */
-    uint32_t order;    /* of a jet: 0 q, 1 q', 2 q'' */
-    uint32_t rank;     /* order of declaration; a jet has its coordinate's */
-    qdot_expr lo, hi;  /* declared domain, nil where there is none */
+    qdot_expr base; /* for a time derivative, momentum, differential or delta: its coordinate (or t) */
+    uint32_t order;    /* of the time derivative: 0 q, 1 q', 2 q'' */
+    uint32_t rank;     /* order of declaration; a time derivative has its coordinate's */
+    qdot_expr lo, hi;  /* bounds of the declared domain; nil: unbounded */
     bool lo_open, hi_open;
-    bool hidden;       /* not to be found by its name */
+    bool hidden;       /* cannot be looked up by its name */
     uint8_t sign;
 } qdot_symbol;
 

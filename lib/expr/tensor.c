@@ -498,7 +498,7 @@ qdot_entry(qdot_pool *pool, qdot_expr a, long i)
     if (a == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
     node = NODE(pool, a);
-    if (node->kind == QDOT_MAT && node->n == node->op) /* a single row */
+    if (node->kind == QDOT_MAT && node->n == node->op) /* a matrix with a single row */
         return qdot_entry2(pool, a, 1, i);
     if (node->kind == QDOT_MAT) {
         uint32_t columns = node->op;

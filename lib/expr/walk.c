@@ -231,7 +231,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
                           qdot_walk *w)
 {
     met *m;
-    size_t *first; /* the first position of the nodes of a height */
+    size_t *first; /* [heights] position of the first node of each height */
     size_t most;
 
     QDOT_TRY(walk_begin_roots(pool, n, roots, UINT32_MAX, 0, w));

@@ -21,9 +21,9 @@ typedef struct qdot_walk {
     const qdot_pool *pool;
     qdot_expr *at;   /* [n] ascending ids or heights, children before parents; owned */
     size_t n;
-    uint32_t *slot;  /* open hash table id -> index + 1; owned */
+    uint32_t *slot;  /* open hash table from node id to index + 1; owned */
     uint32_t mask;
-    uint64_t *value; /* [n] a word for each node, 0 at first; owned */
+    uint64_t *value; /* [n] a word of data for each node, 0 at first; owned */
     qdot_expr few[QDOT_WALK_FEW];
     uint32_t few_slot[2 * QDOT_WALK_FEW];
     uint64_t few_value[QDOT_WALK_FEW];
@@ -43,7 +43,7 @@ void qdot_walk_end(qdot_walk *w);
 
 /* The index of a node in the walk; SIZE_MAX if it is not reachable. */
 size_t qdot_walk_index(const qdot_walk *w, qdot_expr e);
-uint64_t qdot_walk_get(const qdot_walk *w, qdot_expr e); /* e reachable */
+uint64_t qdot_walk_get(const qdot_walk *w, qdot_expr e); /* e must be reachable from the roots */
 void qdot_walk_set(qdot_walk *w, qdot_expr e, uint64_t value);
 
 /* Rebuild e from the leaves: `leaf` is called for every node first and returns its replacement,

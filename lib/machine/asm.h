@@ -22,7 +22,7 @@
 
 #include "base/memory.h"
 
-enum { QDOT_ASM_REGISTERS = 32 }; /* of any kind */
+enum { QDOT_ASM_REGISTERS = 32 }; /* largest number of registers of one kind */
 
 typedef enum {
     QDOT_ASM_LOAD,  /* reg = b */
@@ -33,7 +33,7 @@ typedef enum {
     QDOT_ASM_DIV,
     QDOT_ASM_ROOT,      /* reg = sqrt(b) */
     QDOT_ASM_MADD,      /* reg = first b + reg */
-    QDOT_ASM_MSUB,      /* reg = first b - reg */
+    QDOT_ASM_MSUB, /* reg = first reg + b; the next three with the signs of MSUB, NMADD, NMSUB */
     QDOT_ASM_NMADD,     /* reg = reg - first b */
     QDOT_ASM_NMSUB,     /* reg = -first b - reg */
     QDOT_ASM_MADD_OVER, /* reg = first reg + b, and so on */
@@ -58,38 +58,38 @@ qdot_asm_fused(bool over, bool minus_product, bool minus_other)
 /* What holds an address. The code is a function of the first three; a function that it calls gets
  * its first arguments there. Those after WORK_NOW belong to the caller of the code (_save). */
 typedef enum {
-    QDOT_ASM_ROWS,      /* coefficients, row by row, each by order */
-    QDOT_ASM_CONSTANTS, /* numbers that no order changes */
+    QDOT_ASM_ROWS,      /* coefficients, row by row, in a row by order */
+    QDOT_ASM_CONSTANTS, /* numbers that are the same at every order */
     QDOT_ASM_WORK,
-    QDOT_ASM_ROWS_NOW, /* the same, moved on to the order at hand */
+    QDOT_ASM_ROWS_NOW, /* the address of ROWS moved on to the present order */
     QDOT_ASM_WORK_NOW,
-    QDOT_ASM_FACTOR, /* of a sum of products: one row, and those that it is multiplied by */
+    QDOT_ASM_FACTOR, /* for a sum of products: the first row, and (PARTNER) the row multiplied by it */
     QDOT_ASM_PARTNER,
-    QDOT_ASM_TERMS,     /* where the terms of a sum begin in the code; */
-    QDOT_ASM_ROWS_HALF, /* at half of the order at hand */
+    QDOT_ASM_TERMS,     /* address in the code where the terms of a sum begin */
+    QDOT_ASM_ROWS_HALF, /* the address of ROWS moved on to half of the present order */
     QDOT_ASM_CONSTANTS_NOW,
     QDOT_ASM_SECOND_PARTNER,
-    QDOT_ASM_TERMS_OF_PAIRS, /* of two sums at once; of a square */
+    QDOT_ASM_TERMS_OF_PAIRS, /* code addresses: terms of two sums at once (PAIRS), of a sum of squares (SQUARES) */
     QDOT_ASM_TERMS_OF_SQUARES,
-    QDOT_ASM_TERMS_LEFT, /* where fewer of them begin; never where an operand is */
+    QDOT_ASM_TERMS_LEFT, /* code address: the terms when fewer are left; never holds the address of an operand */
     QDOT_ASM_BASES
 } qdot_asm_base;
 
 /* A register or a memory address; with `spread` one double in memory stands for all lanes (AVX-512 only). */
 typedef struct {
     bool memory, spread;
-    int reg; /* or a qdot_asm_base */
+    int reg; /* number of the register, or for memory a qdot_asm_base */
     int32_t offset;
 } qdot_operand;
 
 typedef struct {
     qdot_vec(unsigned char) bytes;
     qdot_status status;
-    size_t kind;  /* 0 SSE2, 1 AVX2 and FMA, 2 AVX-512 */
-    bool far;     /* every offset takes four bytes: like operations are equally long */
+    size_t kind;  /* kind of processor: 0 SSE2, 1 AVX2 and FMA, 2 AVX-512 */
+    bool far; /* encode every offset in four bytes, so that equal operations have equal length */
     int mask;     /* AVX-512: the mask register of the next instructions; 0: none */
     bool zeroing; /* lanes outside the mask become 0; otherwise they keep their values */
-    unsigned char nowhere[16]; /* what is written after a failure */
+    unsigned char nowhere[16]; /* bytes are written here after a failure */
     /* For each register: when it was last used, and whether it is reserved. */
     unsigned clock, used[QDOT_ASM_REGISTERS];
     bool taken[QDOT_ASM_REGISTERS];

@@ -5,7 +5,7 @@ enum {
     /* registers that select lanes: masks of AVX-512, or AVX2 registers */
     older = 4,
     known = 5,
-    newest = 1, /* masks only */
+    newest = 1, /* used with AVX-512 masks only */
     all_but_last = 3
 };
 
@@ -38,7 +38,8 @@ qdot_asm_first_lane(qdot_asm *m, qdot_operand ones)
 void
 qdot_asm_next_lane(qdot_asm *m)
 {
-    enum { first_twice = 0x90, first_in_both = 0 }; /* lanes 0, 0, 1, 2; 0, 0 */
+    /* codes of a permutation: lanes 0, 0, 1, 2; in each half lanes 0, 0 */
+    enum { first_twice = 0x90, first_in_both = 0 };
 
     if (m->kind < 2)
         qdot_x86_emit(m, QDOT_ASM_LOAD, true, older, 0, qdot_asm_in(known));

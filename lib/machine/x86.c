@@ -38,7 +38,7 @@ static const unsigned char general[QDOT_ASM_BASES] = {
 
 static const unsigned char saved[] = {RBX, RBP, R12, R13, R14, R15};
 
-enum { scratch = 15 }; /* of SSE2 */
+enum { scratch = 15 }; /* SSE2: the register for intermediate results */
 
 static bool
 is_fused(int name)
@@ -333,21 +333,21 @@ qdot_x86_move_lanes(qdot_asm *m, int name, int reg, int first, qdot_operand b, i
 void
 qdot_x86_set_mask(qdot_asm *m, int r, unsigned lanes)
 {
-    BYTES(m, 0xb8); /* mov eax, lanes */
+    BYTES(m, 0xb8); /* the instruction mov eax, lanes */
     asm_write_number(m, lanes);
-    BYTES(m, 0xc5, 0xf8, 0x92, middle(0xc0, r)); /* kmovw r, eax */
+    BYTES(m, 0xc5, 0xf8, 0x92, middle(0xc0, r)); /* the instruction kmovw r, eax */
 }
 
 void
 qdot_x86_join_masks(qdot_asm *m, int r, int more)
 {
-    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle(low_bits_of(0xc0, more), r)); /* korw */
+    BYTES(m, 0xc5, 0xc4 | (~r & 15) << 3, 0x45, middle(low_bits_of(0xc0, more), r)); /* the instruction korw */
 }
 
 void
 qdot_x86_raise_mask(qdot_asm *m, int r)
 {
-    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle(low_bits_of(0xc0, r), r), 1); /* kshiftlw */
+    BYTES(m, 0xc4, 0xe3, 0xf9, 0x32, middle(low_bits_of(0xc0, r), r), 1); /* the instruction kshiftlw by 1 */
 }
 
 /* --- addresses, loops, calls ------------------------------------------------------------ */
@@ -357,7 +357,7 @@ qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset)
 {
     const int reg = general[to], base = general[from];
 
-    BYTES(m, fourth_bits_of(0x48, reg, base), 0x8d, low_bits_of(middle(0x80, reg), base)); /* lea */
+    BYTES(m, fourth_bits_of(0x48, reg, base), 0x8d, low_bits_of(middle(0x80, reg), base)); /* the instruction lea */
     asm_write_number(m, (uint32_t)offset);
 }
 
@@ -365,14 +365,14 @@ void
 qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place)
 {
     BYTES(m, fourth_bits_of(0x48, general[to], 0), 0x8d,
-          middle(0x05, general[to])); /* lea [rip + ...] */
+          middle(0x05, general[to])); /* the instruction lea [rip + ...] */
     asm_write_place(m, place);
 }
 
 size_t
 qdot_asm_repeat(qdot_asm *m, int times)
 {
-    BYTES(m, 0xb9); /* mov ecx, times */
+    BYTES(m, 0xb9); /* the instruction mov ecx, times */
     asm_write_number(m, (uint32_t)times);
     return m->bytes.n;
 }
@@ -380,7 +380,7 @@ qdot_asm_repeat(qdot_asm *m, int times)
 size_t
 qdot_asm_repeat_as(qdot_asm *m, qdot_operand times)
 {
-    BYTES(m, 0x8b, low_bits_of(0x88, general[times.reg])); /* mov ecx, times */
+    BYTES(m, 0x8b, low_bits_of(0x88, general[times.reg])); /* the instruction mov ecx, times */
     asm_write_number(m, (uint32_t)times.offset);
     return m->bytes.n;
 }
@@ -388,7 +388,7 @@ qdot_asm_repeat_as(qdot_asm *m, qdot_operand times)
 void
 qdot_asm_again(qdot_asm *m, size_t from)
 {
-    BYTES(m, 0xff, 0xc9, 0x0f, 0x85); /* dec ecx; jnz from */
+    BYTES(m, 0xff, 0xc9, 0x0f, 0x85); /* the instructions dec ecx; jnz from */
     asm_write_place(m, from);
 }
 
@@ -397,7 +397,7 @@ qdot_asm_return_if_none(qdot_asm *m)
 {
     size_t behind;
 
-    BYTES(m, 0x85, 0xc9, 0x75, 0); /* test ecx, ecx; jnz behind */
+    BYTES(m, 0x85, 0xc9, 0x75, 0); /* the instructions test ecx, ecx; jnz over the return */
     behind = m->bytes.n;
     qdot_asm_return(m);
     if (m->bytes.n > behind)
@@ -421,14 +421,14 @@ void
 qdot_asm_save(qdot_asm *m)
 {
     for (size_t i = 0; i < sizeof saved; i++)
-        BYTES(m, fourth_bits_of(0x40, 0, saved[i]), low_bits_of(0x50, saved[i])); /* push */
+        BYTES(m, fourth_bits_of(0x40, 0, saved[i]), low_bits_of(0x50, saved[i])); /* the instruction push */
 }
 
 void
 qdot_asm_restore(qdot_asm *m)
 {
     for (size_t i = sizeof saved; i-- > 0;)
-        BYTES(m, fourth_bits_of(0x40, 0, saved[i]), low_bits_of(0x58, saved[i])); /* pop */
+        BYTES(m, fourth_bits_of(0x40, 0, saved[i]), low_bits_of(0x58, saved[i])); /* the instruction pop */
 }
 
 void
@@ -441,7 +441,7 @@ void
 qdot_asm_return(qdot_asm *m)
 {
     if (m->kind > 0)
-        BYTES(m, 0xc5, 0xf8, 0x77); /* vzeroupper */
+        BYTES(m, 0xc5, 0xf8, 0x77); /* the instruction vzeroupper */
     qdot_asm_leave(m);
 }
 
@@ -457,19 +457,19 @@ qdot_asm_call(qdot_asm *m, void (*function)(void))
 {
     const uint64_t address = (uint64_t)(uintptr_t)function;
 
-    BYTES(m, 0x48, 0xb8); /* mov rax, address */
+    BYTES(m, 0x48, 0xb8); /* the instruction mov rax, address */
     asm_write_number(m, (uint32_t)address);
     asm_write_number(m, (uint32_t)(address >> 32));
-    BYTES(m, 0xff, 0xd0);                   /* call rax */
-    BYTES(m, 0x48, 0x8b, 0x7c, 0x24, 0x10); /* mov rdi, [rsp + 16] */
-    BYTES(m, 0x48, 0x8b, 0x74, 0x24, 0x08); /* mov rsi, [rsp + 8] */
-    BYTES(m, 0x48, 0x8b, 0x14, 0x24);       /* mov rdx, [rsp] */
+    BYTES(m, 0xff, 0xd0);                   /* the instruction call rax */
+    BYTES(m, 0x48, 0x8b, 0x7c, 0x24, 0x10); /* the instruction mov rdi, [rsp + 16] */
+    BYTES(m, 0x48, 0x8b, 0x74, 0x24, 0x08); /* the instruction mov rsi, [rsp + 8] */
+    BYTES(m, 0x48, 0x8b, 0x14, 0x24);       /* the instruction mov rdx, [rsp] */
 }
 
 void
 qdot_asm_unframe(qdot_asm *m)
 {
-    BYTES(m, 0x48, 0x83, 0xc4, 0x18); /* add rsp, 24 */
+    BYTES(m, 0x48, 0x83, 0xc4, 0x18); /* the instruction add rsp, 24 */
 }
 
 /* --- kinds of vectors ----------------------------------------------------------------- */

@@ -17,10 +17,10 @@
 enum {
     QDOT_X86_XOR = QDOT_ASM_OPERATIONS,
     QDOT_X86_AND,
-    QDOT_X86_ALIGN, /* AVX-512: reg = consecutive lanes of (b, first), from a given lane on */
-    QDOT_X86_PERMUTE, /* reg = lanes of b, chosen by two bits each */
-    QDOT_X86_HALVES,  /* AVX2: reg = halves of first, of b, or 0 */
-    QDOT_X86_PAIRS,   /* reg = from each pair of lanes one of first, then one of b */
+    QDOT_X86_ALIGN, /* AVX-512: reg = consecutive lanes of the pair (b, first), starting at a given lane */
+    QDOT_X86_PERMUTE, /* reg = lanes of b, each chosen by two bits of a constant */
+    QDOT_X86_HALVES,  /* AVX2: each half of reg = a half of first or of b, or 0 */
+    QDOT_X86_PAIRS,   /* reg = from each pair of lanes one lane of first, then one of b */
     QDOT_X86_COUNT
 };
 

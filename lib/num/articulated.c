@@ -32,24 +32,24 @@ typedef struct {
 
 struct qdot_articulated {
     size_t nodes, m, c, slots;
-    const plane_kernels *plane; /* NULL: it is no short path of links in a plane */
-    const kernels *kernels; /* NULL: nodes of this size have no compiled elimination */
+    const plane_kernels *plane; /* kernels for a short path of links in a plane; NULL: not such a tree */
+    const kernels *kernels; /* compiled elimination for nodes of this size; NULL: none */
     bool path;
-    size_t *slot;     /* [nodes] */
-    uint32_t *parent; /* [nodes x m] */
+    size_t *slot;     /* [nodes] the slot of each node in the arrays */
+    uint32_t *parent; /* [nodes x m] parent component of each component */
     uint8_t *unknowns;
-    double *weight, *below; /* [nodes x m x m] W, and summed over what hangs there */
-    double *passed;         /* [nodes x m x m] I summed over children; scratch */
-    double *numbers;        /* one block for the arrays that follow: */
-    double *there;          /* 1 in slots of nodes, else 0 */
-    double *I_0, *I, *A, *Up, *Down; /* [m x m]; products along a piece to its ends */
-    double *B, *H;                   /* [m x c], [c x c] */
-    double *d, *Z, *x, *w;           /* of a solution: [m], [c] */
-    double *up, *down;               /* [3 x m x m] of 8: what 1, 2, 4 pieces make */
+    double *weight, *below; /* [nodes x m x m] weight W of a node; W summed over the node and its descendants */
+    double *passed;         /* [nodes x m x m] the matrix I summed over the children; scratch */
+    double *numbers;        /* one allocated block that holds the arrays below */
+    double *there;          /* [slots] 1 in the slot of a node, else 0 */
+    double *I_0, *I, *A, *Up, *Down; /* [m x m] each; products along a part of the path to its ends */
+    double *B, *H;                   /* [m x c], [c x c] blocks of the elimination of one node */
+    double *d, *Z, *x, *w; /* right-hand sides and solution of a solve: d, Z [m], x, w [c] */
+    double *up, *down; /* [3 x m x m] in groups of 8: products over 1, 2 and 4 parts of the path */
     /* For a path of links in a plane also (articulated-plane.def): */
-    double *W, *Below;    /* [4] weight and below by slots */
-    double *t, *tn, *wt;  /* [2] t, that of the next, w */
-    double *own, *ratio;  /* k, w.t' */
+    double *W, *Below;    /* [4] entries of `weight` and `below`, by slots */
+    double *t, *tn, *wt;  /* [2] plane vectors: link t, link of the next node, w */
+    double *own, *ratio;  /* [slots] the factors k, and w.t' */
 };
 
 #define SHAPES(X) X(1, 1) X(2, 1) X(3, 1) X(3, 2)
@@ -343,7 +343,7 @@ qdot_articulated_is_path(const qdot_articulated *a)
 
 /* Intermediate results for the present node. */
 typedef struct {
-    double S[most_unknowns * most]; /* [c x m] */
+    double S[most_unknowns * most]; /* [c x m] the block S of this node */
     double I[most * most], A[most * most], rest[most * most];
     double B[most * most_unknowns];
     double H[most_unknowns * most_unknowns];
@@ -384,7 +384,7 @@ invert(node *v, const size_t m, const size_t c, size_t unknowns, const double *b
             *lost = pivot[k] / diagonal;
         L[k][k] = 1;
     }
-    for (size_t e = 0; e < unknowns; e++) { /* columns */
+    for (size_t e = 0; e < unknowns; e++) { /* for each column of the inverse */
         double x[most_unknowns] = {0};
 
         x[e] = 1;

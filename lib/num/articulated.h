@@ -38,7 +38,7 @@
 #include "base/status.h"
 
 enum {
-    QDOT_ARTICULATED_COMPONENTS = 6, /* of a node, at most */
+    QDOT_ARTICULATED_COMPONENTS = 6, /* largest m: components of a node */
     QDOT_ARTICULATED_UNKNOWNS = 3
 };
 
@@ -49,7 +49,7 @@ typedef struct {
     /* [nodes x m] index (node m + component) of the parent's component to which a component is
      * relative; _NONE: to nothing. Each node has one parent, which precedes it. */
     const uint32_t *parent;
-    const double *weight;    /* [nodes x m x m] W, symmetric */
+    const double *weight;    /* [nodes x m x m] weights W of the nodes, symmetric */
     const uint8_t *unknowns; /* [nodes] number of unknowns, <= c */
 } qdot_articulated_tree;
 
@@ -76,9 +76,9 @@ QDOT_MUST_CHECK bool qdot_articulated_factor(qdot_articulated *a, const double *
 /* One system of equations: S as when it was factored; right-hand sides d times `factor`, and r;
  * solution q and F. Arrays of slots. */
 typedef struct {
-    const double *const *S, *const *d, *const *r; /* [c m], [m], [c] */
+    const double *const *S, *const *d, *const *r; /* S [c m], d [m], r [c] at each node */
     double factor;
-    double *const *q, *const *F; /* [c], [m] */
+    double *const *q, *const *F; /* q [c], F [m] at each node */
 } qdot_articulated_equations;
 
 /* Solve the linear system along the tree. Unused slots must contain finite numbers. */

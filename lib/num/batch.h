@@ -44,7 +44,7 @@ typedef struct {
 } qdot_batch_defect;
 
 typedef struct {
-    const char *name; /* "portable", "avx2", "avx512" */
+    const char *name; /* kind of processor: "portable", "avx2", "avx512" */
 
     /* [n] for n = 0 ... QDOT_SERIES_MOST + 1: out = sum_{j=0..n-1} a[j] b[-j], groups; and
      * both sum a[j] b[-j] and sum a[j] c[-j]. An output may be an operand's newest. */

@@ -83,7 +83,7 @@ qdot_chebyshev_at(int n, const double *c, double x)
 void
 qdot_chebyshev_derivative(int n, const double *c, double *d)
 {
-    double above = 0, at = 0; /* d_k+2, d_k+1 */
+    double above = 0, at = 0; /* d_(k+2) and d_(k+1) of the backward recurrence */
 
     for (int k = n - 2; k >= 0; k--) {
         double now = above + 2 * (k + 1) * c[k + 1];
@@ -136,7 +136,7 @@ qdot_chebyshev_halves(int n, const double *c, double *left, double *right)
     memset(left, 0, (size_t)n * sizeof *left);
     memset(right, 0, (size_t)n * sizeof *right);
     for (int k = 0; k < n; k++) {
-        double mirrored = k % 2 ? -c[k] : c[k]; /* of c(-x) */
+        double mirrored = k % 2 ? -c[k] : c[k]; /* coefficient of c(-x) */
 
         for (int j = 0; j <= k; j++) {
             left[j] += half[k][j] * c[k];
@@ -229,7 +229,7 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
     const double rounding = 4 * DBL_EPSILON * qdot_chebyshev_spread(n, c);
     double at_lo = qdot_chebyshev_at(n, c, lo), at_hi = qdot_chebyshev_at(n, c, hi), x = lo;
 
-    int kept = 0; /* the end that the last step has kept: -1 lo, 1 hi */
+    int kept = 0; /* the end that the last step did not move: -1 lo, 1 hi, 0 none yet */
 
     n = series_shorten(n, c);
     for (int k = 0; k < 100; k++) {

@@ -43,7 +43,7 @@ is_resolved(double *a, size_t n, const size_t *index, size_t i, double diagonal,
 static inline size_t
 factor_block(double *a, size_t n, const size_t *index, size_t m)
 {
-    double lost = 1; /* the smallest d / a_kk so far */
+    double lost = 1; /* the smallest pivot ratio d / a_kk so far */
 
     for (size_t i = 0; i < m; i++) {
         double *ai = a + block_member(index, i) * n;

@@ -11,7 +11,7 @@ typedef enum { GAUSS, RADAU, LOBATTO } family;
 static qdot_two
 legendre(int s, family of, qdot_two x)
 {
-    qdot_two p[3] = {x, {1, 0}, {0, 0}}; /* P_k, and those before */
+    qdot_two p[3] = {x, {1, 0}, {0, 0}}; /* the Legendre polynomials P_k, P_(k-1), P_(k-2) */
 
     for (int k = 1; k < s; k++) {
         p[2] = p[1];

@@ -25,13 +25,13 @@
 
 #include "num/two.h"
 
-enum { QDOT_COLLOCATION_MOST = 8 }; /* stages */
+enum { QDOT_COLLOCATION_MOST = 8 }; /* largest number of stages */
 
 typedef struct {
     int stages, order;
     qdot_two c[QDOT_COLLOCATION_MOST];
     qdot_two b[QDOT_COLLOCATION_MOST];
-    qdot_two a[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST]; /* [i][j] */
+    qdot_two a[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST]; /* a[i][j]: weight of slope j in stage i */
     /* L_j(x) = sum_k l[j][k] x^k, k below stages */
     qdot_two l[QDOT_COLLOCATION_MOST][QDOT_COLLOCATION_MOST];
 } qdot_collocation;
@@ -39,7 +39,7 @@ typedef struct {
 /* fills Gauss's method; the caller must check that stages is 1 .. QDOT_COLLOCATION_MOST */
 void qdot_collocation_gauss(int stages, qdot_collocation *m);
 void qdot_collocation_radau(int stages, qdot_collocation *m);
-void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* stages >= 2 */
+void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* needs stages >= 2 */
 
 /* Find the interpolation weights w_j(x), into w [stages]. */
 void qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w);

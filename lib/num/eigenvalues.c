@@ -17,11 +17,12 @@
 typedef struct {
     size_t n;
     gsl_matrix *A;
-    gsl_matrix_complex *V, *LU, *W; /* right vectors, columns; left ones, rows of V^-1 */
-    gsl_vector_complex *lambda, *mu; /* eigenvalues of A, of its transpose */
+    /* right eigenvectors as columns; LU factors of V; left eigenvectors, rows of V^-1 */
+    gsl_matrix_complex *V, *LU, *W;
+    gsl_vector_complex *lambda, *mu; /* [n] eigenvalues of A; of its transpose */
     gsl_permutation *order;
     gsl_eigen_nonsymmv_workspace *work;
-    double complex *planes; /* [4n] */
+    double complex *planes; /* [4n] vectors that span two invariant planes */
 } solver;
 
 static bool
@@ -133,7 +134,7 @@ find_planes(const solver *s, size_t k, size_t j, double complex *Q, double compl
     double complex along = 0, G[4] = {0}, det;
     double size = 0;
 
-    for (size_t i = 0; i < n; i++) { /* GSL's vectors have length 1 */
+    for (size_t i = 0; i < n; i++) { /* uses that GSL's eigenvectors have length 1 */
         Q[2 * i] = right(s, k, i);
         along += conj(Q[2 * i]) * right(s, j, i);
     }

@@ -183,7 +183,7 @@ qdot_interval_power(qdot_interval a, qdot_interval b)
 
     if (even)
         a = qdot_interval_size(a);
-    if (a.lo > 0 || (a.lo == 0 && b.lo >= 0)) /* pow(0, 0) = 1 is an end of 0 < v^p <= 1 */
+    if (a.lo > 0 || (a.lo == 0 && b.lo >= 0)) /* also for base 0, as pow(0, 0) = 1 is an end of 0 < v^p <= 1 */
         return qdot_interval_within(of_corners(pow, a, b), 0, INFINITY);
     if (a.lo == 0 && qdot_interval_is_point(b))
         return (qdot_interval){qdot_interval_outward(pow(a.hi, b.lo), 0).lo, INFINITY};

@@ -30,7 +30,7 @@ qdot_interval qdot_interval_within(qdot_interval a, double least, double most);
 qdot_interval qdot_interval_outward(double lo, double hi);
 
 qdot_interval qdot_interval_negative(qdot_interval a);
-qdot_interval qdot_interval_size(qdot_interval a); /* |a| */
+qdot_interval qdot_interval_size(qdot_interval a); /* the interval of |x| */
 qdot_interval qdot_interval_sum(qdot_interval a, qdot_interval b);
 /* same: both factors are the same value, so the product is its square. */
 qdot_interval qdot_interval_product(qdot_interval a, qdot_interval b, bool same);
@@ -38,7 +38,7 @@ qdot_interval qdot_interval_quotient(qdot_interval a, qdot_interval b);
 qdot_interval qdot_interval_power(qdot_interval a, qdot_interval b);
 /* the interval of x - y floor(x/y) */
 qdot_interval qdot_interval_remainder(qdot_interval a, qdot_interval b);
-qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* atan2 */
+qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* the interval of atan2(y, x) */
 /* The image of the interval a under a function that is increasing (_falling: decreasing) on all of it. */
 qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
 qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);

@@ -25,8 +25,8 @@ typedef struct {
     size_t n;
     size_t *order; /* [n] the unknown at each place after the interchanges */
     bool *pair;    /* [n] true at the first row of a 2 x 2 block */
-    double *scale; /* [n] S, by unknown */
-    double *work;  /* [n] */
+    double *scale; /* [n] scale factors S, by unknown */
+    double *work;  /* [n] scratch */
 } qdot_ldlt;
 
 /* Allocate work space for n unknowns. Errors: QDOT_ENOMEM, with `f` cleared. */

@@ -19,8 +19,8 @@
 
 typedef struct {
     size_t n, m;
-    double L[QDOT_LEAST_MOVE_ROWS][QDOT_LEAST_MOVE_ROWS]; /* Cholesky factor; its diagonal holds the inverses */
-    double *W; /* [m x n] A D^-1; the caller's */
+    double L[QDOT_LEAST_MOVE_ROWS][QDOT_LEAST_MOVE_ROWS]; /* Cholesky factor of A D^-1 A^T; its diagonal holds the inverses */
+    double *W; /* [m x n] the matrix A D^-1, owned by the caller */
 } qdot_least_move;
 
 /* Factor for A [m x n] and D [n], at D[i step]. false if the sine between a row and those before

@@ -23,11 +23,11 @@ static const double nowhere = 1e150;
 
 typedef struct {
     qdot_least_squares *x;
-    double *at;         /* [p] where x->f, x->J are of */
+    double *at;         /* [p] the unknowns at which x->f and x->J were computed */
     bool known;         /* `at` is set */
     qdot_status status; /* a failure that ends the search */
-    gsl_matrix *U, *V;  /* [n x p], [p x p] */
-    gsl_vector *S, *work, *size, *along; /* [p] */
+    gsl_matrix *U, *V;  /* singular vectors of J: U [n x p], V [p x p] */
+    gsl_vector *S, *work, *size, *along; /* [p] each: singular values, then scratch vectors */
 } search;
 
 void

@@ -21,22 +21,22 @@
 #include "base/status.h"
 
 typedef struct {
-    size_t n, p; /* numbers, unknowns; n >= p */
+    size_t n, p; /* number of residuals; number of unknowns; n >= p */
     /* f [n] and J [n x p] at u [p]. QDOT_EDOMAIN, QDOT_EFAILED, QDOT_ESINGULAR, QDOT_EINVAL, QDOT_ELIMIT: there is
      * nothing at u, which ends the search only if it is the first. */
     qdot_status (*model)(const double *u, double *f, double *J, void *user);
     void *user;
-    double least;      /* of singular values; 0: 1e-10 */
-    size_t most_steps; /* 0: 200 */
+    double least;      /* smallest relative singular value that counts as non-zero; 0: 1e-10 */
+    size_t most_steps; /* largest number of steps; 0: 200 */
 
-    double *u;              /* [p] in: where to begin; out */
-    size_t steps, models;   /* of the search; models evaluated */
+    double *u;              /* [p] the unknowns. In: the start; out: the minimum */
+    size_t steps, models;   /* steps of the search; number of model evaluations */
     bool converged;
-    double chi2;            /* at u */
-    double *f, *J;          /* [n], [n x p] at u */
-    double *covariance;     /* [p x p] C; NaN where not determined */
-    double *left;           /* [p] the step that is left, C J^T f */
-    double *undetermined;   /* [p] a direction of u, in the scaled unknowns, of length 1: the largest positive; all 0: none */
+    double chi2;            /* sum of squares |f|^2 at u */
+    double *f, *J;          /* residuals f [n] and J = df/du [n x p] at u */
+    double *covariance;     /* [p x p] covariance C of u; NaN where it is not determined */
+    double *left;           /* [p] the step C J^T f that remains at u */
+    double *undetermined; /* [p] direction of scaled u that f does not determine, length 1, largest entry > 0; 0: none */
 } qdot_least_squares;
 
 /* Find u; the arrays behind `chi2` are allocated here. Clear it in any case. Errors: those of the model; QDOT_EINVAL:

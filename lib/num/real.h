@@ -22,8 +22,8 @@
  * precision must not be used on them. Start from {0}. */
 typedef struct {
     size_t n;
-    mpfr_prec_t bits; /* a multiple of the bits of a limb */
-    mpfr_t *at;       /* [n], 0 at first */
+    mpfr_prec_t bits; /* precision, a multiple of the bits of a limb */
+    mpfr_t *at;       /* [n] the numbers, 0 at first */
     mp_limb_t *limbs;
 } qdot_reals;
 

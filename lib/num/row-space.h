@@ -21,11 +21,11 @@
 typedef struct {
     size_t m, n, rank;
     size_t *order; /* [m] rows by pivot: the first `rank` are independent */
-    double *rows;  /* [m * n] L left of its diagonal, reflections from there on */
-    double *diagonal; /* [m] of L, by row */
+    double *rows;  /* [m x n] L left of its diagonal, Householder vectors right of it */
+    double *diagonal; /* [m] the diagonal of L, by row */
     double *size;  /* [m] length of each row of A */
-    double *beta;  /* [m] of the reflections */
-    double *z;     /* [m + n] */
+    double *beta;  /* [m] factors of the Householder reflections */
+    double *z;     /* [m + n] scratch */
 } qdot_row_space;
 
 /* Allocate work space for matrices of at most m x n. Errors: QDOT_ENOMEM, with *f cleared. */

@@ -125,7 +125,7 @@ void
 qdot_saddle_parts(qdot_saddle *s, double below, double *part)
 {
     const size_t last = s->last, rank = s->rank < s->m ? s->rank : s->m;
-    size_t sound = 0; /* pivots */
+    size_t sound = 0; /* number of pivots that are not small */
     size_t longest = 0, count = 0, k;
 
     for (k = 0; k < s->m; k++)

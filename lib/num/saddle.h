@@ -47,35 +47,35 @@ typedef struct {
     double *M; /* [n x n] written by the caller, both triangles */
     double *A; /* [m x n] written by the caller */
     double *x; /* [n + m] right-hand side (b, c), then solution (x, mu) */
-    const double *weight; /* [m] of the multipliers, > 0; NULL: all 1 */
+    const double *weight; /* [m] weights of the multipliers, > 0; NULL: all 1 */
 
     size_t rank;      /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
     double quality;   /* |R_rr / R_11| of the last factorisation; 1 if r is 0 */
-    double surplus;   /* the same for the largest column left out; 0 if there is none */
-    size_t factored;  /* number of factorisations */
-    size_t last;      /* position of the last pivot; after a failure of the one that failed */
-    size_t *pivot;    /* [m] the rows of A in the order of the pivoting */
-    double *widest;   /* [m] the largest squared norm of each row so far; the caller may begin it */
-    bool aside;       /* the rows of A at this state do not count for `widest` */
-    double *heaviest; /* [n] the largest diagonal entry of M so far */
+    double surplus;   /* |R_kk / R_11| of the largest column left out; 0 if there is none */
+    size_t factored;  /* how many factorisations have been made */
+    size_t last;      /* position of the last pivot; after a failure, of the pivot that failed */
+    size_t *pivot;    /* [m] the rows of A in the order of pivoting */
+    double *widest; /* [m] largest squared norm of each row of A so far; the caller may set a start value */
+    bool aside;       /* the rows of A at this state do not update `widest` */
+    double *heaviest; /* [n] largest value of each diagonal entry of M so far */
 
-    bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
-    double *d, *e;   /* [n], [m] scales of unknowns and rows */
-    double *S;       /* [n x n] M scaled */
-    double *Q;       /* [n x n] row j is column j of Q */
-    double *R;       /* [m x n] row j is column j of what A^T P became; R above */
-    double *beta;    /* [m] of the reflections */
+    bool indefinite; /* Z^T M Z is factored as LDL^T, otherwise by Cholesky */
+    double *d, *e;   /* [n], [m] scale factors of unknowns and of rows of A */
+    double *S;       /* [n x n] the scaled matrix M */
+    double *Q;       /* [n x n] transposed: row j is column j of Q */
+    double *R; /* [m x n] row j is column j of the reduced A^T P: R, then Householder vectors */
+    double *beta;    /* [m] factors of the Householder reflections */
     double *N;       /* [n x n] Z^T M Z, then its factors */
-    double *V, *T;   /* [m x m] of R^T = V T where r < m */
-    double *inverse; /* [w x (n + m)] columns, w = n + m filled up to full vectors */
-    double *u, *w, *y, *keep; /* [n + m + 8] each */
+    double *V, *T;   /* [m x m] the factors of R^T = V T if r < m */
+    double *inverse; /* [w x (n + m)] columns of the inverse, padded to w >= n + m, whole vectors */
+    double *u, *w, *y, *keep; /* [n + m + 8] scratch, each */
     qdot_ldlt ldlt;
 
-    size_t *start;    /* [m + 1] entries of A by rows: those that may be nonzero */
-    uint32_t *column; /* [start[m]] */
-    bool patterned;   /* by the caller; else all */
+    size_t *start; /* [m + 1] row i of A may be non-zero at column[start[i]] ... column[start[i + 1] - 1] */
+    uint32_t *column; /* [start[m]] the columns of these entries */
+    bool patterned;   /* the caller gave the pattern of A; otherwise all entries count */
     qdot_sparse sparse;
-    double record; /* the best independence that a sparse factorisation has found */
+    double record; /* largest `quality` that a sparse factorisation has found so far */
     bool direct;   /* the last factorisation was the sparse one */
 } qdot_saddle;
 

@@ -57,22 +57,22 @@ void qdot_series_weights_set(qdot_series_weights *w, int p, double term, double 
  * components are the others, in their order: the carry of these enters order 1. */
 typedef struct {
     size_t n, linked;
-    const double *x; /* [n x stride] */
+    const double *x; /* [n x stride] Taylor coefficients: order k of component i at x[i stride + k] */
     size_t stride;
     int p;
-    double s, unit;          /* t' = t + unit s */
+    double s, unit;          /* the time advances by unit * s */
     /* All of these arrays have room for 8 more numbers: */
-    const double *y, *carry; /* [n] */
+    const double *y, *carry; /* [n] the state, and its low part: the state is y + carry */
     double *next, *next_carry;
-    const double *least;  /* [n] what sizes are at least, positive (ode/scale.h) */
-    double *size, *scale; /* [n] max(least, |next|), and the inverse of that */
+    const double *least;  /* [n] lower bound of the sizes, positive (ode/scale.h) */
+    double *size, *scale; /* [n] max(least, |next|), and its inverse */
     /* [n] Only for components from `linked` on: the derivative at the end times the step, sum k
      * x_k s^k, and the sum of the sizes of its terms, of x_1 s and of `size`. */
     double *slope, *terms;
 } qdot_series_step;
 
 typedef struct {
-    const char *name; /* "portable", "avx2", "avx512" */
+    const char *name; /* kind of processor: "portable", "avx2", "avx512" */
 
     /* dot[n], pair[n]: sums of n products, n = 0 ... QDOT_SERIES_MOST + 1 */
     qdot_series_dot *dot[QDOT_SERIES_MOST + 2];

@@ -34,10 +34,10 @@ qdot_sparse_clear(qdot_sparse *s)
 /* Unknowns not yet eliminated, with their neighbours. */
 typedef struct {
     size_t n, positive;
-    bool *beside;   /* [n x n] */
-    size_t *degree; /* [n] SIZE_MAX: eliminated */
+    bool *beside;   /* [n x n] whether two unknowns are neighbours */
+    size_t *degree; /* [n] number of neighbours; SIZE_MAX: eliminated */
     size_t *waits;  /* [n] number of neighbours among the positive unknowns */
-    uint32_t *near; /* [n] scratch */
+    uint32_t *near; /* [n] scratch: the neighbours of one unknown */
 } graph;
 
 static void

@@ -25,23 +25,23 @@
 /* An entry of the matrix that may be non-zero, from either triangle; each pair once. */
 typedef struct {
     uint32_t row, column;
-    const double *value; /* read by every factorisation; borrowed */
+    const double *value; /* the value of this entry, read by each factorisation; borrowed */
 } qdot_sparse_entry;
 
 typedef struct {
     size_t n, positive;
-    uint32_t *order; /* [n] the unknown at each place */
+    uint32_t *order; /* [n] the unknown at each place of the elimination order */
     /* Offsets of the given entries by row, of the rows of K, and of the columns of L. */
-    size_t *given_start, *row_start, *column_start; /* [n + 1] */
+    size_t *given_start, *row_start, *column_start; /* [n + 1] each */
     qdot_sparse_entry *given;
     uint32_t *row_column;
     size_t *row_at;
     uint32_t *column_row;
-    double *L;       /* by columns */
-    double *inverse; /* [n] 1/D */
-    double *y, *low; /* [n] scratch; y 0 between calls */
-    size_t filled;   /* entries of L */
-    bool definite;   /* last factorisation: the positive unknowns are definite beyond rounding */
+    double *L;       /* entries of the factor L, by columns */
+    double *inverse; /* [n] the inverse of the diagonal D */
+    double *y, *low; /* [n] scratch; y is 0 between calls */
+    size_t filled;   /* number of entries of L */
+    bool definite; /* in the last factorisation the positive unknowns were definite beyond rounding */
 } qdot_sparse;
 
 /* Prepare for a matrix with these entries [count], rows and columns below n. QDOT_ENOMEM; clear s

@@ -15,10 +15,10 @@
 #include "base/status.h"
 
 typedef struct {
-    size_t n;      /* unknowns */
-    size_t blocks; /* how many blocks */
-    size_t *start; /* [blocks + 1]; block b: index[start[b]] .. index[start[b + 1] - 1] */
-    size_t *index; /* [n]; within a block ascending, blocks by their first member */
+    size_t n;      /* number of unknowns */
+    size_t blocks; /* number of blocks */
+    size_t *start; /* [blocks + 1] block b is index[start[b]] .. index[start[b + 1] - 1] */
+    size_t *index; /* [n] unknowns: ascending within a block, blocks by their first unknown */
 } qdot_structure;
 
 /* The blocks of `pattern` (n x n row-major, true where an entry may be nonzero; either

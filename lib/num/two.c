@@ -8,7 +8,7 @@
 
 #include "num/kinds.h"
 
-enum { QUARTER = 512, POWERS = 64 }; /* steps of an angle to pi/2; of a power to 2 */
+enum { QUARTER = 512, POWERS = 64 }; /* table steps: of an angle up to pi/2, of a power up to 2 */
 
 /* For larger arguments three doubles of the step are not enough for the reduction. */
 static const double most_angle = 0x1p40;

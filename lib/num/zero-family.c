@@ -20,18 +20,18 @@ static const double nearest = 1e-8;
 enum { CORRECTIONS = 6 };
 
 typedef enum {
-    OTHER, /* a zero was found that is at least half as far away */
-    BACK,  /* corrections lead back */
-    LOST   /* they lead nowhere */
+    OTHER, /* another zero was found, at least half as far away as the step */
+    BACK,  /* Newton's corrections lead back to the known zero */
+    LOST   /* Newton's corrections do not converge to a zero */
 } beside_answer;
 
 typedef struct {
     qdot_zero_search *s;
-    size_t rank;        /* of J at the zero */
+    size_t rank;        /* rank of J at the zero */
     bool first_order;
-    double *u, *error;  /* [n] the zero */
-    double *ways, *way; /* [n x n] directions as columns, the last n - rank of them open; [n] one of them */
-    double *f;          /* [2m] F at the place tried, and the errors of F */
+    double *u, *error;  /* [n] the zero, and its error */
+    double *ways, *way; /* [n x n] directions as columns, of which the last n - rank do not change F; [n] one direction */
+    double *f;          /* [2m] F at the trial point, then the errors of F */
 } family;
 
 /* Start h units beside the zero along `way`, and make `corrections` corrections. J at the zero is

@@ -9,22 +9,22 @@
 typedef struct {
     const qdot_zero_problem *p;
     qdot_zero_result *r;
-    double *slope;             /* [m x n] J at r->u */
-    double *u, *f, *error;     /* [n], [m], [m] the end of a step, F there and its error */
-    double *trial;             /* [n] */
-    double *unit, *unit_f;     /* [n], [m] of unknowns and functions */
-    double *small;             /* [m] below this a function may count as 0 */
-    double mu, length;         /* of the step, in units of the unknowns */
-    double strongest;          /* the largest singular value of the search */
-    double damping;            /* how strongly |F| shortens steps; 0: only the reach does */
+    double *slope;             /* [m x n] the derivatives J of F at r->u */
+    double *u, *f, *error;     /* [n], [m], [m] the end of a step; F there and its error */
+    double *trial;             /* [n] scratch: a trial point */
+    double *unit, *unit_f;     /* [n], [m] scale of each unknown and of each function */
+    double *small;             /* [m] a function smaller than this may count as 0 */
+    double mu, length; /* damping parameter of the step, and its length in units of the unknowns */
+    double strongest;          /* largest singular value of J during the search */
+    double damping;            /* how strongly |F| shortens steps; 0: only `reach` does */
     /* the search ended because |F| did not halve in the number of steps allowed for that */
     bool gave_up;
-    double order;              /* of the zero, by the last steps */
-    double *last_u, *last;     /* [n] the place at which `order` was measured last, and `whole` there, */
-    bool has_last;             /* whether these two are set */
+    double order;              /* estimated order of the zero, from the last steps */
+    double *last_u, *last; /* [n] the point at which `order` was estimated last, and `whole` at that point */
+    bool has_last;             /* whether last_u and last are set */
     double reach;              /* the longest step allowed where J is nearly singular */
     double *step, *whole;      /* [n] the step, and the full step without damping (mu = 0) */
-    double *from_error;        /* [n] the change of the step by errors of F */
+    double *from_error;        /* [n] the change of the step that the errors of F cause */
     gsl_matrix *U, *V;
     gsl_vector *singular, *work;
 } qdot_zero_search;

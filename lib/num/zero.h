@@ -31,17 +31,17 @@
 #include "base/status.h"
 
 typedef struct {
-    size_t n, m; /* unknowns, functions */
+    size_t n, m; /* number of unknowns, of functions */
     /* F [m] at u [n] with its errors [m] (NaN: unknown), and, unless slope is NULL, J [m x n]. F[0] = NaN: it
      * cannot be had there. */
     qdot_status (*at)(const double *u, double *f, double *error, double *slope,
                       void *user);
     void *user;
-    const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
-    const double *unit;       /* [n] of u, at a guess near a zero; NULL: |u| at the guess, 1 where that is 0 */
+    const double *low, *high; /* [n] bounds of u; NULL or infinite: unbounded */
+    const double *unit; /* [n] scale of u, given with a guess near a zero; NULL: |u| at the guess, or 1 if that is 0 */
     /* Set by `at`, may be NULL: errors of J [m x n], and sizes of the terms whose differences give F [m]. */
     const double *slope_error, *size;
-    bool once;                /* a search in vain is not begun again */
+    bool once;                /* a search without result is not started again from other points */
     bool verify;              /* test whether the unknowns that J leaves open form a family */
     /* Whether a zero, with u and rank, is acceptable; otherwise the search goes on from other
      * points. NULL: always. */
@@ -51,21 +51,21 @@ typedef struct {
 typedef enum {
     QDOT_ZERO_FOUND,
     QDOT_ZERO_NONE, /* |F| has a least value that is not 0, or no sign changes between the bounds */
-    QDOT_ZERO_FLAT,    /* no unknown moves F */
+    QDOT_ZERO_FLAT,    /* no unknown changes F at the guess */
     QDOT_ZERO_NOWHERE, /* F cannot be evaluated at the guess */
-    QDOT_ZERO_JUMP,    /* F changes its sign, and does not vanish there */
-    QDOT_ZERO_VAGUE,   /* F is 0 within its errors, of unknowns that these leave open by a tenth or more */
-    QDOT_ZERO_SLOW     /* no end after many steps */
+    QDOT_ZERO_JUMP,    /* F changes sign by a jump, without a zero */
+    QDOT_ZERO_VAGUE, /* F is 0 within its errors, which leave some unknowns uncertain by a tenth or more */
+    QDOT_ZERO_SLOW     /* no convergence after many steps */
 } qdot_zero_answer;
 
 typedef struct {
     qdot_zero_answer answer;
-    double *u, *error;   /* [n] in: the guess; out: the best; owned by the caller */
-    double *f, *f_error; /* [m] there */
+    double *u, *error; /* [n] in: the guess; out: the best point and its error; owned by the caller */
+    double *f, *f_error; /* [m] F at u, and its errors */
     size_t rank;         /* how many directions of u F fixes: that of J at the end, and more at a zero of higher
                             order */
-    bool vague_rank;     /* `verify` could not tell whether the rest is a family */
-    size_t steps;        /* evaluations of J */
+    bool vague_rank; /* `verify` could not decide whether the remaining directions are a family */
+    size_t steps;        /* number of evaluations of J */
 } qdot_zero_result;
 
 /* Search for a zero of F. Errors: those of `at`, QDOT_ENOMEM. */

@@ -18,17 +18,17 @@ static const double worth_changing = 3e6;
 
 typedef struct {
     const qdot_ode_system *system;
-    const qdot_ode_options *options; /* of the caller */
-    const qdot_ode_method *now;      /* of the turn at hand */
+    const qdot_ode_options *options; /* the options that the caller gave for the whole run */
+    const qdot_ode_method *now;      /* the method in use: the stiff one or Taylor series */
     qdot_ode_meter *meter;
     double t1;
-    double expansion; /* its work */
-    double patience;  /* work */
-    uint64_t steps;   /* of the turn */
+    double expansion; /* work of one series expansion (unit: meter.h) */
+    double patience;  /* work during which series must win before the method changes */
+    uint64_t steps;   /* steps taken since the method was last changed */
     double t, work;   /* time and work at the last comparison */
-    double won_since; /* work at the first of the looks in a row that series won; NaN: none */
-    double won_at;    /* t there */
-    double pace;      /* of the stiff method from there to its end */
+    double won_since; /* work at the first of the latest comparisons in a row that series won; NaN: none */
+    double won_at;    /* the time t of that first comparison */
+    double pace;      /* progress in t per unit of work of the stiff method since `won_at` */
     bool over;        /* this part of the run has been ended here */
 } turns;
 

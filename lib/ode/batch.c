@@ -28,15 +28,15 @@ static const double part_of_way = 0.31830988618379067;
 typedef struct {
     _Alignas(64) double t[L], t1[L];
     double direction[L], unit[L], old_unit[L];
-    double end[L], h[L], most[L];     /* of the step tried; no longer ones for now */
-    double moved[L];                  /* by a projection of its end */
-    double s[L], way[L], now[L];      /* what it goes; h by the units before and behind it */
-    int64_t active[L], tried[L];      /* a step is to be confirmed */
-    int64_t good[L], defined[L];      /* it is; f is, where it ends */
+    double end[L], h[L], most[L]; /* end and length of the step being tried; largest length allowed for now */
+    double moved[L];                  /* how far a projection moved the end of the step */
+    double s[L], way[L], now[L]; /* s: step in units of time, with t1_low; way, now: without it, in the unit before and after */
+    int64_t active[L], tried[L]; /* flags: the lane has a solution; its step is being checked */
+    int64_t good[L], defined[L];      /* flags: the step is accepted; f is defined at its end */
     int64_t ended[L], ends[L];        /* the last series ended, and its step was good; the one
                                          being tried is such a one */
-    int64_t tries[L], rescales[L];    /* since the last good step */
-    int64_t steps[L], rejected[L];    /* of the member */
+    int64_t tries[L], rescales[L];    /* counts since the last accepted step */
+    int64_t steps[L], rejected[L];    /* counts of the solution in the lane */
     size_t member[L];
 } lanes;
 
@@ -63,10 +63,10 @@ typedef struct {
     const qdot_batch_kernels *kernels;
     const decisions *decide;
     qdot_batch_run *run;
-    size_t n, moving, waiting; /* components, the first of which move; the next member */
+    size_t n, moving, waiting; /* number of components; how many, the first, vary; next solution without a lane */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
     int64_t most_steps;
-    double log_aim; /* as in taylor.c */
+    double log_aim; /* log2 of the error that a step aims at, as in taylor.c */
     /* By order: 1/k; log2 of how large terms may be, of the upper half beside that aim, of the
      * lower one; 0. */
     double inverse[QDOT_SERIES_MOST + 1], upper[QDOT_SERIES_MOST + 1];
@@ -199,7 +199,7 @@ lanes_judge(batch *b)
         if (taken[l] && b->system->taken(l, b->system->looker)) {
             lane_leave(b, l, QDOT_BATCH_LEFT);
             odd[l] = 0;
-            again = true; /* with the member that came */
+            again = true; /* the new solution in the lane is to be checked, too */
         }
     for (size_t l = 0; again && l < L; l++) {
         if (!odd[l])
@@ -279,7 +279,7 @@ choose_step(batch *b, size_t l, double step, const double *weight)
         if (!(fabs(a->unit[l]) >= DBL_MIN && isfinite(a->unit[l])))
             lane_leave(b, l, QDOT_BATCH_STUCK);
     } else if (isnan(step)) {
-        a->h[l] = a->unit[l]; /* the point is good, only what is beyond it is not */
+        a->h[l] = a->unit[l]; /* the point itself is good: only the step beyond it fails */
         reject(b, l);
     } else
         lane_try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
@@ -392,7 +392,7 @@ batch_loop(batch *b)
     while (is_active(b)) {
         QDOT_TRY(qdot_interrupt_check());
         lanes_begin_series(b);
-        while (lanes_judge(b)) /* a member may be undefined where it starts */
+        while (lanes_judge(b)) /* f may be undefined at the start of a solution */
             lanes_begin_series(b);
         if (!is_active(b))
             break;

@@ -28,15 +28,15 @@ typedef struct {
     size_t lane, member;
     double t, t_end, unit;
     int order;
-    bool last;       /* t_end is the member's end */
-    const double *x; /* of the lane */
+    bool last;       /* t_end is the end of this solution's run */
+    const double *x; /* coefficients of the lane, see above */
     const double *y; /* y_i = y[i QDOT_LANES] at t */
 } qdot_batch_step;
 
 /* As qdot_ode_series, every number a group of lanes. A lane where f is undefined gets
  * coefficients of order 1 that are not finite. */
 typedef struct {
-    size_t n;        /* components */
+    size_t n;        /* number of components of y */
     size_t checked;  /* dy_i/dt = y_{checked + i} for i below it: their defect is not checked, and
                         the carry of the others enters order 1 */
     size_t still;    /* number of last components that are constant: their coefficients of order 1
@@ -59,8 +59,8 @@ typedef struct {
      * member ends there if `taken` says so. NULL: nobody looks. Errors of `tried` end the run. */
     qdot_status (*tried)(const qdot_batch_step *step, void *user);
     bool (*taken)(size_t lane, void *user);
-    void *user;        /* borrowed */
-    void *looker;      /* likewise, of these two */
+    void *user;        /* passed to the callbacks above; borrowed */
+    void *looker;      /* passed to `tried` and `taken`; borrowed */
 } qdot_ode_batch;
 
 typedef enum {
@@ -74,20 +74,20 @@ typedef enum {
 typedef struct {
     qdot_batch_outcome outcome; /* arrived; f undefined at the start; no step small enough;
                                    too many steps; ended by `taken` */
-    double t;                   /* where it ended */
+    double t;                   /* time at which the solution ended */
     size_t steps, rejected;
 } qdot_batch_result;
 
 typedef struct {
     size_t members;
     int order;
-    double tol, term_tol; /* as those of qdot_ode_options: 1e-16 to 1 */
-    const double *t0, *t1; /* [members] t1 < t0 runs back */
+    double tol, term_tol; /* tolerances as in qdot_ode_options: 1e-16 to 1 */
+    const double *t0, *t1; /* [members] start and end times; t1 < t0 integrates backwards */
     double t1_low;         /* the exact t1 less its double, the same for all members */
-    uint64_t most_steps;   /* of a member, tried; 0: 50 million */
-    double *y;             /* [members x n] starts; then ends */
-    qdot_batch_result *results; /* [members] */
-    size_t expansions;          /* out: each counts once for all lanes */
+    uint64_t most_steps;   /* largest number of steps tried by one member; 0: 50 million */
+    double *y;             /* [members x n] in: start states; out: end states */
+    qdot_batch_result *results; /* [members] how each solution ended */
+    size_t expansions;          /* out: number of expansions; one for all lanes counts once */
 } qdot_batch_run;
 
 /* Run all members. Errors: QDOT_EINVAL (order, tol, times or starts not finite), QDOT_ENOMEM,

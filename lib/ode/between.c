@@ -41,8 +41,8 @@ between_find(qdot_ode_stepper *s, double t0, double h, const double *y1, double 
     for (size_t i = 0; i < n && *good; i++) {
         const double D = y1[i] - s->y[i], E = s->trial[i] - s->y[i];
         const double a = h * s->dydt[i], b = h * room[i], middle = h * s->trial_dydt[i];
-        const double q = 16 * (E - 0.5 * D - 0.125 * (a - b)); /* of x^2 (1 - x)^2 */
-        const double r = 16 * (middle - 1.5 * D + 0.25 * (a + b)); /* of that (x - 1/2) */
+        const double q = 16 * (E - 0.5 * D - 0.125 * (a - b)); /* coefficient of x^2 (1 - x)^2 */
+        const double r = 16 * (middle - 1.5 * D + 0.25 * (a + b)); /* coefficient of x^2 (1 - x)^2 (x - 1/2) */
         const double size = qdot_ode_size(s->system->scales, i, s->y[i]);
 
         P[i] = a;

@@ -27,7 +27,7 @@ qdot_between_fits(const qdot_ode_method *method)
 }
 
 typedef struct {
-    double *P; /* [DEGREE x n], and room [n]; made where it is needed */
+    double *P; /* [(DEGREE + 1) x n] coefficients P_j, then scratch [n]; allocated at first use */
     bool known, good; /* the polynomial was computed for the present step; it is accurate enough */
 } qdot_between;
 

@@ -38,45 +38,45 @@ enum { PLACES = sizeof places / sizeof places[0] };
 typedef struct {
     const qdot_companion *of;
     qdot_ode_system system;
-    size_t number; /* 0, 1 */
+    size_t number; /* 0 for the first companion, 1 for the second */
     double t0;
-    double *start; /* [n] the moved y0 */
+    double *start; /* [n] start state: y0 moved by its rounding error */
     double *low;   /* [n] low-order part: the start is start + low */
-    double *y;     /* [n] the state it has reached */
-    double *own;   /* [PLACES x n] its states at the times between */
-    double *left;  /* [n] where a finer way was given up, as far as one came: the state at t_left */
-    double t_left; /* t0: none */
-    qdot_trajectory *tr; /* all of its states: the caller's, or */
+    double *y;     /* [n] the present state of the companion */
+    double *own;   /* [PLACES x n] its states at the comparison times */
+    double *left;  /* [n] the state at t_left, the last of a more accurate way that was given up */
+    double t_left; /* time of the state `left`; t0: there is none */
+    qdot_trajectory *tr; /* where its states are stored: the caller's trajectory, or `held` */
     qdot_trajectory held;
     qdot_companion_way way;
-    double tol;           /* of that way */
-    double spent;         /* work on the ways before, and on reading */
-    qdot_ode_meter meter; /* on this one */
+    double tol;           /* the tolerance of the present way */
+    double spent;         /* work of earlier ways, and of reading states */
+    qdot_ode_meter meter; /* counts the work of the present way */
     qdot_ode_result result;
     bool given_up; /* it was ended because of its cost */
     bool arrived;
-    bool running;  /* on `thread` */
-    bool finished; /* result is valid */
+    bool running;  /* its thread is running */
+    bool finished; /* the thread has ended: `result` is valid */
     pthread_t thread;
 } follower;
 
 struct qdot_companion {
     size_t n;
-    const double *scales; /* of the system (scale.h) */
-    const qdot_ode_method *run; /* its method */
+    const double *scales; /* [n] scales s_i of the system (scale.h) */
+    const qdot_ode_method *run; /* the method of the run */
     const qdot_ode_meter *meter;
-    double tol, t1, t1_low, t0_low; /* of the run */
+    double tol, t1, t1_low, t0_low; /* tolerance and times of the run: end, low parts of end and start */
     bool leading, alternates;
     size_t samples;
     double times[PLACES];
-    double *shown; /* [PLACES x n] states of the run at `times` */
+    double *shown; /* [PLACES x n] states of the run at the comparison `times` */
     size_t n_shown;
-    const qdot_trajectory *course; /* of the run; NULL: not shown */
+    const qdot_trajectory *course; /* the stored run; NULL: not available */
     const qdot_ode_system *of_course;
-    atomic_bool leave; /* the run ended before t1: companions are to stop beyond t_end */
+    atomic_bool leave; /* the run ended early: companions must not go beyond t_end */
     double t_end;
     double floor; /* the smallest error that is stated */
-    double steps; /* of the run */
+    double steps; /* number of steps of the run */
     follower at[2];
     size_t count, arrived;
 };
@@ -131,7 +131,8 @@ bool
 qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
                              const qdot_ode_meter *meter)
 {
-    if (method->stiff) /* whose work may be in a moment, as where a relaxation jumps */
+    /* a stiff method may need most of its work in a moment, as where a relaxation oscillation jumps */
+    if (method->stiff)
         return failed || meter->over;
     return meter->over && !qdot_ode_meter_is_stuck(meter);
 }
@@ -361,7 +362,7 @@ follower_prepare(qdot_companion *c, const qdot_companion_request *request, size_
     qdot_companion_beside(request->units ? request->units : c->scales, c->n, request->y0, number, false,
                           request->tol, f->start,
                           c->leading ? f->low : NULL);
-    if (f->system.project) { /* only along what solutions may do */
+    if (f->system.project) { /* move the start only in directions that the constraints allow */
         double by;
 
         QDOT_TRY(f->system.project(f->t0, f->start, f->low, &by, f->system.user));
@@ -561,7 +562,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         }
     between = between && c->samples > 0;
     c->arrived = c->count == 2 && c->at[1].arrived ? 2 : 1;
-    if (whole && c->n_shown > 0 && c->meter) /* the run's own */
+    if (whole && c->n_shown > 0 && c->meter) /* add the work of reading the states of the run itself */
         out->work += c->meter->work / fmax(1, c->steps) * (double)c->n_shown;
     out->error = out->known ? end_error_of(c, c->scales, y, between) : NAN;
     out->plain = out->known ? end_error_of(c, NULL, y, between) : NAN;

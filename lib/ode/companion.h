@@ -90,13 +90,13 @@ typedef enum {
 
 typedef struct {
     bool known;
-    double error, plain;    /* as above; NaN where unknown */
-    double tol;             /* tol* */
-    qdot_companion_way way; /* the last one that was needed */
-    qdot_ode_result result; /* of the companion: its cost, why it did not arrive */
-    double work;            /* counted, of all ways of both */
-    double of_point;        /* that of reading both at one time */
-    bool kept[2];           /* request->kept is there for errors of values, not by the first alone */
+    double error, plain;    /* the two errors defined above; NaN if unknown */
+    double tol;             /* the companion's tolerance tol* */
+    qdot_companion_way way; /* the last way that was tried */
+    qdot_ode_result result; /* result of the companion: its cost, why it did not arrive */
+    double work;            /* work of both companions by all ways (meter.h) */
+    double of_point;        /* work of reading the states of both at one time */
+    bool kept[2]; /* companion k is stored in request->kept[k] and may be used for errors of values along the run */
 } qdot_companion_estimate;
 
 typedef struct qdot_companion qdot_companion;
@@ -126,17 +126,17 @@ double qdot_companion_bound_of(double x, size_t count, const double *theirs);
 typedef struct {
     const qdot_ode_system *system;  /* for the companion alone if `threaded`; borrowed
                                        until _finish */
-    const qdot_ode_system *twin;    /* for the second companion; NULL: none; likewise */
-    const qdot_ode_method *method;  /* of the run */
-    double tol, t0, t1;             /* of the run */
-    double t1_low;                  /* the exact t1 less t1 (run.h) */
-    const double *y0;               /* [n] borrowed during _start */
-    const double *carry;            /* [n] the exact start less y0; NULL: 0; likewise */
+    const qdot_ode_system *twin; /* the system for the second companion, borrowed until _finish; NULL: only one companion */
+    const qdot_ode_method *method;  /* the method of the run */
+    double tol, t0, t1;             /* tolerance, start and end time of the run */
+    double t1_low;                  /* exact end time minus t1 (run.h) */
+    const double *y0;               /* [n] start state; borrowed during _start */
+    const double *carry;            /* [n] exact start minus y0; NULL: 0; borrowed during _start */
     const double *units;            /* [n] in what y0 is moved where it is 0 (qdot_companion_unit);
                                        NULL: the system's scales; likewise */
-    bool alternates;                /* of the run (run.h), */
-    bool leading;                   /* likewise */
-    double t0_low;                  /* likewise */
+    bool alternates; /* the run changes between a stiff method and series (alternate.h) */
+    bool leading;                   /* the run has first orders in two doubles (run.h) */
+    double t0_low;                  /* exact start time minus t0 (run.h) */
     const qdot_ode_meter *meter;    /* of the run, begun (meter.h); NULL: companions may cost what
                                        they like; likewise */
     qdot_trajectory *kept[2];       /* {0}, where to store what each goes through, until _finish; NULL:

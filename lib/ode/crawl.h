@@ -16,8 +16,8 @@
 #include "base/status.h"
 
 typedef struct {
-    double t;       /* the end of the step before */
-    double longest; /* step taken */
+    double t;       /* end of the previous step */
+    double longest; /* length of the longest step taken so far */
     unsigned short_steps;
 } qdot_ode_crawl;
 

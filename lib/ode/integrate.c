@@ -14,8 +14,8 @@ typedef struct {
     const qdot_ode_method *method;
     const qdot_ode_options *options;
     double t0, t1;
-    const double *start; /* [n] */
-    double *y, *room;    /* [n], [2n] */
+    const double *start; /* [n] the state at t0 */
+    double *y, *room;    /* [n] the end state; [2n] scratch */
     qdot_ode_result *result;
 } parts;
 

@@ -32,7 +32,7 @@ typedef struct {
     const qdot_ode_system *system;
     qdot_ode_place at;
     double h, h_low, unit, eps;
-    const double *scale; /* [n] 1/max(s_i, |y_i|) (scale.h) */
+    const double *scale; /* [n] 1/max(s_i, |y_i|), s_i the scales of scale.h */
     int p;
 } qdot_ode_leading_step;
 

@@ -35,18 +35,18 @@ typedef struct {
 } qdot_ode_mark;
 
 struct qdot_ode_meter {
-    const qdot_ode_meter *beside; /* of the run; NULL: no bound; borrowed */
+    const qdot_ode_meter *beside; /* meter of the run with which this work is compared, borrowed; NULL: no limit */
     double factor, allowance;
-    double early_factor, early; /* these at marks */
-    double spent;      /* before, for the same end */
-    double direction;  /* of time */
+    double early_factor, early; /* the same two bounds, applied at each mark */
+    double spent;      /* work of earlier attempts for the same purpose */
+    double direction;  /* direction of time: +1 or -1 */
     double t0;
-    bool whole_only;   /* parts that each begin at t0 anew: only the whole can be compared */
-    double work;       /* so far */
-    double far;        /* the farthest t so far */
-    double next;       /* work at which the next mark is set */
-    size_t judged;     /* of the own marks */
-    bool over;         /* it was found to cost too much */
+    bool whole_only;   /* decoupled parts each start at t0, so only the total can be compared */
+    double work;       /* work so far */
+    double far;        /* farthest t reached so far */
+    double next;       /* work at which the next mark will be set */
+    size_t judged;     /* number of own marks already compared */
+    bool over;         /* the work exceeded its limit */
     atomic_size_t count;
     atomic_bool ended;
     qdot_ode_mark marks[QDOT_ODE_MARKS];

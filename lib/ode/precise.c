@@ -21,7 +21,7 @@ typedef struct {
     int p, direction;
     double log2_tol;
     qdot_reals numbers;
-    mpfr_t *y, *next, *slope, *first; /* [n] */
+    mpfr_t *y, *next, *slope, *first; /* [n] state, end of the step, derivatives at the end and at the start */
     mpfr_ptr t, t1, h, end, rest, w, v;
     bool extended;
     qdot_error undefined; /* the last error of f */

@@ -25,9 +25,9 @@
  * of qdot_ode_system. */
 typedef struct {
     size_t n;
-    size_t checked;     /* dy_i/dt for i below it is another component: no defect */
-    mpfr_prec_t bits;   /* of all numbers */
-    int most;           /* the highest order possible */
+    size_t checked;     /* dy_i/dt for i below this is itself a component, and needs no check */
+    mpfr_prec_t bits;   /* precision of all numbers in bits */
+    int most;           /* highest order that the callbacks can compute */
     const mpfr_t *x;    /* x_ik = x[i stride + k], written by the callbacks */
     size_t stride;
     /* begin: compute orders 0 and 1 of the solution through y [n] at t; extend: orders 2 ... p */
@@ -35,14 +35,14 @@ typedef struct {
     qdot_status (*extend)(int p, void *user);
     /* As `near` of qdot_ode_series, for log2 of a step; NULL: any step */
     double (*near)(int p, double log2_h, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_precise_system;
 
 typedef struct {
     double log2_tol;
-    int order;          /* at most system->most */
-    uint64_t max_steps; /* 0: 50 million */
-    double max_bytes;   /* of stored points; 0: 2e9 */
+    int order;          /* order of the expansions, at most system->most */
+    uint64_t max_steps; /* largest number of steps; 0: 50 million */
+    double max_bytes;   /* largest memory for stored points, in bytes; 0: 2e9 */
     /* Called after every accepted step, when the point is stored: as in qdot_ode_options; a
      * failure ends the run and keeps the step. */
     qdot_status (*accepted)(mpfr_srcptr t, const mpfr_t *y, bool *stop, void *user);
@@ -54,7 +54,7 @@ typedef struct {
     size_t n, count;
     int order;
     mpfr_prec_t bits;
-    qdot_reals *chunks; /* of QDOT_PRECISE_CHUNK points each */
+    qdot_reals *chunks; /* blocks of QDOT_PRECISE_CHUNK points each */
     size_t n_chunks, capacity;
     /* For figures: QDOT_PRECISE_INSIDE rows of t, y [n] between points k and k + 1, rounded to
      * doubles. */

@@ -49,7 +49,7 @@ find_eigenvalues(size_t s, const double *N, double complex *lambda)
 
     for (size_t k = 0; k <= s; k++)
         p[k] = derivative(s, N, k, 0);
-    for (size_t i = 0; i < s; i++) /* on a circle, none on the other's mirror image */
+    for (size_t i = 0; i < s; i++) /* start points on a circle, no two of them complex conjugates */
         lambda[i] = 6 + 6 * cexp(2 * acos(-1) * I * ((double)i + 0.3) / (double)s);
     for (int tries = 0; tries < 200 && moved > 1e-15; tries++) {
         moved = 0;

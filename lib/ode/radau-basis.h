@@ -19,9 +19,9 @@
 #include <stddef.h>
 
 enum {
-    QDOT_RADAU_MOST = 7,  /* stages */
-    QDOT_RADAU_KINDS = 3, /* of 3, 5, 7 stages */
-    QDOT_RADAU_SPACES = 4 /* of which k = 0 is the real one */
+    QDOT_RADAU_MOST = 7,  /* largest number of stages */
+    QDOT_RADAU_KINDS = 3, /* number of methods: 3, 5, 7 stages */
+    QDOT_RADAU_SPACES = 4 /* largest number of eigenspaces; k = 0 belongs to the real eigenvalue */
 };
 
 typedef struct {
@@ -29,8 +29,8 @@ typedef struct {
     double c[QDOT_RADAU_MOST];
     double a[QDOT_RADAU_MOST][QDOT_RADAU_MOST], inverse[QDOT_RADAU_MOST][QDOT_RADAU_MOST];
     double first
-        [QDOT_RADAU_MOST]; /* L_i(0): values at the nodes times these are that at 0 */
-    double weight[QDOT_RADAU_MOST]; /* of interpolation */
+        [QDOT_RADAU_MOST]; /* Lagrange polynomials at 0: p(0) = sum_i first[i] p(c_i) */
+    double weight[QDOT_RADAU_MOST]; /* weights of barycentric interpolation at the nodes */
     double lambda_re[QDOT_RADAU_SPACES], lambda_im[QDOT_RADAU_SPACES];
     /* right eigenvectors u, doubled for conjugate pairs, and left eigenvectors w */
     double right_re[QDOT_RADAU_SPACES][QDOT_RADAU_MOST],

@@ -19,19 +19,19 @@
 #include "ode/system.h"
 
 typedef struct {
-    const qdot_ode_system *system; /* borrowed */
-    size_t m, v, p; /* unknowns; velocities among them, the first; positions, v or 0 */
-    double *room;                  /* the block of all doubles here */
-    double *dq, *dv, *mass;        /* [m x m] slopes of f - M a; M */
+    const qdot_ode_system *system; /* the system to be integrated; borrowed */
+    size_t m, v, p; /* number of unknowns; of velocities, the first of them; of positions, v or 0 */
+    double *room;                  /* the allocated block that holds the arrays of doubles */
+    double *dq, *dv, *mass;        /* [m x m] derivatives of f - M a by q and by v; mass matrix M */
     double *dt;                    /* [m] scratch */
     double *re[QDOT_RADAU_SPACES],
-        *im[QDOT_RADAU_SPACES]; /* [m x m] factors; im[0] NULL */
+        *im[QDOT_RADAU_SPACES]; /* [m x m] LU factors, real and imaginary parts; im[0] is NULL */
     qdot_lu_row *rows[QDOT_RADAU_SPACES];
-    bool *pattern;   /* [m x m] which entries were ever not 0, and their mirror images */
-    size_t *order;   /* [m] of the unknowns in the matrices, by it */
-    size_t *scratch; /* [m] */
-    double *put[2];  /* [m] a right-hand side in that order */
-    const qdot_radau_basis *basis; /* for which they are factored */
+    bool *pattern;   /* [m x m] entries that have been non-zero, and their transposes */
+    size_t *order;   /* [m] order of the unknowns that keeps the factors sparse */
+    size_t *scratch; /* [m] scratch */
+    double *put[2];  /* [m] a right side in this order: real, imaginary part */
+    const qdot_radau_basis *basis; /* method for which the matrices are factored */
 } qdot_radau_linear;
 
 /* Allocate. Errors: QDOT_ENOMEM; clear l in any case. */

@@ -45,29 +45,29 @@ static const double stagnates = 0.3, several = 6, grows = 0.03;
 
 typedef struct {
     qdot_radau_linear linear;
-    size_t n, p, v; /* y = (q [p], v [v]) */
-    size_t m, w;    /* unknowns (v, z); of a stage, (q, v, z) */
-    size_t kind;     /* of radau-basis.h */
+    size_t n, p, v; /* numbers of components: y = (q [p], v [v]) */
+    size_t m, w; /* m unknowns of the linear equations (v, z); w components of a stage (q, v, z) */
+    size_t kind;     /* index of the method in radau-basis.h: 3, 5 or 7 stages */
     bool kept;       /* the matrices do not change along the run */
-    double *room;    /* the block of those that follow */
-    double *Z;       /* [MOST x w] the stages less y and z */
-    double *z;       /* multipliers about which those of the stages are */
-    double *a;       /* [MOST x m] */
-    double *R, *R_before; /* [MOST x m] residuals, and those of the change before */
-    double *re, *im; /* [m] */
-    double *forces;  /* [m] the sum of the sizes of their terms, where slopes were taken */
-    double *weight;  /* [w] 1/(tol max(scale, |y|)) */
-    double *before;  /* [MOST x w] the stages of the last step accepted */
-    const qdot_radau_basis *before_basis; /* NULL: there is none */
+    double *room;    /* the allocated block that holds the arrays below */
+    double *Z;       /* [MOST x w] stages minus (y, z) at the start of the step */
+    double *z;       /* [m] multipliers at the start; those of stages are relative to these */
+    double *a;       /* [MOST x m] accelerations of the stages */
+    double *R, *R_before; /* [MOST x m] residuals of the stages; those of the previous iteration */
+    double *re, *im; /* [m] right side of a linear system, real and imaginary part */
+    double *forces; /* [m] sum of magnitudes of the terms of each force, where slopes were evaluated */
+    double *weight;  /* [w] 1/(tol max(scale_i, |y_i|)) */
+    double *before;  /* [MOST x w] stages of the last accepted step */
+    const qdot_radau_basis *before_basis; /* method of these stages; NULL: none */
     double before_h, h;
-    bool slopes, fresh;             /* there are slopes; at the present y */
-    double factored;                /* the step for which the matrices are; 0: none */
-    double rate, rate_before, left; /* of the iteration */
-    double fall; /* of what was missing in forces, by the last change */
-    int iterations, since;          /* steps since the number of stages changed */
-    double ratio;                   /* of the last step accepted */
-    double fell; /* by so much less than of the step before, were both of one length; 0: not known */
-    double most; /* no longer steps for `cautious` more: the iteration failed with one */
+    bool slopes, fresh;             /* the Jacobian has been evaluated; at the present y */
+    double factored;                /* step length for which the matrices are factored; 0: none */
+    double rate, rate_before, left; /* Newton: convergence rate, that of the last step, remaining error */
+    double fall; /* factor by which the last iteration reduced the residual of the forces */
+    int iterations, since; /* iterations of this step; steps since the number of stages changed */
+    double ratio;                   /* error ratio of the last accepted step */
+    double fell; /* error ratio of that step / step before, reduced to equal lengths; 0: unknown */
+    double most; /* step length not to be exceeded for `cautious` more steps, as the iteration failed */
     int cautious;
     bool rejected;
 } radau;
@@ -194,7 +194,7 @@ predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
         memset(r->Z, 0, b->stages * r->w * sizeof *r->Z);
     for (size_t i = 0; i < b->stages && old; i++) {
         qdot_radau_interpolate(old, 1 + b->c[i] * h / r->before_h, w);
-        w[old->stages - 1] -= 1; /* less its end */
+        w[old->stages - 1] -= 1; /* subtract the value at the end of the old step */
         for (size_t l = r->p; l < r->w; l++)
             r->Z[i * r->w + l] = over_stages(old->stages, w, r->before + l, r->w);
     }
@@ -390,7 +390,7 @@ newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double 
 {
     radau *r = s->own;
     const int most = 7 + (int)(b->stages - 3) * 5 / 2;
-    const int judged = r->m > r->v ? 3 : 2; /* the first change hardly knows the multipliers' error */
+    const int judged = r->m > r->v ? 3 : 2; /* the first iteration says little about the error of multipliers */
     const double enough = fmax(newton_roundings * DBL_EPSILON / s->tol, newton);
     const double wanted =
         r->m > r->v ? enough : fmax(few_roundings * DBL_EPSILON / s->tol, newton);
@@ -580,7 +580,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
         QDOT_TRY(radau_judge(s, b, t, h, ratio));
     else
         r->most = shorter * fabs(h), r->cautious = steady;
-    if (!converged && regular && r->rate < 1) /* as the loop aims at a tenth (whole.c) */
+    if (!converged && regular && r->rate < 1) /* the step control aims at a tenth of the tolerance (whole.c) */
         *ratio = fmax(1.01, 0.1 * pow(0.9 / half, (double)b->stages + 1));
     if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
@@ -591,7 +591,7 @@ radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
         *ratio /= r->rate < fast && *ratio < bounds ? fell : 1;
     }
     r->rejected = !(*ratio <= 1);
-    if (!r->rejected && r->cautious > 0) /* as the loop aims at a tenth (whole.c) */
+    if (!r->rejected && r->cautious > 0) /* the step control aims at a tenth of the tolerance (whole.c) */
         *ratio = fmin(
             1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
     memcpy(s->z, r->Z + (b->stages - 1) * r->w, r->n * sizeof *s->z);

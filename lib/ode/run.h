@@ -11,16 +11,16 @@
 
 /* The numbers of steps and evaluations in an integration. */
 typedef struct {
-    uint64_t steps;          /* accepted */
-    uint64_t rejected;       /* tried and not accepted, for whatever reason */
-    uint64_t evaluations;    /* of f */
-    uint64_t jacobians;      /* of df/dy */
+    uint64_t steps;          /* accepted steps */
+    uint64_t rejected;       /* steps tried and rejected, for whatever reason */
+    uint64_t evaluations;    /* evaluations of f */
+    uint64_t jacobians;      /* evaluations of df/dy */
     uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
                                 not tell); a step of bsimp broken off counts in full */
     uint64_t projections;    /* steps whose end was moved by system->project */
     double raised;           /* by Taylor series and radau: the tolerance that rounding of the
                                 equations left, where it is more than that asked for; else 0 */
-    double cpu;              /* seconds of this thread */
+    double cpu;              /* CPU seconds of this thread */
 } qdot_ode_stats;
 
 /* Add the counts of another part of the run. */
@@ -43,19 +43,20 @@ typedef struct {
     double t, t_end, unit;
     int order;
     const double *y;
-    const double *carry; /* [n] the state less y; NULL: 0 */
+    const double *carry; /* [n] exact state minus y; NULL: 0 */
 } qdot_ode_expanded;
 
 typedef struct qdot_ode_meter qdot_ode_meter;
 
 /* The options of an integration; any field may be 0 or NULL for its default. */
 typedef struct {
-    double tol;         /* 1e-16 .. 1; default 1e-12 */
-    double h_fixed;     /* > 0: steps of (at most) this size, whatever their error */
-    double h_first;     /* > 0: the size to try first */
-    double first_share; /* > 0: of the first size that is found, by methods that find one */
-    uint64_t max_steps; /* tried; default 50 million */
-    uint64_t max_evaluations; /* of f, by methods that choose their steps by differences; default: any */
+    double tol;         /* tolerance, 1e-16 .. 1; default 1e-12 */
+    double h_fixed;     /* > 0: steps of (at most) this length, whatever their error */
+    double h_first;     /* > 0: length of the first step to try */
+    double first_share; /* > 0: multiplies the first step length that a method finds itself */
+    uint64_t max_steps; /* largest number of steps tried; default 50 million */
+    /* largest number of evaluations of f, for methods with difference quotients; default: no limit */
+    uint64_t max_evaluations;
     qdot_ode_meter *meter; /* to which each step adds its work, and which may end the run (meter.h);
                               borrowed */
     double stiff_work; /* by explicit methods: the run ends if stability bounds its steps and so much
@@ -64,25 +65,25 @@ typedef struct {
      * here. QDOT_EDOMAIN: the step is rejected and smaller ones are tried, as if f were
      * undefined; any other failure rejects the step and ends the run. */
     qdot_status (*accepted)(double t, const double *y, bool *stop, void *user);
-    void *user; /* borrowed, for `accepted` and `expanded` */
+    void *user; /* passed to `accepted` and `expanded`; borrowed */
     /* taylor only: called before a step is tried, when its series has been computed. May bring
      * t_end nearer. The step is accepted when `accepted` is called for that end. Failures as
      * those of `accepted`. */
     qdot_status (*expanded)(qdot_ode_expanded *step, void *user);
     bool at_doubles; /* steps that may be of any length end at doubles of t exactly, so that states
                         within them can be located to less than a double */
-    double t1_low; /* the exact t1 less t1: the run ends at the sum; not by steps of one length */
+    double t1_low; /* exact end time minus t1: the run ends at the sum; not for steps of constant length */
     /* taylor only: the exact initial state less y [n], borrowed; orders added to those that the
      * tolerance needs. */
     const double *carry;
     int order_more;
-    double past;       /* taylor only: steps that runs of this system took before (written.h) */
-    double term_tol; /* taylor only: that beside which no rounding of a term counts; default: tol */
+    double past;       /* taylor only: number of steps in earlier runs of this system (written.h) */
+    double term_tol; /* taylor only: rounding errors of terms below this do not count; default: tol */
     /* taylor only: whether the first orders of every step are in two doubles (leading.h), which
      * the system must support; the exact t0 less t0; where to store, while `accepted` runs, a
      * pointer to the state less y; [n] out, the end state less y. */
     bool leading;
-    bool judged; /* a run with those ends, result.unfit, where they make it worse (taylor.h) */
+    bool judged; /* a run with `leading` that finds it harmful ends with result.unfit (taylor.h) */
     double t0_low;
     const double **beyond;
     double *end_low;
@@ -100,16 +101,16 @@ typedef struct {
 typedef enum {
     QDOT_ODE_DONE,    /* t1 was reached */
     QDOT_ODE_STOPPED, /* `accepted` set *stop */
-    QDOT_ODE_FAILED   /* the reason says where and why; the state is the last good one */
+    QDOT_ODE_FAILED   /* it failed: `reason` says where and why; the state is the last good one */
 } qdot_ode_outcome;
 
 typedef struct {
     qdot_ode_outcome outcome;
-    double t; /* time of the state; t1 exactly when done */
-    bool unfit; /* it failed because first orders in two doubles do not fit to the others */
-    bool stiff; /* it failed because stability bounds its steps (stiffness.h) */
+    double t; /* time of the end state; exactly t1 if done */
+    bool unfit; /* failed, as first orders in two doubles make the steps worse */
+    bool stiff; /* failed, as stability limits the step length (stiffness.h) */
     qdot_ode_stats stats;
-    char reason[512]; /* of a failure; else "" */
+    char reason[512]; /* why it failed; otherwise "" */
 } qdot_ode_result;
 
 /* The tolerance and the maximum number of steps given in the options, or their defaults. */

@@ -86,7 +86,7 @@ inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user
 /* GSL's control object; multistep methods only ask it for the error level. */
 typedef struct {
     double tol;
-    const double *scales; /* of the system */
+    const double *scales; /* [n] scales s_i of the system (scale.h) */
 } level_of_error;
 
 static int
@@ -282,7 +282,7 @@ apply_onestep(qdot_ode_stepper *s, double t, double h)
         s->zdot[i] = s->dydt[i] / s->scale[i];
     }
     gsl = gsl_odeiv2_step_apply(s->step, t, h, s->z, s->error, s->zdot, NULL, &s->inner);
-    if (s->method->stiff) /* of an extrapolation of order 2k: k + 1 matrices */
+    if (s->method->stiff) /* an extrapolation method of order 2k factors k + 1 matrices */
         s->factorisations += gsl_odeiv2_step_order(s->step) / 2 + 1;
     increment_add(s, s->z, s->trial);
     return gsl;

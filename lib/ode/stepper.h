@@ -41,8 +41,8 @@ typedef struct qdot_ode_kernel qdot_ode_kernel;
 
 /* A one-step method that GSL does not have: dop853.h, radau.h. */
 struct qdot_ode_kernel {
-    size_t stages; /* rows of s->stages */
-    size_t powers; /* rows of a polynomial */
+    size_t stages; /* number of rows [n] in s->stages */
+    size_t powers; /* number of rows [n] of the interpolating polynomial */
     /* Try a step as qdot_ode_stepper_try does, from s->y + s->carry and s->dydt: the
      * increment into s->z, the state into s->trial, *ratio finite or INFINITY. */
     qdot_status (*step)(qdot_ode_stepper *s, double t, double h, double *ratio);
@@ -59,43 +59,43 @@ struct qdot_ode_kernel {
     void (*close)(qdot_ode_stepper *s);
     void (*restart)(qdot_ode_stepper *s);
     void (*accepted)(qdot_ode_stepper *s);
-    double (*power)(const qdot_ode_stepper *s); /* NULL: method->error_power */
+    double (*power)(const qdot_ode_stepper *s); /* power of h in the error estimate; NULL: method->error_power */
     /* Change to the next interpolation formula, after the last to the first; returns their number.
      * NULL: only one. */
     size_t (*another)(qdot_ode_stepper *s);
-    bool keeps_step; /* a new size of step is dear */
-    bool forward;    /* no step may be read backwards from its end */
+    bool keeps_step; /* a new step length is costly: keep the old one if possible */
+    bool forward;    /* a step must not be read backwards from its end */
 };
 
 struct qdot_ode_stepper {
     const qdot_ode_method *method;
-    const qdot_ode_system *system; /* borrowed */
+    const qdot_ode_system *system; /* the system to be integrated; borrowed */
     double tol;
 
-    double *room;      /* the block of those that follow */
-    double *y, *carry; /* [n] the state at the start of the step */
-    double *dydt;      /* [n] f there; one-step methods */
-    double *z, *error; /* [n] the step tried: increment (or new state); its error */
-    double *zdot;      /* [n] dydt / scale */
-    double *scale;     /* [n] s of the formula above */
-    double *trial;     /* [n] y + carry + s z */
+    double *room;      /* the allocated block that holds the arrays below */
+    double *y, *carry; /* [n] the state at the start of the step is y + carry */
+    double *dydt;      /* [n] f at the start of the step; one-step methods only */
+    double *z, *error; /* [n] result of the step tried, increment or new state; its error estimate */
+    double *zdot;      /* [n] dydt_i / scale_i */
+    double *scale;     /* [n] the scale factors s_i of the formula above */
+    double *trial;     /* [n] end state of the step tried: y + carry + s z */
     double *trial_dydt; /* [n] f at the end of the step tried */
     bool dydt_known;
 
     uint64_t evaluations, jacobians, factorisations;
-    double raised; /* the tolerance that rounding of f left, where it is more than that asked for */
+    double raised; /* the tolerance that rounding of f allows, if larger than the requested one */
     qdot_status broken; /* failure of a callback during the step tried */
 
-    double *stages; /* [stages x n] of a kernel */
-    void *own;      /* of a kernel */
+    double *stages; /* [stages x n] stage values of a kernel */
+    void *own;      /* data of a kernel, allocated by its `open` */
 
     /* If the system projects: the projected end of the step as a sum, and whether it was moved. */
-    double *moved, *moved_carry; /* [n] */
+    double *moved, *moved_carry; /* [n] the projected end is moved + moved_carry */
     bool projected;
 
-    gsl_odeiv2_step *step;       /* NULL beside a kernel */
-    gsl_odeiv2_control *control; /* tells multistep methods the tolerance */
-    gsl_odeiv2_driver driver;    /* where they look for it */
+    gsl_odeiv2_step *step;       /* GSL's step object; NULL if the method has a kernel */
+    gsl_odeiv2_control *control; /* tells GSL's multistep methods the tolerance */
+    gsl_odeiv2_driver driver;    /* through which GSL's multistep methods find `control` */
     gsl_odeiv2_system inner;
 };
 

@@ -32,29 +32,29 @@
 enum { QDOT_ODE_STIFF_PLACES = 10 };
 
 typedef struct {
-    double *y;   /* [places x n] states, allocated when they are needed */
+    double *y;   /* [places x n] sampled states, allocated at first use */
     double t[QDOT_ODE_STIFF_PLACES];
-    size_t count; /* of them */
-    int wait;     /* steps until the next; 0: none was taken */
-    int windows;  /* looked at so far, 500 steps at first, then 4000; */
-    bool high;    /* always 500: steps of high order are a large part of what they follow */
-    uint64_t steps; /* in all windows */
+    size_t count; /* number of sampled states */
+    int wait;     /* steps until the next sample; 0: no sample yet */
+    int windows;  /* windows examined so far; the first have 500 steps, later ones 4000 */
+    bool high;    /* windows always have 500 steps, because the steps are of high order and long */
+    uint64_t steps; /* total number of steps in all windows */
 } qdot_ode_stiffness;
 
 void qdot_ode_stiffness_clear(qdot_ode_stiffness *s);
 
 /* The end of a step, as the stiffness detector needs it. */
 typedef struct {
-    const qdot_ode_system *system; /* NULL: stability may bound any step */
+    const qdot_ode_system *system; /* the system, to test for stiffness; NULL: assume that stability may limit any step */
     size_t n;
-    double t, t1;    /* now, and the end of the run */
-    const double *y; /* [n] */
-    const double *scales; /* of the system (scale.h) */
-    double noise; /* relative to the size of a component */
-    double work;   /* of a step */
-    uint64_t most; /* steps that the run may take */
-    bool implicit; /* stability does not bound its steps */
-    bool high;     /* steps of a series: a few hundred that lie on a parabola are enough */
+    double t, t1;    /* present time, end time of the run */
+    const double *y; /* [n] the present state */
+    const double *scales; /* [n] scales s_i of the system (scale.h) */
+    double noise; /* rounding noise relative to the size of a component */
+    double work;   /* work of one step (unit: meter.h) */
+    uint64_t most; /* largest number of steps that the run may take */
+    bool implicit; /* the method is implicit: stability does not limit its steps */
+    bool high;     /* series steps: a few hundred states on one parabola suffice */
 } qdot_ode_stiff_step;
 
 /* Whether the step just taken is one of the few that are sampled. */

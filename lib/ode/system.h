@@ -19,7 +19,7 @@ typedef struct {
 
 /* The first orders of a series in sums of two doubles (ode/leading.h). */
 typedef struct {
-    const qdot_two *x; /* x_ik = x[i stride + k] for k below the stride */
+    const qdot_two *x; /* coefficients x_ik = x[i stride + k] for k below the stride */
     size_t stride;
     /* Order 0 of the solution through a place, about which the series in doubles stands, by
      * the same unit of time; then order k, those below being there, up to
@@ -27,7 +27,7 @@ typedef struct {
      * qdot_ode_system. */
     qdot_status (*begin)(const qdot_ode_place *at, double unit, void *user);
     qdot_status (*next)(int k, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_leading;
 
 enum { QDOT_ODE_LEADING_MOST = 12 };
@@ -39,8 +39,8 @@ enum { QDOT_ODE_DIGITS = 18 };
  * c[0] + c[1] p + c[2] p^2. Orders are chosen by it (ode/taylor.h). */
 typedef struct {
     double kernels[3];
-    double code[3]; /* as machine code; zeros: there is none */
-    double wider;   /* and of each `of_vector` orders begun beyond `narrow` */
+    double code[3]; /* the same for generated machine code; all 0: no code available */
+    double wider; /* with code: added for each `of_vector` orders, also begun ones, beyond `narrow` */
     int narrow, of_vector;
     /* Natural digits that an order is chosen for at least where there is code: an oscillation that
      * is hardly there bounds the step, and as it has no singularity a higher order is worth more
@@ -48,7 +48,7 @@ typedef struct {
      * oscillation grow as well (ode/taylor.h). */
     double digits;
     bool by_stability;
-    double worth; /* writing code takes as long as worth/p expansions save by it */
+    double worth; /* generating code for order p costs as much as it saves in worth/p expansions */
 } qdot_ode_cost;
 
 /* Expansions by machine code. */
@@ -61,7 +61,7 @@ typedef struct {
     bool (*take)(int p, int most, void *user);
     bool (*there)(int p, void *user);
     void (*drop)(void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_code;
 
 /* A system that gives the Taylor coefficients of its solutions. With s = (t' - t)/unit,
@@ -70,12 +70,12 @@ typedef struct {
  *
  * Failures are those of qdot_ode_system. */
 typedef struct {
-    int most;        /* the highest order it can */
+    int most;        /* the highest order that can be computed */
     const double *x; /* x_ik = x[i stride + k], written by the callbacks */
     size_t stride;
     size_t checked; /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
                        state holds beyond y enters order 1 */
-    qdot_ode_cost cost; /* of its expansions */
+    qdot_ode_cost cost; /* the cost of an expansion */
     /* Called before many expansions to order p. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
     qdot_ode_code code;
@@ -97,21 +97,21 @@ typedef struct {
      * it begins is stepped over in, by an expansion to order p; `least` units are the narrowest part
      * that counts (series/near.h). NULL: there are no such parts. */
     double (*near)(int p, double s, double least, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_series;
 
 /* Components that are not integrated but follow from the others at every moment, with what
  * stays constant along a solution: velocities, where momenta are kept. */
 typedef struct {
     size_t n;
-    const size_t *index; /* [n] which */
+    const size_t *index; /* [n] indices of the derived components */
     /* The solution to be followed begins at y + carry (carry NULL: 0): what is constant along
      * it is found there, and kept until another one is entered. Entered twice in a row it is
      * the same solution, by its y. Failures as those of f. */
     qdot_status (*enter)(double t, const double *y, const double *carry, void *user);
     /* Compute the derived components of y from the others. QDOT_EDOMAIN if undefined. */
     qdot_status (*derive)(double t, double *y, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_following;
 
 /* The same system without the inverse of what stands before the highest derivatives, for implicit
@@ -132,7 +132,7 @@ typedef struct {
      * without q */
     qdot_status (*slopes)(double t, const double *y, const double *a, double *z, double *dq,
                           double *dv, double *M, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_mass_form;
 
 /* Conversion to canonical momenta p for a system with state y = (q, q'). Fails like the system's f. */
@@ -141,7 +141,7 @@ typedef struct {
     qdot_status (*velocity)(double t, const double *q, const double *p, double *v, void *user);
     /* Compute the force p'. */
     qdot_status (*force)(double t, const double *q, const double *v, double *F, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_phase;
 
 /* Constraints g(t, q) = 0 beside such momenta: p' = F + A^T lambda, A = dg/dq. For methods that hold
@@ -157,21 +157,21 @@ typedef struct {
      * rows are redundant, and x [n] = M^-1 A^T nu: A x = c. c is lost. */
     qdot_status (*prepare)(double t, const double *q, void *user);
     void (*solve)(double *c, double *nu, double *x, void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
 } qdot_ode_bonds;
 
 /* A step that is about to be accepted, with the tolerance. */
 typedef struct {
     double t, t_end, tol;
-    const double *y, *y_end; /* [n] */
-    double until;         /* out: as far as it may go; t_end if it misses nothing */
-    uint64_t evaluations; /* out: of f, about */
+    const double *y, *y_end; /* [n] states at t and at t_end */
+    double until;         /* out: the step may be accepted up to this time; t_end: the whole step */
+    uint64_t evaluations; /* out: number of evaluations of f, approximately */
 } qdot_ode_look;
 
 /* A decoupled part of a system. */
 typedef struct {
-    const struct qdot_ode_system *system; /* borrowed; without parts */
-    const size_t *index;                  /* [system->n] its components in the whole */
+    const struct qdot_ode_system *system; /* the part as a system, which has no parts itself; borrowed */
+    const size_t *index; /* [system->n] indices of its components in the whole system */
 } qdot_ode_part;
 
 /* The callbacks may write nothing but their outputs and what `user` owns. A system that
@@ -182,19 +182,19 @@ typedef struct {
  * output that is not finite counts as QDOT_EDOMAIN. Any other status ends the run at
  * once. */
 typedef struct qdot_ode_system {
-    size_t n; /* components, at least 1 */
+    size_t n; /* number of components of y, at least 1 */
     /* Compute dydt [n] = f(t, y [n]). */
     qdot_status (*rhs)(double t, const double *y, double *dydt, void *user);
     /* dfdy [n x n row-major] = df_i/dy_j, dfdt [n] = df/dt; NULL if not available */
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
-    void *user; /* borrowed */
+    void *user; /* passed to the callbacks; borrowed */
     /* the system written as M dy/dt = f, with its Jacobian; NULL if not available; borrowed */
     const qdot_ode_mass_form *mass_form;
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
-    const qdot_ode_phase *phase; /* else, for these: its momenta; NULL: there are none; borrowed */
-    const qdot_ode_bonds *bonds; /* what holds them; NULL: nothing does; borrowed */
+    const qdot_ode_phase *phase; /* conversion to canonical momenta, if not `halves`; NULL: none; borrowed */
+    const qdot_ode_bonds *bonds; /* holonomic constraints, for geometric methods; NULL: none; borrowed */
     /* Taylor coefficients of the solution; NULL if not available; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing

@@ -132,13 +132,14 @@ length_of_step(run *r, double most, double *h)
 
         QDOT_TRY(qdot_ode_taylor_run_expand(r));
         l = log_step(r);
-        if (isnan(l) && ends != 0) { /* of terms times 0, in one that was brought near the step */
+        /* NaN from underflow to 0 after a change of the unit: go back to the unit before */
+        if (isnan(l) && ends != 0) {
             qdot_ode_taylor_run_set_unit(r, ends);
             QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
             tries = 8;
             continue;
         }
-        if (isnan(l)) { /* overflow, if the first orders exist */
+        if (isnan(l)) { /* overflow, provided that the first orders are finite */
             far = -10 - 40 * tries;
         } else {
             ends = l < INFINITY ? 0 : r->unit;

@@ -62,7 +62,7 @@ qdot_step_unit(double h)
 
     memcpy(&bits, &h, sizeof bits);
     bits &= (uint64_t)0xfff << 52;
-    if ((bits << 1) == 0) /* not a normal number */
+    if ((bits << 1) == 0) /* zero or subnormal */
         return h != 0 ? copysign(ldexp(1, ilogb(h)), h) : 1;
     memcpy(&h, &bits, sizeof h);
     return h;

@@ -18,38 +18,38 @@ typedef struct {
     qdot_ode_result *result;
     size_t n;
     double tol, t, t1, direction;
-    double place; /* that the step at hand goes over; NaN: none */
-    double noise; /* of the slopes, over sizes and a unit of time: what the defect is at least */
-    double defect; /* of the step tried, likewise; 0: it was not looked at */
-    double held; /* tol, or what the coefficients are worth if that is more */
+    double place; /* singular time that the present step passes; NaN: none */
+    double noise; /* relative noise of dy/dt per unit of time: the defect cannot be smaller */
+    double defect; /* defect of the step tried, as relative error per unit of time; 0: not computed */
+    double held; /* tol, or the accuracy of the coefficients if that is worse */
     uint64_t max_steps;
-    double work;      /* of an expansion (meter.h) */
-    uint64_t counted; /* expansions whose work has been counted */
+    double work;      /* work of one expansion (unit: meter.h) */
+    uint64_t counted; /* number of expansions whose work has been counted */
     int p;
-    int highest;   /* the highest order among the run and its companions */
-    int cut;       /* the order that the step at hand is summed to: p, or less */
+    int highest;   /* the highest order used by the run and its companions */
+    int cut;       /* the order up to which the present step is summed: p or less */
     double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
                                              may at the point at hand, of a term */
-    double unit;   /* of the series: t' = t + unit s; a power of two, signed */
-    double per_unit; /* its inverse */
-    bool extended; /* the series is there to order p */
+    double unit;   /* unit of time of the series: t' = t + unit s; a signed power of two */
+    double per_unit; /* 1/unit */
+    bool extended; /* the series has been computed up to order p */
     qdot_ode_written written;
     double t0, first_unit;
 
     /* [n], with the work space that qdot_series_step needs */
-    double *y, *carry;           /* the state now */
-    double *least;               /* the scales of the system (scale.h) */
-    double *scale;               /* 1/max(least, |y|) */
-    double *next, *next_carry;   /* at the end of the step tried */
+    double *y, *carry;           /* [n] the present state is y + carry */
+    double *least;               /* [n] scales s_i of the system (scale.h) */
+    double *scale;               /* [n] 1/max(least_i, |y_i|) */
+    double *next, *next_carry;   /* [n] state at the end of the step tried: next + next_carry */
     double *next_size, *next_scale;
-    double *slope, *terms;       /* of the polynomial there */
-    size_t *confirmed;           /* [n_confirmed] what the defect is looked at of */
+    double *slope, *terms; /* [n] derivative of the polynomial at the end of the step; sizes of its terms */
+    size_t *confirmed; /* [n_confirmed] indices of the components whose defect is computed */
     size_t n_confirmed;
-    qdot_series_step step;       /* of those */
-    double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
+    qdot_series_step step;       /* the step, as these arrays describe it, for qdot_series_step */
+    double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] largest term of each order, padded to full vectors */
     qdot_series_weights weights;
     qdot_error undefined;      /* the last error of f */
-    double undefined_at;       /* the end of the step that met it; NaN before any */
+    double undefined_at;       /* end of the step at which f was undefined; NaN: none yet */
     qdot_ode_crawl crawl;
     qdot_ode_stiffness stiffness;
 } qdot_ode_taylor_run;

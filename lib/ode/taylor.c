@@ -38,7 +38,7 @@ static const int max_undefined = 60;
 static void
 advance_state(run *r, int order, double s)
 {
-    r->step.x = r->series->x; /* another's, after a `begin` that chose it */
+    r->step.x = r->series->x; /* a `begin` may have changed where the series is stored */
     r->step.stride = r->series->stride;
     r->step.p = order;
     r->step.s = s;
@@ -295,7 +295,7 @@ taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
         h = t_end - r->t;
     }
     if (t_end == r->t1)
-        h += r->options->t1_low; /* all of it: the defect is looked at over the same length */
+        h += r->options->t1_low; /* the defect must be computed over the full length, t1_low included */
     advance_state(r, r->cut, h * r->per_unit);
     if (r->options->leading)
         QDOT_TRY(advance_in_two(r, t_end));
@@ -378,7 +378,7 @@ taylor_advance(run *r)
         if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                              (unsigned long long)r->max_steps);
-        if (tries > 0) { /* the series has meanwhile been expanded about another point */
+        if (tries > 0) { /* the series now belongs to another point: compute it again */
             qdot_ode_taylor_run_set_unit(r, r->direction * qdot_step_unit(most));
             status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }

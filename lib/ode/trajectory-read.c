@@ -13,22 +13,22 @@
 
 struct qdot_trajectory_cursor {
     const qdot_trajectory *tr;
-    const qdot_ode_system *systems; /* [modes] */
-    const qdot_ode_system *system;  /* of the piece */
+    const qdot_ode_system *systems; /* [modes] the systems that the pieces of the run use */
+    const qdot_ode_system *system;  /* the system of the present piece */
     size_t piece;
-    bool series;         /* the step at `at` is by Taylor series, */
-    int order;           /* of this order */
-    qdot_ode_stepper *s; /* NULL: none is */
-    size_t at;           /* the stored point looked from last */
-    qdot_between between; /* of a step by a method of low order */
-    bool fresh;          /* the stepper stands, the series is expanded, at that point */
-    double *F;           /* of a kernel: the polynomial of half the step */
-    bool known;          /* F was looked for, */
-    bool second;         /* in that half, */
-    bool good;           /* and found */
+    bool series;         /* the step from point `at` is a Taylor step */
+    int order;           /* order of that Taylor step */
+    qdot_ode_stepper *s; /* stepper of a one-step method; NULL: none */
+    size_t at;           /* index of the stored point before the time read last */
+    qdot_between between; /* polynomial of the present step, for methods of low order */
+    bool fresh;          /* the stepper or series has been started at point `at` */
+    double *F;           /* polynomial of a half step, for methods with a kernel */
+    bool known;          /* it has been tried to compute F */
+    bool second;         /* F belongs to the second half of the step */
+    bool good;           /* F was computed with success */
     /* For a run in decoupled parts: */
-    qdot_trajectory_cursor **tracks; /* [tr->n_tracks] */
-    double *own;                     /* [n] a state of one */
+    qdot_trajectory_cursor **tracks; /* [tr->n_tracks] a cursor for each part */
+    double *own;                     /* [n] the state of one part */
 };
 
 /* Whether a is at or before b in the direction of the run. */
@@ -41,7 +41,7 @@ not_beyond(const qdot_trajectory *tr, double a, double b)
 size_t
 qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
 {
-    size_t low = 0, high = tr->count; /* t[low] is not beyond t, t[high] is */
+    size_t low = 0, high = tr->count; /* t[low] is at or before t, t[high] after t */
 
     if (near < tr->count && not_beyond(tr, tr->t[near], t)) {
         low = near;
@@ -91,7 +91,7 @@ cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
     const qdot_ode_system *system = c->systems + c->tr->pieces.at[piece].mode;
 
     c->piece = piece;
-    if (system->following && !c->tr->entered) /* others may have followed it elsewhere */
+    if (system->following && !c->tr->entered) /* the system may have been used for another solution since */
         QDOT_TRY(system->following->enter(
             steps_of(c->tr)[first], c->tr->y + first * c->tr->n,
             c->tr->leading ? c->tr->low + first * c->tr->n : NULL,
@@ -177,7 +177,7 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
 static qdot_status
 walk(qdot_trajectory_cursor *c, double t)
 {
-    enum { most = 2000 }; /* of a step of the run: few will do, but before a singular place */
+    enum { most = 2000 }; /* largest number of steps inside one step of the run: many only near a singularity */
     qdot_ode_stepper *s = c->s;
     double now = steps_of(c->tr)[c->at], h = t - now;
 

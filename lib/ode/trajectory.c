@@ -20,8 +20,8 @@ typedef struct {
     qdot_trajectory *tr;
     const qdot_ode_options *options;
     double t1;
-    const double *low; /* [n] what the state is beyond y; NULL: nothing */
-    const qdot_ode_method *now; /* of a run that changes it; NULL: the trajectory's */
+    const double *low; /* [n] exact state minus y; NULL: 0 */
+    const qdot_ode_method *now; /* the method in use, if the run changes it; NULL: the trajectory's */
 } recorder;
 
 static qdot_status
@@ -137,7 +137,8 @@ record(double t, const double *y, bool *stop, void *user)
 
     const qdot_ode_meter *meter = r->options->meter;
 
-    if (r->tr->count % looks == 0 && !(meter && meter->beside)) /* a companion goes as far as its run */
+    /* a run with a meter to compare with is a companion, and must go as far as its run */
+    if (r->tr->count % looks == 0 && !(meter && meter->beside))
         QDOT_TRY(recorder_foresee(r, t));
     if (r->options->now)
         *r->options->now = r->now;
@@ -171,7 +172,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     double *y = qdot_malloc(system->n * sizeof *y);
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
 
-    if (y) /* first of all: y0 may be a point of the run that is dropped */
+    if (y) /* copied first, because y0 may be a stored point that is about to be removed */
         memcpy(y, y0, system->n * sizeof *y);
     qdot_trajectory_clear(tr);
     tr->n = system->n;

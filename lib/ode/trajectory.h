@@ -27,29 +27,29 @@
 #include "ode/run.h"
 
 typedef struct {
-    size_t first; /* its first point */
-    size_t mode;  /* which of the systems it goes by */
-    bool jumped;  /* its start is another state than the end before */
+    size_t first; /* index of its first point */
+    size_t mode;  /* index of the system that it uses */
+    bool jumped;  /* it starts from a state other than the end of the previous piece */
 } qdot_trajectory_piece;
 
 /* A change of the method (alternate.h). */
 typedef struct {
-    size_t first; /* the point from which on steps are by it */
+    size_t first; /* index of the point from which the new method is used */
     const qdot_ode_method *method;
 } qdot_trajectory_turn;
 
 typedef struct qdot_trajectory {
-    size_t n;     /* components of the state */
-    size_t count; /* stored points, the initial state included */
-    double *t;    /* [count] monotone in the direction of the run, strictly in a piece */
-    double *y;    /* [count x n] row-major */
-    const qdot_ode_method *method; /* of steps before the first of the `turns` */
+    size_t n;     /* number of components of the state */
+    size_t count; /* number of stored points, initial state included */
+    double *t;    /* [count] times, monotone in the direction of the run, strictly within a piece */
+    double *y;    /* [count x n] states, row-major */
+    const qdot_ode_method *method; /* the method of the steps before the first entry of `turns` */
     double tol;
-    int order_more;         /* of the run's options, */
-    bool leading;           /* likewise, */
-    double t0_low;          /* likewise */
-    double *low;            /* [count x n] the points less y, if `leading` */
-    qdot_ode_result result; /* of the run */
+    int order_more;         /* order_more of the run's options (run.h) */
+    bool leading;           /* leading of the run's options: first orders in two doubles */
+    double t0_low;          /* exact start time minus t[0] */
+    double *low;            /* [count x n] exact states minus y, if `leading` */
+    qdot_ode_result result; /* result of the run */
     bool entered;           /* its solution was entered before its first point: it is a part of a
                                longer one (`following` of ode/system.h) */
     size_t t_capacity, y_capacity, low_capacity;
@@ -57,12 +57,12 @@ typedef struct qdot_trajectory {
     qdot_vec(qdot_trajectory_turn) turns;
     /* For a system integrated in parts (ode/apart.h): the trajectory of each part; the points
      * above are those of the part with the most. One piece only. */
-    struct qdot_trajectory *tracks; /* [n_tracks] */
+    struct qdot_trajectory *tracks; /* [n_tracks] trajectory of each decoupled part */
     size_t n_tracks;
     /* Of a run by another variable s, in which t is a component of the state
      * (qdot_trajectory_by_clock): */
-    double *s;    /* [count] at the points; NULL: s is t itself */
-    size_t clock; /* that component */
+    double *s;    /* [count] the variable s at the points; NULL: s is t itself */
+    size_t clock; /* index of the component of the state that is t */
 } qdot_trajectory;
 
 /* Start from {0}; release with qdot_trajectory_clear. */

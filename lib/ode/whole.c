@@ -38,21 +38,21 @@ typedef struct {
     qdot_ode_stepper *s;
     const qdot_ode_options *options;
     qdot_ode_result *result;
-    double t, t_carry; /* now, as a sum */
+    double t, t_carry; /* the present time is t + t_carry */
     double t1;
-    double direction; /* +1 or -1 */
-    double h;         /* the step to try next, positive */
+    double direction; /* direction of time: +1 or -1 */
+    double h;         /* length of the next step to try, positive */
     uint64_t max_steps;
     int undefined;      /* number of attempts in a row from this t at which f was undefined */
-    bool just_rejected; /* then the step that follows may not grow */
+    bool just_rejected; /* the last try was rejected: the next step must not grow */
     qdot_error last_undefined; /* the last error of f */
-    double undefined_at;       /* the end of that step; NaN before any */
-    double margin, margin_at;  /* system->margin where a step was taken back, and that t */
-    double best;               /* the largest margin met */
-    double longest;            /* step taken */
-    double work;               /* that has been counted (meter.h) */
+    double undefined_at;       /* end of the step at which f was undefined; NaN: none yet */
+    double margin, margin_at; /* value of system->margin at the last step taken back, and its time t */
+    double best;               /* largest value of system->margin so far */
+    double longest;            /* length of the longest step taken so far */
+    double work;               /* work already reported to the meter (meter.h) */
     qdot_ode_stiffness stiffness;
-    uint64_t looked;           /* evaluations to see what a step goes over */
+    uint64_t looked;           /* evaluations of f used to detect what a step would miss */
     int crawled;               /* number of steps in a row that were tiny compared with the rest of the run */
 } run;
 
@@ -122,7 +122,8 @@ first_step(run *r, double distance)
     r->h = fmin(fmin(100 * h0, r->h), distance);
     if (r->options->first_share > 0)
         r->h *= r->options->first_share;
-    if (r->h < 2 * floor_of_step(r)) /* at rest, a long time after 0 */
+    /* the step is below the spacing of doubles at t, as for a system at rest at large t */
+    if (r->h < 2 * floor_of_step(r))
         r->h = fmin(2 * floor_of_step(r), distance);
     return QDOT_OK;
 }

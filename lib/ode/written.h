@@ -17,13 +17,13 @@
 #include "ode/system.h"
 
 typedef struct {
-    const qdot_ode_code *code; /* borrowed */
-    double worth; /* of its costs (ode/system.h) */
+    const qdot_ode_code *code; /* the system's generator of machine code; borrowed */
+    double worth; /* cost of generating code, as `worth` of qdot_ode_cost */
     int p;
-    int most;      /* the highest order among this run and its companions, which share code */
-    bool done;     /* the decision is made */
-    bool on_trial; /* code of an earlier run is used until the first step is known */
-    bool first;    /* no decision by the first step has been made yet */
+    int most;      /* highest order of this run and its companions, which share the code */
+    bool done;     /* the decision has been made */
+    bool on_trial; /* code of an earlier run is used, until the first step shows whether it fits */
+    bool first;    /* the decision after the first step is still to be made */
 } qdot_ode_written;
 
 /* Begin a run whose expansions have order p; `most`: as in qdot_ode_written; past: steps of earlier

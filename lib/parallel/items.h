@@ -13,12 +13,12 @@ typedef struct {
 } qdot_items_chunk;
 
 typedef struct {
-    size_t first, end;                /* of all */
+    size_t first, end;                /* the range of all items: first ... end - 1 */
     size_t next;                      /* the first item that has not been handed out */
-    const bool *skip;                 /* [end] that are not to be done; NULL: all are */
+    const bool *skip; /* [end] items that are not to be done; NULL: all are to be done */
     size_t left;                      /* number of items without an answer */
     qdot_vec(qdot_items_chunk) again; /* chunks to be handed out again, or given at the start */
-    unsigned char *state;             /* [end - first] what has happened to each */
+    unsigned char *state; /* [end - first] two bits for each item: answered; a worker died of it */
 } qdot_items;
 
 /* Start with all items of first ... end - 1 that are not skipped; if not `fresh`, with none until

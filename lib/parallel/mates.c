@@ -10,7 +10,7 @@
 /* A message to each and one from it take rank 0 some microseconds: with many ranks chunks are
  * longer, so that it does a few thousand a second. */
 static const double chunk_seconds = 0.25, seconds_a_rank = 5e-4;
-static const double look_again = 0.2; /* seconds between two looks for the lost */
+static const double look_again = 0.2; /* seconds between two checks for ranks that no longer answer */
 enum { MOST_CHUNK = 1 << 20 };
 
 struct qdot_mate {

@@ -16,11 +16,11 @@
 #include "base/memory.h"
 #include "parallel/mpi.h"
 
-static const double beat = 1;     /* seconds between two signs of life */
-static const double patience = 5; /* a rank that waits or works is silent no longer */
+static const double beat = 1; /* seconds between two messages by which a rank shows that it is alive */
+static const double patience = 5; /* seconds of silence after which a waiting or working rank counts as lost */
 static const double longest = 30; /* seconds that a rank may be silent at the end, while it computes alone */
 enum { GATHERING = 120 };         /* seconds until all ranks must have begun */
-enum { PIECE = 1 << 26 };         /* bytes of a message at most */
+enum { PIECE = 1 << 26 };         /* largest number of bytes in one message */
 
 /* Identifies a process on its machine. */
 typedef struct {
@@ -29,11 +29,11 @@ typedef struct {
 } place;
 
 static struct {
-    place *places;   /* [ranks] */
-    double *heard;   /* [ranks] */
-    double beaten;   /* when rank 0 was last told that this one lives */
+    place *places;   /* [ranks] the process of each rank */
+    double *heard;   /* [ranks] time of the last message from each rank */
+    double beaten;   /* time of this rank's last sign of life to rank 0 */
     uint64_t shared; /* how often texts were shared with all ranks */
-    size_t stuck;    /* messages that their receivers do not take */
+    size_t stuck;    /* number of messages that their receivers have not taken */
     int sentinel;    /* a pipe to the watching process; -1: none */
 } ranks = {.sentinel = -1};
 
@@ -185,7 +185,7 @@ qdot_ranks_begin(size_t *kind)
         "qdot: rank %zu takes no part: its C library has other digits than rank 0's\n",
         qdot_rank());
     (void)qdot_ranks_end(0);
-    return QDOT_OK; /* not reached */
+    return QDOT_OK; /* never reached: qdot_ranks_end(0) exits */
 }
 
 /* --- messages between ranks ------------------------------------------------------------- */
@@ -208,7 +208,7 @@ static void __attribute__((noreturn)) leave(void)
 
     qdot_mpi_take(0, QDOT_RANK_END, &word);
     qdot_ranks_send(0, QDOT_RANK_GOODBYE, "", 0);
-    until = qdot_wall_now() + 2 * longest; /* rank 0 may have died at the last moment */
+    until = qdot_wall_now() + 2 * longest; /* rank 0 may have died at the last moment: do not wait longer than this */
     do {
         while (!qdot_mpi_look(&from, &what)) {
             if (qdot_wall_now() > until)
@@ -435,7 +435,7 @@ end_all(int status)
     if (lost > 0)
         fprintf(stderr, "qdot: %zu of %zu ranks were lost\n", lost, qdot_ranks_count());
     if (ranks.sentinel >= 0 && write(ranks.sentinel, "", 1) != 1)
-        lost += 0; /* it has ended before */
+        lost += 0; /* the sentinel has already ended: nothing to do */
     if (asleep)
         qdot_mpi_abort(status);
     word = lost > 0 ? GO_ALONE : GO_TOGETHER;
@@ -457,7 +457,7 @@ qdot_ranks_end(int status)
         return status;
     if (qdot_rank() == 0)
         return end_all(status);
-    for (;;) /* until look leaves */
+    for (;;) /* until a message ends this process */
         if (!qdot_ranks_next(&m))
             rest();
 }

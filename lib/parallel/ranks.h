@@ -20,9 +20,9 @@ enum { QDOT_RANKS_SHORT = 4000 };
 
 /* The kind of a message; kinds from QDOT_RANK_ALIVE on are internal to this module. */
 typedef enum {
-    QDOT_RANK_READY = 1, /* to rank 0: give me work */
-    QDOT_RANK_CHUNK,     /* of rank 0: this work */
-    QDOT_RANK_ANSWER,    /* to rank 0: a part of what was asked for */
+    QDOT_RANK_READY = 1, /* to rank 0: this rank is free and asks for work */
+    QDOT_RANK_CHUNK,     /* from rank 0: a chunk of work */
+    QDOT_RANK_ANSWER,    /* to rank 0: a part of the answers */
     QDOT_RANK_ALIVE,
     QDOT_RANK_SHARED,
     QDOT_RANK_END,

@@ -19,24 +19,24 @@ typedef struct {
 /* A process or rank to which chunks are given. */
 typedef struct {
     size_t n;
-    qdot_items_chunk has[2]; /* chunks [n] that it works at */
-    size_t left[2];          /* answers that are missing of each */
-    double since;            /* when it began the first of these */
+    qdot_items_chunk has[2]; /* chunks [n] on which it works */
+    size_t left[2];          /* number of answers still missing from each chunk */
+    double since;            /* time at which it began the first of these chunks */
     double seconds;          /* seconds that it takes for an item; 0: unknown */
-    qdot_text come;          /* bytes of answers not complete yet */
+    qdot_text come;          /* bytes of an answer that is not complete yet */
 } qdot_hand;
 
 typedef struct qdot_mate qdot_mate;
 
 typedef struct qdot_crew {
     const struct qdot_workers_job *job; /* parallel/workers.h */
-    struct qdot_worker *workers;        /* [job->workers] */
+    struct qdot_worker *workers;        /* [job->workers] the worker processes */
     qdot_items items;
-    qdot_mate *mates; /* rank 0: [ranks] */
-    size_t ready;     /* of these */
-    uint64_t number;  /* of this work; the same in all ranks */
-    double looked;    /* when mates were missed last */
-    qdot_text out;    /* other ranks: answers for rank 0 */
+    qdot_mate *mates; /* [ranks] on rank 0: the other ranks */
+    size_t ready;     /* number of `mates` that have asked for work */
+    uint64_t number;  /* number of this job; the same in all ranks */
+    double looked;    /* time of the last check for lost mates */
+    qdot_text out;    /* on other ranks than 0: answers to be sent to rank 0 */
 } qdot_crew;
 
 /* A chunk that will take the worker about `seconds`; count 0 if none is left. */

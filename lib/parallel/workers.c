@@ -27,11 +27,11 @@
 static const double chunk_seconds = 0.02;
 enum { MOST_CHUNK = 4096, READ = 65536 };
 
-typedef qdot_items_chunk request; /* what a worker is asked for */
+typedef qdot_items_chunk request; /* what a worker is asked for: a chunk of items */
 
 typedef struct qdot_worker {
     pid_t pid;
-    int ask, answer; /* pipes; -1: it has ended */
+    int ask, answer; /* pipe ends for questions and answers; -1: the worker has ended */
     qdot_hand hand;
 } worker;
 
@@ -131,7 +131,8 @@ worker_start(qdot_crew *c, worker *w)
     }
     w->pid = fork();
     if (w->pid == 0) {
-        for (size_t i = 0; i < c->job->workers; i++) /* a pipe ends when all its writers have */
+        /* close the other workers' pipes: a pipe ends only when all its writers are closed */
+        for (size_t i = 0; i < c->job->workers; i++)
             if (&c->workers[i] != w && c->workers[i].pid > 0) {
                 close(c->workers[i].ask);
                 close(c->workers[i].answer);

@@ -19,10 +19,10 @@
 typedef struct qdot_workers_job {
     size_t first, end; /* the items first ... end - 1 */
     const bool *skip;  /* [end] items that are not to be done; NULL: all are */
-    size_t workers;    /* at least 1 */
+    size_t workers;    /* number of worker processes, at least 1 */
     double seconds;    /* a first estimate of the seconds for an item; 0: unknown */
     void *user;
-    size_t least;      /* items that are handed out together, where there are so many; 0: 1 */
+    size_t least;      /* smallest number of items handed out together, if enough are left; 0: 1 */
     /* In a worker: the items first ... first + count - 1 come next; NULL: this is not needed. */
     void (*begin)(size_t first, size_t count, void *user);
     /* in a worker: compute item k and append its answer */

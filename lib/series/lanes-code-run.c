@@ -25,7 +25,7 @@ struct qdot_lanes_code {
     size_t entry;
     bool halves; /* the code runs once for each half of a group */
     size_t group;
-    double *coefficients; /* borrowed */
+    double *coefficients; /* the coefficients on which the code works; borrowed */
     double *scalars;
     double *allocated, *work;
 };

@@ -18,8 +18,8 @@ enum {
 struct qdot_lanes_motion {
     const qdot_motion *motion;
     qdot_lanes_code *code;
-    size_t *inverse; /* [blocks] the first number of each; of the factor n n further on */
-    size_t unknown;  /* the first number of the unknowns */
+    size_t *inverse; /* [blocks] index where the inverse of a block's K begins; its Cholesky factor is n n further on */
+    size_t unknown;  /* index of the first number of the unknowns */
     size_t group;
     int to, factored;
 };

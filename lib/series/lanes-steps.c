@@ -301,7 +301,8 @@ step_result(const step *s, const qdot_recurrence_operation *o, number *u)
                          qdot_lanes_scalar_of(s->w, v.minus ? minus_inverse : inverse_of_order, s->k));
         v.minus = false;
         break;
-    default: qdot_lanes_scale(s->w, &v.sum, qdot_writer_inverse(s->i)); /* OVER */
+    /* the case QDOT_DO_OVER: multiply by the inverse of the step's divisor */
+    default: qdot_lanes_scale(s->w, &v.sum, qdot_writer_inverse(s->i));
     }
     return v;
 }

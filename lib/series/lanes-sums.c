@@ -57,7 +57,7 @@ smaller(int a, int b)
 void
 qdot_writer_terms(qdot_lanes_writer *w, bool window, int products, size_t *at)
 {
-    w->m.far = !w->windows; /* else all their offsets take one byte */
+    w->m.far = !w->windows; /* use long offsets, unless windows keep all offsets within one byte */
     for (int n = smaller((int)w->at.stride - 1, QDOT_SERIES_MOST + 1); n > 0; n--) {
         at[n] = w->m.bytes.n;
         emit_term(w, window, products, n);
@@ -214,7 +214,7 @@ qdot_lanes_sum
 qdot_lanes_dots(qdot_lanes_writer *w, size_t pairs, const qdot_lanes_pair *pair, int k)
 {
     const size_t number = next_sum(w);
-    const int n = k - 1; /* the number of terms in the first order of a block */
+    const int n = k - 1; /* number of terms at the first order of the block */
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
     size_t moving = 0;
 

@@ -53,7 +53,7 @@ of_order(const qdot_lanes_writer *w, size_t groups, int order)
 
     if (order > half + half / 2)
         return groups_from(w, QDOT_ASM_ROWS_NOW, groups + (size_t)order - (size_t)any);
-    if (order > half / 2) /* squares */
+    if (order > half / 2) /* terms of a square reach only up to half of the order */
         return groups_from(w, QDOT_ASM_ROWS_HALF, groups + (size_t)order - (size_t)half);
     return groups_from(w, QDOT_ASM_ROWS, groups + (size_t)order);
 }

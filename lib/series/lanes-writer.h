@@ -15,7 +15,7 @@
 
 enum {
     QDOT_WRITER_RESTS = 2,
-    QDOT_WRITER_PAIRS = 32, /* of one sum */
+    QDOT_WRITER_PAIRS = 32, /* largest number of products in one sum */
     QDOT_WRITER_MOST_TABLES = 16
 };
 
@@ -24,7 +24,7 @@ enum {
     QDOT_WRITER_NUMBERS = 1 << 24,
     QDOT_WRITER_INVERSES = 2 << 24,
     QDOT_WRITER_SCALARS = 3 << 24,
-    QDOT_WRITER_TABLES = 4 << 24, /* scalars by order: at it */
+    QDOT_WRITER_TABLES = 4 << 24, /* tables of scalars: entry k for order k */
     QDOT_WRITER_TABLE = QDOT_SERIES_MOST + 8,
     /* What is written for all blocks of a loop is written as of this order or the next, odd
      * if theirs are, and those beside it; half of it is half of theirs. */
@@ -34,27 +34,27 @@ enum {
 /* The content of a register while code is written. */
 typedef struct {
     bool holds;
-    bool ahead; /* newer than memory, to which it is stored when the register is needed */
+    bool ahead; /* the register holds a newer value than memory; stored when the register is needed */
     qdot_lanes_at at;
 } qdot_writer_register;
 
 typedef struct {
     bool moving; /* the row is not constant in t */
     bool kept;   /* all orders of the row are kept */
-    bool absent; /* its newest coefficient is not computed: it is unknown, or 0 */
+    bool absent; /* its newest coefficient is not computed, as it is unknown or 0 */
     bool wanted; /* an equation of the unknowns depends on it */
     bool equation;
     size_t step; /* the step that computes the row; SIZE_MAX: none */
-    int readers; /* the number of steps that read the row, */
-    int linear;  /* and of those that only add it, or take its rate; */
-    bool rated;  /* some steps take the rate of the row */
+    int readers; /* number of steps that read the row */
+    int linear;  /* number of its readers that only add the row or take its rate */
+    bool rated;  /* some steps read the time derivative (rate) of the row */
 } qdot_writer_row;
 
 typedef struct {
     bool folded; /* the step is not carried out by itself, but within its readers */
     bool idle;   /* no equation depends on the row */
     bool lacks;  /* it is absent only because the newest coefficient of its argument is */
-    int pairs;   /* products whose sum it is, with those that it carries out for others */
+    int pairs;   /* number of products in its sum, including those that it adds for folded steps */
     bool rests[QDOT_WRITER_RESTS]; /* whether this sum has a remainder at the present order */
 } qdot_writer_step;
 
@@ -69,18 +69,18 @@ struct qdot_lanes_writer {
     qdot_asm m;
     qdot_lanes_rows at;
     const qdot_program *t;
-    const qdot_motion *motion; /* whose steps are written; NULL: those of a tape */
-    int32_t bytes;             /* of a group */
+    const qdot_motion *motion; /* the motion whose steps are written; NULL: the steps of a tape */
+    int32_t bytes;             /* size of a group of lanes in bytes */
     size_t numbers;
-    bool counting; /* the first time: nothing is written */
-    qdot_writer_row *rows;   /* [rows] */
-    qdot_writer_step *steps; /* [length] */
-    bool without;            /* newest coefficients may be left out */
-    int k;                   /* the order at hand: its rows are at k + their lead */
-    unsigned rates;          /* a bit each: which of _rate are read */
+    bool counting; /* first pass: only counts, writes no code */
+    qdot_writer_row *rows;   /* [rows] what is known of each row */
+    qdot_writer_step *steps; /* [length] what is known of each step */
+    bool without;            /* newest coefficients that nobody needs may be left out */
+    int k;                   /* the present order; a row is at order k + its lead */
+    unsigned rates;          /* bits: which of the factors qdot_lanes_rate the written code reads */
     qdot_vec(double) scalars;
     qdot_vec(qdot_lanes_by_order *) tables;
-    int registers, chains, moment, first_free; /* (lanes-code-run) */
+    int registers, chains, moment, first_free; /* counts of registers and partial sums, the scratch and first free register */
     /* Orders whose sums are made together; how far that at hand is in such a block; the
      * loop's first, as written. */
     int block, phase, any;

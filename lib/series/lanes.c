@@ -52,18 +52,18 @@ struct qdot_lanes {
     const lanes_kernels *kind;
     const qdot_motion *motion; /* the motion that it computes; NULL: a program alone */
     const qdot_program *program;
-    double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* of a motion */
-    bool has_rates, has_kept; /* the program has steps that take rates; rows that are kept */
+    double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* [lanes] unit of time of a motion, and its inverse */
+    bool has_rates, has_kept; /* some step takes a time derivative; all orders of some row are kept */
     size_t stride;
-    void *memory;          /* what the coefficients stand in */
-    double *coefficients;  /* [rows x stride groups], from a cache line on */
+    void *memory;          /* the allocated block that contains the coefficients */
+    double *coefficients;  /* [rows x stride groups] coefficients, aligned to a cache line */
     /* [length groups] of each step, behind the coefficients: by which all its orders are multiplied in place of a
      * division */
     double *inverses;
-    lanes_step *steps;     /* [length], QDOT_T_END behind them */
-    drawn *drawn;          /* [n_drawn] */
+    lanes_step *steps;     /* [length + 1] the steps, then QDOT_T_END */
+    drawn *drawn; /* [n_drawn] constants that are rounded at random to a neighbouring double */
     size_t n_drawn;
-    double inverse[QDOT_SERIES_MOST + 1]; /* 1/k */
+    double inverse[QDOT_SERIES_MOST + 1]; /* the numbers 1/k, k the index */
 };
 
 static void

@@ -45,7 +45,7 @@ void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest
 typedef struct {
     const qdot_program *program;
     double *coefficients;
-    size_t stride, group; /* doubles of one */
+    size_t stride, group; /* in doubles: distance of two rows in groups; size of a group */
 } qdot_lanes_rows;
 
 qdot_lanes_rows qdot_lanes_get_rows(qdot_lanes *lanes);

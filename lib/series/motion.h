@@ -38,7 +38,7 @@
 typedef struct {
     qdot_program_row value;       /* the row that gives the unknown; QDOT_NO_ROW: it is solved for */
     qdot_program_row row;         /* the row of the unknown u; QDOT_NO_ROW: nothing reads it */
-    qdot_program_row once, twice; /* rows of inputs; QDOT_NO_ROW: none */
+    qdot_program_row once, twice; /* rows of the integrals of u, u' = rate of once; QDOT_NO_ROW: no such input */
 } qdot_motion_unknown;
 
 /* An entry of K: K_ij and K_ji are order 0 of a row. */
@@ -50,13 +50,13 @@ typedef struct {
 typedef struct {
     qdot_program program;
     qdot_vec(qdot_motion_unknown) unknowns;
-    qdot_vec(uint32_t) solved;            /* which of them are solved for, */
-    qdot_vec(qdot_program_row) equations; /* by E, as many; K couples only what stands in one */
-    qdot_vec(uint32_t) blocks;            /* block: where each begins, and the end of the last */
+    qdot_vec(uint32_t) solved; /* indices in `unknowns` of those that equations determine */
+    qdot_vec(qdot_program_row) equations; /* [solved.n] rows of the equations E; K couples only unknowns of one block */
+    qdot_vec(uint32_t) blocks; /* first index in `solved` of each block, and the end of the last block */
     qdot_vec(qdot_motion_entry) entries;  /* K, its other entries 0; none: it follows from steps
                                              that are `newest` (_column of an executor) */
-    qdot_vec(qdot_program_row) right;     /* of equations the first so many are explicit; */
-    size_t written;                       /* the last so many steps write these */
+    qdot_vec(qdot_program_row) right; /* right sides of the explicit equations, which are the first right.n equations */
+    size_t written; /* number of steps at the end of the program that compute only these equations' rows */
 } qdot_motion;
 
 /* Once the program has ended: the leads of steps and rows, which steps are `newest`, and which of

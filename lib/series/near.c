@@ -44,7 +44,7 @@ sum_of_sizes(int p, const double *log2_sizes, double log2_h)
 double
 qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
 {
-    double high = INFINITY, low; /* one term alone is the limit; each is a part of it */
+    double high = INFINITY, low; /* upper end: one term alone reaches the limit; lower end: each term has 1/p of it */
 
     for (int k = 1; k <= p; k++)
         if (log2_sizes[k] > -INFINITY)
@@ -118,7 +118,7 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
 {
     const double size = fabs(b[0]), whole = s;
 
-    if (isinf(s)) { /* one term alone is too much there */
+    if (isinf(s)) { /* a single term already exceeds the limit there */
         double least = 0;
 
         for (int k = 1; k <= p; k++)

@@ -16,11 +16,11 @@ struct qdot_precise {
     const qdot_motion *motion; /* the motion that it computes; NULL: the tape whose program is */
     qdot_program own;
     size_t stride;
-    qdot_reals numbers; /* [rows x stride], the inputs first */
-    qdot_reals scratch; /* [SCRATCH] */
-    mp_limb_t *work;    /* of a dot */
-    mpfr_t *w;          /* scratch.at */
-    qdot_reals notes;   /* [rows] of a motion: by how much the newest coefficient changes; then 0 */
+    qdot_reals numbers; /* [rows x stride] coefficients, rows of inputs first */
+    qdot_reals scratch; /* [SCRATCH] numbers for intermediate results */
+    mp_limb_t *work;    /* limbs of work space for sums of products */
+    mpfr_t *w;          /* the same numbers: scratch.at */
+    qdot_reals notes; /* [rows] of a motion: the change of the newest coefficient of each row; 0 between calls */
 };
 
 /* Orders that are looked at of arguments of exponentials: those beyond add little to a step that
@@ -352,7 +352,7 @@ precise_divisor_nearness(const qdot_precise *p, const qdot_program_step *i, int 
 
     if (mpfr_zero_p(x[0]))
         return log2_h;
-    for (int j = 1; j <= k; j++) /* to where one term is eight times the first */
+    for (int j = 1; j <= k; j++) /* up to the s at which one term is eight times the first */
         if (!mpfr_zero_p(x[j]))
             most = fmin(most, (3 + qdot_real_log2(x[0]) - qdot_real_log2(x[j])) / j);
     if (isinf(most))

@@ -16,7 +16,7 @@
 
 #include "series/motion.h"
 
-typedef struct qdot_precise qdot_precise; /* one a thread */
+typedef struct qdot_precise qdot_precise; /* must not be shared between threads */
 
 /* For orders 0 ... most, with numbers of `bits` (rounded up to whole limbs). The pool is
  * used here and not kept; the tape is not kept. Errors: QDOT_ENOTBUILT (most > 0 and an

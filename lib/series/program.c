@@ -11,9 +11,10 @@ typedef struct qdot_program_builder builder;
 struct qdot_program_builder {
     qdot_program *program;
     bool values_only;
-    row *at;                        /* the row that a place of the tape at hand has now */
-    qdot_vec(row) sincos, sinhcosh; /* [rows] sine of the pair made of a row; QDOT_NO_ROW */
-    qdot_program_step nothing;       /* written to after a failure */
+    row *at; /* [places] the row that holds the present value of each place of the tape */
+    /* [rows] sine row of the (sin, cos) pair of an argument row; QDOT_NO_ROW: none yet */
+    qdot_vec(row) sincos, sinhcosh;
+    qdot_program_step nothing;       /* after a failure steps are written here and ignored */
     qdot_status status;
 };
 
@@ -134,7 +135,7 @@ emit_product(builder *b, qdot_op op, row x, row y, row z)
         return emit_scaled(b, op, x, y, z);
     if (row_is_constant(b, y))
         return emit_scaled(b, op, y, x, z);
-    if (x != y) /* the newer factor first: rows follow each other as they are computed */
+    if (x != y) /* the later row first, as rows are computed in order */
         return x > y ? program_emit(b, plain[op], op, x, y, z) : program_emit(b, plain[op], op, y, x, z);
     square = program_emit(b, QDOT_T_SQUARE, QDOT_OP_MUL, x, x, x);
     if (op == QDOT_OP_MADD)

@@ -24,45 +24,45 @@ enum { QDOT_TAYLOR_EXACT = 6, QDOT_TAYLOR_EXACT_FROM = 26 };
 /* The recurrences, by their names in recurrence.def. */
 typedef enum {
     QDOT_T_END,
-    QDOT_T_VALUE, /* order 0 alone: an operation that switches */
+    QDOT_T_VALUE, /* order 0 only: an operation that switches, as abs or a comparison */
 #define RECURRENCE(ID, cost, body) QDOT_T_##ID,
 #include "series/recurrence.def"
     QDOT_T_LINK, /* to' = unit x, second' = unit to (no row: none) */
-    QDOT_T_RATE, /* to = x'/unit: order k from order k + 1 (motion.h) */
+    QDOT_T_RATE, /* to = x'/unit: order k of `to` from order k + 1 of x (motion.h) */
     QDOT_T_COUNT
 } qdot_recurrence;
 
 /* Values of order 0 that are no operations of operation.def. */
 enum {
-    QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, /* to, second of x */
-    QDOT_ZERO_POWER,                    /* y^z; x is the logarithm of it */
+    QDOT_ZERO_SINHCOSH = QDOT_OP_COUNT, /* order 0 of `to` and `second` is sinh x, cosh x */
+    QDOT_ZERO_POWER,                    /* order 0 of `to` is y^z; x is log of it */
     QDOT_ZERO_RATE,
     QDOT_ZERO_COUNT
 };
 
-typedef uint32_t qdot_program_row; /* a row by its number */
+typedef uint32_t qdot_program_row; /* index of a row */
 
 #define QDOT_NO_ROW UINT32_MAX
 
 /* The origin of the coefficient of order 0 of a row. */
 typedef enum {
-    QDOT_ROW_INPUT,    /* the caller; number `at` of the inputs */
+    QDOT_ROW_INPUT,    /* the caller: input number `at` */
     QDOT_ROW_CONSTANT, /* constant `at` of the program */
-    QDOT_ROW_WHOLE,    /* the whole number `at` */
-    QDOT_ROW_COMPUTED, /* a step */
-    QDOT_ROW_UNKNOWN   /* what is solved for (motion.h) */
+    QDOT_ROW_WHOLE,    /* the integer `at` */
+    QDOT_ROW_COMPUTED, /* a step of the program */
+    QDOT_ROW_UNKNOWN   /* solved for from equations (motion.h) */
 } qdot_program_source;
 
 typedef struct {
     qdot_program_source source;
-    bool still; /* it has order 0 only */
+    bool still; /* constant in time: only order 0 is not 0 */
     int at;
-    int lead; /* it is known so many orders before those that it is there for (motion.h) */
+    int lead; /* at stage k of a motion its order k + lead is computed (motion.h) */
 } qdot_program_row_info;
 
 /* A constant, as a tape stores it (expr/constant.h). */
 typedef struct {
-    double value, low; /* the nearest double; the rest of the constant, rounded */
+    double value, low; /* the nearest double; the exact constant less that double, rounded */
     signed char side;
     qdot_expr exact;
 } qdot_program_constant;
@@ -72,25 +72,25 @@ enum { QDOT_X_NEWEST = 1, QDOT_Y_NEWEST = 2, QDOT_Z_NEWEST = 4 };
 
 /* A step. Rows that it does not have are QDOT_NO_ROW; operands that it does not have are x. */
 typedef struct {
-    uint16_t op, zero; /* recurrence; how order 0 is computed: an operation of a tape, or above */
-    int sign;          /* of RATIO */
-    bool still;        /* it has order 0 only */
+    uint16_t op, zero; /* its recurrence; how order 0 is computed: an operation of a tape or one of the above */
+    int sign;          /* +1 or -1: sign in the recurrence RATIO */
+    bool still;        /* its result is constant in time: only order 0 */
     /* bits for those operands x, y, z whose newest coefficient depends on unknowns (motion.h); */
     unsigned char newest;
     bool kept;            /* later orders read the result of the step */
-    signed char lead;  /* the lead of the rows that it writes */
+    signed char lead;  /* the lead (motion.h) of the rows that the step writes */
     qdot_program_row to, second, third, d, x, y, z;
 } qdot_program_step;
 
 typedef struct {
-    size_t inputs, moving; /* inputs; the first of them, which have more than order 0 */
+    size_t inputs, moving; /* number of inputs; how many of them, the first, vary in time */
     qdot_vec(qdot_program_constant) constants;
-    qdot_vec(qdot_program_row_info) rows; /* the inputs first; those of the first tape's constants */
-    qdot_vec(qdot_program_step) steps;    /* those that are still first; END behind them */
-    size_t length, still;                /* of steps */
+    qdot_vec(qdot_program_row_info) rows; /* inputs first, then constants, then results of steps */
+    qdot_vec(qdot_program_step) steps;    /* constant steps first; a step QDOT_T_END at the end */
+    size_t length, still; /* number of steps; number of the constant steps among them */
     qdot_vec(qdot_program_row) outputs;
-    double convolutions; /* an order; a square counts half */
-    int lead;            /* the largest lead of a step */
+    double convolutions; /* products of two series to be summed at each order; a square counts half */
+    int lead;            /* the largest lead (motion.h) of a step */
 } qdot_program;
 
 /* The program of a tape, which is not kept, whose inputs from `moving` on are numbers. With

@@ -20,7 +20,7 @@ typedef enum {
     QDOT_OF_x,
     QDOT_OF_y,
     QDOT_OF_z,
-    QDOT_OF_ROWS, /* the names of rows end */
+    QDOT_OF_ROWS, /* number of the names of rows */
     QDOT_OF_U1 = QDOT_OF_ROWS,
     QDOT_OF_U2,
     QDOT_OF_COUNT
@@ -29,7 +29,7 @@ typedef enum {
 typedef enum {
     QDOT_DO_END,
     QDOT_DO_SUM,     /* r = sum_{j=from..k-below} a_j b_{k-j} */
-    QDOT_DO_SQUARED, /* the same, b being a */
+    QDOT_DO_SQUARED, /* as QDOT_DO_SUM with b = a: a sum of squares */
     QDOT_DO_ADD,
     QDOT_DO_SUB,
     QDOT_DO_NEG,

@@ -4,13 +4,13 @@
 enum {
     /* the most terms of a sum: more would delay each other longer than separate sums */
     most_terms = 12,
-    most_depth = 8 /* the deepest nesting of folded steps */
+    most_depth = 8 /* deepest nesting of folded steps */
 };
 
 typedef struct {
     uint32_t reader; /* the last step that reads the row */
     unsigned readers;
-    bool wanted;     /* by others, or as more than a term */
+    bool wanted;     /* some reader needs the row itself, not only as a term of a sum */
 } use;
 
 static bool

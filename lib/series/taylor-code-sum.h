@@ -13,7 +13,7 @@
 enum {
     QDOT_CODE_TERMS = 24,
     latency = 4,
-    latency_of_vectors = 12, /* from the newest coefficient to the next sum */
+    latency_of_vectors = 12, /* cycles from the newest coefficient to the next sum of a vector */
     latency_of_division = 14
 };
 
@@ -62,7 +62,7 @@ code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 
 /* A number in a register, or its negative. */
 typedef struct {
-    int reg; /* -1: 0 */
+    int reg; /* the register; -1: the number is 0 */
     bool own, negative;
     int ready;
 } value;
@@ -71,13 +71,13 @@ typedef struct {
 typedef struct {
     bool minus, plain;
     qdot_operand factor;
-    uint32_t row; /* QDOT_CODE_NONE: */
+    uint32_t row; /* row of the coefficient; QDOT_CODE_NONE: the term is a sum */
     int k;
-    uint32_t past; /* the number of the sum */
+    uint32_t past; /* index of that sum */
 } term;
 
 typedef struct {
-    value v; /* the terms that have been added up so far */
+    value v; /* the sum of the terms added so far */
     int n;
     term terms[QDOT_CODE_TERMS];
 } sum;
@@ -177,7 +177,7 @@ sum_sort_terms(qdot_generator *g, sum *s, int *when)
         when[j] = now_ready;
     }
     if (s->n > 1 && s->v.reg < 0 && s->terms[1].plain && !s->terms[0].plain) {
-        const term first = s->terms[0]; /* what is multiplied is added by the same instruction */
+        const term first = s->terms[0]; /* a plain term first, so that the product is added to it by one instruction */
         const int first_ready = when[0];
 
         s->terms[0] = s->terms[1];

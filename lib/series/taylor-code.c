@@ -26,10 +26,11 @@ typedef void kernel(double *coefficients, qdot_taylor_step *steps, double *work)
 
 struct qdot_taylor_code {
     qdot_taylor_text *text;
-    double *allocated, *work; /* the same, aligned */
+    double *allocated, *work; /* work space as allocated; the same block from an aligned address on */
     int to;
     double unit;
-    double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1]; /* at unit 1 */
+    /* low parts of the factors of a link, for the unit of time 1 */
+    double once_low[QDOT_CODE_EXACT + 1], twice_low[QDOT_CODE_EXACT + 1];
 };
 
 static int

@@ -12,8 +12,8 @@ struct qdot_taylor_change {
     double a, b, c;
     const qdot_taylor_step *step;
     bool second; /* it changes the second of the two rows that the step writes */
-    bool rate;   /* its slope is the step's c times the order */
-    bool varies; /* slopes are made of rows that move */
+    bool rate;   /* the step is a RATE: its factor is c times the order */
+    bool varies; /* a, b or c depend on order 0 of rows that vary in time */
     int lead;
 };
 
@@ -25,13 +25,13 @@ struct qdot_taylor_scaled_change {
 };
 
 struct qdot_taylor_changes {
-    double *note; /* [rows] what is added to the newest coefficient */
-    struct qdot_taylor_change *changes; /* in the order of the steps */
+    double *note; /* [rows] the change of the newest coefficient of each row */
+    struct qdot_taylor_change *changes; /* [n_changes] in the order of the steps */
     struct qdot_taylor_scaled_change *scaled;
     size_t n_changes, n_scaled;
-    bool stale; /* order 0 has changed since the slopes were computed */
-    bool begun; /* the constant slopes have been computed */
-    bool changes_zero; /* a slope is made of numbers of order 0 that change */
+    bool stale; /* order 0 has changed: the factors a, b, c must be computed again */
+    bool begun; /* factors that are constant in time have been computed */
+    bool changes_zero; /* some factor depends on order 0 of rows that vary in time */
 };
 
 void

@@ -34,7 +34,7 @@ enum {
     /* numbers of repetitions of loops, 32 bits in each double */
     QDOT_CODE_COUNTS = QDOT_CODE_ONES + QDOT_CODE_LANES,
     QDOT_CODE_PHASES = (2 * QDOT_CODE_BLOCKS + 7) / 8 * 8,
-    QDOT_CODE_MOMENT = QDOT_CODE_COUNTS + QDOT_CODE_PHASES, /* one number */
+    QDOT_CODE_MOMENT = QDOT_CODE_COUNTS + QDOT_CODE_PHASES, /* place of one temporary number */
     QDOT_CODE_SLOTS = QDOT_CODE_MOMENT + 8,
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
@@ -50,14 +50,14 @@ enum {
 /* Lane i is coefficient i + lag of a row; of the sums that order m has been added to, order
  * m + lag + i. */
 typedef struct {
-    int reg[QDOT_CODE_BLOCKS]; /* -1: in memory, */
-    size_t at;                 /* there, in doubles */
+    int reg[QDOT_CODE_BLOCKS]; /* the registers of the vectors; -1: in memory */
+    size_t at;                 /* index of the first double in memory */
 } qdot_code_vector;
 
 /* A sum of products x_i y_j of coefficients with i, j >= lag, prepared for later orders. */
 typedef struct {
-    uint32_t x, y; /* rows */
-    bool further;  /* it is part of the sum before it, whose vector is `v` */
+    uint32_t x, y; /* the rows of the factors x and y */
+    bool further;  /* part of the sum before it, which holds the vector `v` for both */
     qdot_code_vector v;
 } qdot_code_sum;
 
@@ -69,33 +69,34 @@ typedef struct {
 typedef struct {
     qdot_asm m;
     const qdot_taylor *t;
-    int lanes;              /* of a vector */
-    int first_scalar, behind_scalars; /* registers of single numbers; below: for a moment */
-    bool as_they_stand;     /* rows are read where they are (taylor-code-vectors.c) */
-    bool reread;            /* sums are moved on by reading them one number further */
-    int n;                  /* orders */
-    int blocks;             /* vectors of a sum at most */
-    int k;                  /* the order at hand */
-    int lag;                /* orders below it and their partners are added singly; 1 or 2 */
-    bool exact;             /* integrals have factors in two doubles at this order */
-    bool *moving;           /* [rows] it has more than order 0 */
-    bool *folded;           /* [rows] its orders above 0 are terms of its one reader */
-    uint32_t *maker;        /* [rows] the step that it is `to` of; QDOT_CODE_NONE */
-    uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
-    uint32_t *step_sums;    /* [length x 3] number in `sums`; QDOT_CODE_NONE */
-    uint32_t *unknown_sums; /* [rows] of what is solved for by row, likewise */
-    uint32_t *block_slots;  /* [blocks] */
-    int *ready;             /* [rows x 4] when coefficients are there, by order mod 4 */
+    int lanes;              /* number of doubles in a vector register */
+    /* registers of single numbers are first_scalar ... behind_scalars - 1; lower ones are temporary */
+    int first_scalar, behind_scalars;
+    bool as_they_stand; /* rows are read from their place in memory, without copies (taylor-code-vectors.c) */
+    bool reread; /* at the next order a sum is read again from an address one number further */
+    int n;                  /* number of orders of the expansion */
+    int blocks;             /* largest number of vectors in a sum */
+    int k;                  /* the present order */
+    int lag; /* 1 or 2: products with a factor of order below `lag` are added one by one */
+    bool exact;             /* at this order the factors of links are sums of two doubles */
+    bool *moving;           /* [rows] the row varies in time: it has orders above 0 */
+    bool *folded; /* [rows] computed only as terms of the sum of its single reader, above order 0 */
+    uint32_t *maker; /* [rows] the step that writes the row as its `to`; QDOT_CODE_NONE: none */
+    uint32_t *row_vector;   /* [rows] index of the row's vector in `rows`; QDOT_CODE_NONE: none */
+    uint32_t *step_sums; /* [length x 3] indices in `sums` of the step's sums; QDOT_CODE_NONE: none */
+    uint32_t *unknown_sums; /* [rows] index in `sums` of the sum for an unknown, by its row; QDOT_CODE_NONE: none */
+    uint32_t *block_slots;  /* [blocks] first slot of each block's matrices in the work space */
+    int *ready; /* [rows x 4] the time when a coefficient is ready, by order mod 4, in cycles */
     qdot_vec(qdot_code_vector) rows;
-    qdot_vec(uint32_t) row_of; /* the same */
+    qdot_vec(uint32_t) row_of; /* the row of each vector in `rows` */
     qdot_vec(qdot_code_sum) sums;
     size_t n_slots;
-    qdot_vec(qdot_code_composition) compositions; /* products of factors, in slots of their own, */
-    size_t fold_slots;                            /* from this one on */
+    qdot_vec(qdot_code_composition) compositions; /* products of two factors, kept in slots of the work space */
+    size_t fold_slots;                            /* the first slot that holds such a product */
 
     /* registers that hold a coefficient: */
-    unsigned char *where; /* [rows x 4] the register that may hold them, likewise */
-    uint32_t held[QDOT_ASM_REGISTERS]; /* the row; QDOT_CODE_NONE */
+    unsigned char *where; /* [rows x 4] the register that may hold a coefficient of the row, by order mod 4 */
+    uint32_t held[QDOT_ASM_REGISTERS]; /* the row whose coefficient the register holds; QDOT_CODE_NONE: none */
     int held_order[QDOT_ASM_REGISTERS];
     /* for each register, the row whose coefficient fills all of it */
     uint32_t spread[QDOT_ASM_REGISTERS];
@@ -126,8 +127,8 @@ do_all(qdot_generator *g, qdot_asm_operation op, int reg, int first, qdot_operan
 
 /* A range of orders that share the code of one loop. */
 typedef struct {
-    int blocks;   /* of sums */
-    int inserted; /* the block of rows that the order itself enters; -1: none */
+    int blocks;   /* number of vectors in each sum */
+    int inserted; /* index of the vector into which the new order of a row is written; -1: none */
     int orders;
 } qdot_code_phase;
 

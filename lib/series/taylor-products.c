@@ -12,10 +12,10 @@ typedef struct {
 } part;
 
 struct qdot_taylor_products {
-    size_t n, members;          /* sums, filled up to full vectors */
-    const double **entry, **by; /* [n] rows */
-    double *entries, *unknowns; /* [orders x members] their coefficients, by order */
-    double *sums;               /* [members] */
+    size_t n, members;          /* number of sums; the same rounded up to full vectors */
+    const double **entry, **by; /* [n] the rows of the two factors of each product */
+    double *entries, *unknowns; /* [orders x members] coefficients of both factors, order by order */
+    double *sums;               /* [members] the sums of one order */
     part *parts;
     size_t n_parts;
 };

@@ -6,54 +6,54 @@
 #include "num/series.h"
 #include "series/motion.h"
 
-typedef struct qdot_taylor qdot_taylor; /* taylor.h */
+typedef struct qdot_taylor qdot_taylor; /* defined below; public interface in taylor.h */
 
 /* A step with the rows of coefficients that it reads and writes. */
 typedef struct {
-    uint16_t op, zero; /* recurrence, and how order 0 is computed, as in qdot_program_step */
+    uint16_t op, zero; /* its recurrence; how order 0 is computed, as in qdot_program_step */
     signed char sign, lead;
     unsigned char newest;
     bool kept;
     double *to, *second, *third, *d;
     const double *x, *y, *z;
     double
-        c; /* the inverse of what every order divides by, of RATE that of the unit; of LINK it */
+        c; /* inverse of the step's divisor; for RATE 1/unit, for LINK the unit itself */
 } qdot_taylor_step;
 
 /* A constant between two doubles, rounded at random to one of them. */
 struct qdot_taylor_drawn {
     double *row;
-    double near, far, chance; /* both doubles; the probability of `far` */
+    double near, far, chance; /* the two neighbouring doubles; the probability that `far` is taken */
 };
 
 /* Unknowns that explicit equations determine at every order (taylor-motion.h). */
 typedef struct {
-    uint32_t i; /* the product M a belongs to row i */
+    uint32_t i; /* the product M a is part of equation i */
     const double *M, *a;
 } qdot_taylor_coupling;
 
 typedef struct {
     size_t n;
-    int solved;       /* orders up to this one by the factor */
-    const double **f; /* [n] NULL: not explicit */
-    double **a;       /* [n] */
-    double **r;       /* [n] work: f less the known products M a */
-    qdot_taylor_coupling *couplings; /* by i */
+    int solved; /* orders up to `solved` use the Cholesky factor, higher ones the inverse matrix */
+    const double **f; /* [n] right sides f; NULL: this equation is not explicit */
+    double **a;       /* [n] the rows of the unknowns */
+    double **r;       /* [n] scratch: f minus the products M a already known */
+    qdot_taylor_coupling *couplings; /* [n_couplings] the non-zero products, ordered by i */
     size_t n_couplings;
-    double *matrices; /* [n x n] L; [n x n] M_0^-1 */
+    double *matrices; /* [n x n] Cholesky factor L of M_0, then [n x n] M_0^-1 */
 } qdot_taylor_block;
 
 /* An unknown that is solved for: its row and its integrals; NULL: there is none, or a link computes it. */
 struct qdot_taylor_unknown {
     double *row, *once, *twice;
-    const double *right; /* of its equation what is known: f; E, or that which E is a rate of; */
-    int rates;           /* how many derivatives of it the equation is */
+    const double *right; /* known part of its equation: f if explicit, else E or the row of which E is a time derivative */
+    int rates;           /* how many time derivatives separate the row `right` from E */
     bool is_explicit;
 };
 
 /* A row of an unknown or of its integral whose newest coefficient is read by steps. */
 struct qdot_taylor_newest {
-    double *row, *change; /* the change of the newest coefficient, where steps read it */
+    double *row, *change; /* the coefficients; the change of the newest one, if steps read it */
     int lead;
 };
 
@@ -64,33 +64,34 @@ struct qdot_taylor {
     const qdot_motion *motion; /* the motion that it computes, borrowed; NULL: a tape */
     double unit;               /* the unit of time of the present step */
     const qdot_series_kernels *kernels;
-    qdot_taylor_function *const (*functions)[QDOT_T_COUNT]; /* by order, recurrence */
+    /* [order][recurrence] the functions that compute a coefficient */
+    qdot_taylor_function *const (*functions)[QDOT_T_COUNT];
     size_t stride, inputs, outputs, rows;
-    size_t moving; /* of the inputs the first, which are no numbers */
-    size_t spare;  /* the first row that is free for what is solved for */
+    size_t moving; /* how many of the inputs, the first, vary in time */
+    size_t spare;  /* the first row free for unknowns and their integrals */
     double convolutions;
     double *allocated;
-    double *coefficients;     /* [rows x stride], the inputs first; order 1 begins a line */
-    uint64_t per_row; /* 2^32/stride, rounded up: a row's number without a division */
-    const double **output;    /* [outputs] rows */
-    bool *constant;           /* [outputs] */
+    double *coefficients; /* [rows x stride] inputs first; order 1 of a row begins a cache line */
+    uint64_t per_row; /* 2^32/stride rounded up: gives the index of a row without a division */
+    const double **output;    /* [outputs] the row of each output */
+    bool *constant;           /* [outputs] whether the output is constant */
     qdot_taylor_step *steps; /* [length + n_links], then QDOT_T_END */
     size_t length, n_links;
-    size_t still; /* of the steps the first, which have order 0 only */
-    qdot_taylor_block *blocks; /* [n_blocks] */
+    size_t still; /* number of leading steps that have only order 0 */
+    qdot_taylor_block *blocks; /* [n_blocks] blocks of coupled explicit equations */
     size_t n_blocks;
-    const double **negated; /* [rows] of K: the row that a row is the negative of, or NULL */
+    const double **negated; /* [rows] for entries of K: the row of which this one is the negative, or NULL */
     struct qdot_taylor_products *products; /* products for the blocks of equations (taylor-products.h); NULL: none */
-    struct qdot_taylor_drawn *drawn; /* [n_drawn] */
+    struct qdot_taylor_drawn *drawn; /* [n_drawn] constants rounded at random */
     size_t n_drawn;
-    struct qdot_taylor_unknown *unknowns; /* [of the motion, solved] */
-    struct qdot_taylor_newest *newest;    /* [n_newest] */
+    struct qdot_taylor_unknown *unknowns; /* [solved] the unknowns of the motion */
+    struct qdot_taylor_newest *newest; /* [n_newest] rows whose newest coefficient changes when the unknowns are found */
     size_t n_newest;
-    struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
-    struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
-    const char *no_code;           /* for this reason; NULL: none was asked for */
-    bool asked;                    /* code kept from an earlier run has been asked for */
-    bool refused;                  /* none is to be written */
+    struct qdot_taylor_changes *changes; /* used by taylor-correct.c; NULL: no corrections were requested */
+    struct qdot_taylor_code *code; /* machine code (taylor-code.c); NULL: not used */
+    const char *no_code;           /* why there is no machine code; NULL: none was requested */
+    bool asked;                    /* a search for machine code of an earlier run has been made */
+    bool refused;                  /* machine code must not be generated */
 };
 
 /* Allocate for `most` orders, with `spare` further rows and `more` doubles after all rows. */

@@ -10,7 +10,7 @@
 #if defined __x86_64__ && defined __LP64__ && (defined __unix__ || defined __APPLE__)
 #define CAN_RUN
 #include <sys/mman.h>
-#ifdef MAP_POPULATE /* one call instead of a fault for each page */
+#ifdef MAP_POPULATE /* maps all pages at once instead of one fault for each page */
 #define POPULATED MAP_POPULATE
 #else
 #define POPULATED 0
@@ -22,7 +22,7 @@ enum {
     /* space before the first instruction, where sanitizers look for information about a function */
     head = 64,
     kept = 16,
-    most_kept = 1 << 16 /* bytes: longer code is rare, and takes long to run */
+    most_kept = 1 << 16 /* largest code kept, in bytes: longer code is rare and takes long to run */
 };
 
 /* The cache; it holds a reference to each text, and a text taken out is invisible to other threads. */

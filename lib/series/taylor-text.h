@@ -29,16 +29,16 @@ typedef struct {
 } qdot_taylor_orders;
 
 typedef struct {
-    uint32_t *key; /* [length] */
+    uint32_t *key; /* [length] the words that identify the program */
     size_t length;
     void *memory;
-    size_t size, used; /* bytes: of the memory, of the code */
-    size_t begin;      /* where the function of order 0 is in it */
+    size_t size, used; /* bytes of the memory block, of the code in it */
+    size_t begin;      /* offset of the function that computes order 0 */
     qdot_taylor_loops loops;
-    int from, to; /* it carries out expansions to these orders and those between */
-    bool exact;   /* links have factors of two doubles at low orders */
-    size_t doubles;    /* the doubles of work space that the text needs */
-    uint32_t *blocks;  /* [blocks] where there it has their matrices */
+    int from, to; /* lowest and highest order of the expansions that the code can make */
+    bool exact;   /* at low orders links use factors in two doubles */
+    size_t doubles;    /* number of doubles of work space that the code needs */
+    uint32_t *blocks;  /* [blocks] where the matrices of each block are in the work space */
     atomic_uint users;
 } qdot_taylor_text;
 

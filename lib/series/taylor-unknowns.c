@@ -156,7 +156,7 @@ resolve_rates(qdot_taylor *t, uint32_t *reads)
                 continue;
             u->right = s->x;
             u->rates++;
-            reads[qdot_taylor_row(t, s->x)] -= 3; /* x, y and z are one */
+            reads[qdot_taylor_row(t, s->x)] -= 3; /* x, y and z are the same row, which was counted three times */
         }
 }
 

@@ -18,9 +18,9 @@ enum { COPIED = QDOT_T_COUNT, COPIED_ONCE };
 
 typedef struct {
     int op, sign;
-    size_t lanes;                  /* filled up to full vectors */
-    size_t to, second, third, d, x, y, z; /* its first lanes; of rows that it has not: to */
-    size_t count;                  /* copied: of `from` */
+    size_t lanes;                  /* number of steps in the group, rounded up to full vectors */
+    size_t to, second, third, d, x, y, z; /* first lane of each row of the group; a row that the group lacks: `to` */
+    size_t count;                  /* how many lanes are copied from `from` */
     size_t *from;
 } group;
 
@@ -36,18 +36,18 @@ typedef struct {
 
 struct qdot_taylor_wide {
     const kernels *kernels;
-    size_t n;         /* the number of inputs that are corrected; */
-    size_t corrected; /* the lanes of these inputs; */
-    size_t inputs;    /* filled up to full vectors */
+    size_t n;         /* number of inputs that are corrected */
+    size_t corrected; /* number of lanes that hold these inputs */
+    size_t inputs;    /* number of lanes of all inputs, rounded up to full vectors */
     size_t width, rows, stride;
     int orders;
     const double *coefficients; /* the coefficients of the program, read for rows that are numbers */
-    size_t *lane;               /* [rows] */
+    size_t *lane;               /* [rows] the lane of each row */
     size_t *input;              /* [inputs] the input that each lane holds; NO_LANE: none */
-    size_t constant;            /* the first lane that is 0 beyond order 0, itself 0 there; */
+    size_t constant;            /* the first lane that is constant in time */
     size_t changing;            /* index after the last of them */
     qdot_vec(group) groups;
-    double *allocated, *X, *N; /* [orders x width], [width] */
+    double *allocated, *X, *N; /* memory; X [orders x width] coefficients; N [width] newest coefficients */
     double convolutions;
 };
 
@@ -107,18 +107,18 @@ kernels_here(void)
 /* A step, and the keys by which it is grouped. */
 typedef struct {
     const qdot_taylor_step *step;
-    size_t level, x, y, z; /* lanes */
-    size_t first;          /* of these the first that has more than order 0 */
+    size_t level, x, y, z; /* depth of the step in the program; lanes of x, y, z */
+    size_t first;          /* of x, y, z the first that varies in time */
 } member;
 
 typedef struct {
     qdot_taylor_wide *w;
     const qdot_taylor *t;
-    const size_t *inputs; /* the lanes of the inputs; NULL: in their order */
-    size_t *level;        /* [rows] */
+    const size_t *inputs; /* the inputs in the order of lanes; NULL: in their own order */
+    size_t *level;        /* [rows] depth of each row in the program */
     member *members;
     size_t n_members, deepest;
-    size_t *lanes; /* scratch */
+    size_t *lanes; /* scratch for lane numbers */
 } builder;
 
 static size_t
@@ -200,7 +200,7 @@ first_lanes(builder *b)
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
 
-        w->lane[wide_row_of(w, s->to)] = 0; /* assigned below */
+        w->lane[wide_row_of(w, s->to)] = 0; /* marks the row; its lane is assigned below */
         if (s->second)
             w->lane[wide_row_of(w, s->second)] = 0;
         if (s->third)
@@ -290,7 +290,7 @@ add_group(builder *b, member *m, size_t n)
         if (m->step->d)
             w->lane[wide_row_of(w, m[i].step->d)] = g.d + i;
     }
-    w->convolutions += ceil(qdot_recurrence_cost(g.op)) * vectors; /* squares as products */
+    w->convolutions += ceil(qdot_recurrence_cost(g.op)) * vectors; /* here a square costs as much as a product */
     return qdot_vec_push(&w->groups, g);
 }
 
@@ -443,7 +443,7 @@ qdot_taylor_wide_order(qdot_taylor_wide *w, int k)
 void
 qdot_taylor_wide_correct(qdot_taylor_wide *w, int k, const double *newest, double divisor)
 {
-    if (w->corrected < w->inputs) { /* the lanes behind the inputs stay 0 */
+    if (w->corrected < w->inputs) { /* lanes after those of the corrected inputs stay 0 */
         memcpy(w->N, newest, w->corrected * sizeof *newest);
         memset(w->N + w->corrected, 0, (w->inputs - w->corrected) * sizeof *newest);
         newest = w->N;

@@ -12,7 +12,7 @@
 
 /* --- making a program in doubles ---------------------------------------------------- */
 
-enum { LINE = 8 }; /* doubles of a line of the cache */
+enum { LINE = 8 }; /* number of doubles in a cache line */
 
 static qdot_status
 taylor_allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t more)

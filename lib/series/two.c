@@ -11,10 +11,10 @@ struct qdot_tape_two {
     const qdot_motion *motion; /* the motion that it computes; NULL: the tape whose program is */
     qdot_program own;
     double unit;
-    qdot_two inverse[QDOT_TWO_MOST + 3]; /* 1/k */
+    qdot_two inverse[QDOT_TWO_MOST + 3]; /* the numbers 1/k, k the index */
     size_t stride;
-    qdot_two *numbers; /* [rows x stride], the inputs first */
-    double *note;      /* [rows] by how much the newest coefficient changes */
+    qdot_two *numbers; /* [rows x stride] coefficients, rows of inputs first */
+    double *note;      /* [rows] the change of the newest coefficient of each row */
     const qdot_two_functions *functions;
     const qdot_two_kernels *kernels;
     void (*order)(const qdot_tape_two *t, const qdot_program_step *i, int k);
@@ -347,7 +347,7 @@ qdot_tape_two_sides(const qdot_tape_two *t)
 
         if (side == 0)
             return 0;
-        sides = (sides ^ (uint64_t)side) * 0x100000001b3u; /* as the hash of Fowler, Noll and Vo */
+        sides = (sides ^ (uint64_t)side) * 0x100000001b3u; /* the FNV-1a hash (Fowler, Noll, Vo) */
     }
     return sides | 1;
 }

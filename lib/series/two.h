@@ -12,7 +12,7 @@
 #include "num/two.h"
 #include "series/motion.h"
 
-typedef struct qdot_tape_two qdot_tape_two; /* one a thread */
+typedef struct qdot_tape_two qdot_tape_two; /* must not be shared between threads */
 
 /* For orders 0 ... most. The inputs from `moving` on are numbers, without coefficients
  * beyond order 0. The tape is not kept. Order 0 is there for every operation, above it

@@ -21,13 +21,13 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    piece line; /* without what ends it, and without its comment */
+    piece line; /* the present line, without line end and comment */
     size_t number; /* number of the line, from 1 */
-    char separator; /* ',', ';' or ' ', blanks and tabs; 0: not known yet */
+    char separator; /* ',', ';' or ' ' (blanks and tabs); 0: not known yet */
     qdot_vec(double) values;
     qdot_vec(qdot_csv_place) places;
     size_t columns, rows;
-    qdot_csv *csv; /* takes the names */
+    qdot_csv *csv; /* the result: receives the column names */
 } reader;
 
 /* --- reporting errors ---------------------------------------------------------------------- */
@@ -247,7 +247,7 @@ read_row(reader *r)
 
         if (r->separator != ' ' && at > r->line.end && cell.at == cell.end && n > 0
             && (r->rows == 0 || n == r->columns))
-            break; /* a separator ends the line */
+            break; /* a separator at the end of the line is ignored */
         if (r->rows > 0 && n == r->columns) {
             const qdot_csv_place place = csv_place_of(r, cell.at);
 
@@ -289,7 +289,7 @@ read_line(reader *r, piece line)
     piece_strip(&line);
     line = r->line;
     piece_strip(&line);
-    r->line.end = line.end; /* columns count from the line's begin */
+    r->line.end = line.end; /* only the end is cut: columns in messages count from the start of the line */
     if (line.at >= line.end)
         return QDOT_OK;
     return r->rows == 0 && !has_number(r) ? read_names(r) : read_row(r);

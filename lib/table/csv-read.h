@@ -18,7 +18,7 @@
 #include "base/text.h"
 
 typedef struct {
-    size_t line, column; /* where a number begins */
+    size_t line, column; /* position of a number in the file */
 } qdot_csv_place;
 
 /* A word of the first line that consists of words, such as a column's name. */
@@ -29,8 +29,8 @@ typedef struct {
 
 typedef struct {
     size_t columns, rows;
-    double *at;             /* [rows x columns] all finite */
-    qdot_csv_place *places; /* [rows x columns] */
+    double *at;             /* [rows x columns] the numbers, all finite */
+    qdot_csv_place *places; /* [rows x columns] where each number stands in the file */
     qdot_vec(qdot_csv_name) names;
 } qdot_csv;
 

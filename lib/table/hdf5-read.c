@@ -19,7 +19,7 @@ enum { SUPERBLOCK = 48, DATASPACE = 1, DATATYPE = 3, LINK = 6, LAYOUT = 8, ATTRI
 
 typedef struct {
     const char *path;
-    const unsigned char *at; /* [n] the file */
+    const unsigned char *at; /* [n] the bytes of the file */
     size_t n;
 } file;
 
@@ -146,7 +146,7 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
     if (rows > 0)
         memcpy(c.bytes, f->at + where, (size_t)(rows * size));
     out->at.at[out->at.n - 1] = c;
-    for (uint64_t i = 0; texts && i < rows; i++) /* each ends within its room */
+    for (uint64_t i = 0; texts && i < rows; i++) /* every text must end with NUL within its field */
         if (c.bytes[(i + 1) * size - 1] != '\0')
             return strange(f);
     return QDOT_OK;

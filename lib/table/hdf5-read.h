@@ -10,15 +10,15 @@
 
 typedef struct {
     char *label;
-    size_t size; /* bytes of a text, its NUL with it; 0: numbers */
+    size_t size; /* bytes of a text including its NUL; 0: the column has numbers */
     char *bytes; /* [rows x size], or of numbers [rows x 8], least byte first */
 } qdot_hdf5_column;
 
 typedef struct {
     qdot_vec(qdot_hdf5_column) at;
     size_t rows;
-    const char *fact; /* the name of an attribute of the root, a text, */
-    qdot_text text;   /* and what it says; empty: there is none */
+    const char *fact; /* name of a text attribute of the root group to be read */
+    qdot_text text;   /* the text of that attribute; empty: it does not exist */
 } qdot_hdf5_columns;
 
 /* Read a file and one fact of it. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;

@@ -26,7 +26,7 @@ enum {
     FILL = 5,
     LAYOUT = 8,
     ATTRIBUTE = 12,
-    MOST_TEXT = 60000 /* a message has at most 65535 bytes */
+    MOST_TEXT = 60000 /* longest text in bytes: an HDF5 message has at most 65535 */
 };
 
 #define NOWHERE UINT64_MAX
@@ -155,7 +155,7 @@ attribute(qdot_text *header, const qdot_table_fact *fact)
         real_type(header);
     else
         text_type(header, size);
-    bytes(header, 2, 4); /* a dataspace of version 2, a scalar */
+    bytes(header, 2, 4); /* dataspace message, version 2, scalar */
     if (number) {
         real(header, fact->number);
     } else {
@@ -171,7 +171,7 @@ link_to(qdot_text *header, const char *name, uint64_t address)
 
     message(header, LINK, 13 + n);
     bytes(header, 1, 1);
-    bytes(header, 0x11, 1); /* a hard link, its character set stated, lengths of 2 bytes */
+    bytes(header, 0x11, 1); /* link flags: hard link, character set stated, name length in 2 bytes */
     bytes(header, 1, 1);
     bytes(header, n, 2);
     qdot_text_add_n(header, name, n);
@@ -226,7 +226,7 @@ data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
     const bool texts = has_texts(t, j);
 
     message(header, DATASPACE, 12);
-    bytes(header, 0x01000102, 4); /* version 2, one dimension, fixed, simple */
+    bytes(header, 0x01000102, 4); /* dataspace message: version 2, one dimension, fixed size */
     bytes(header, rows, 8);
     message(header, DATATYPE, texts ? 8 : 20);
     if (texts)
@@ -236,7 +236,7 @@ data_set(qdot_text *header, const qdot_table *t, size_t j, uint64_t address)
     message(header, FILL, 2);
     bytes(header, 0x0a03, 2);
     message(header, LAYOUT, 18);
-    bytes(header, 0x0103, 2); /* version 3, one block */
+    bytes(header, 0x0103, 2); /* layout message: version 3, contiguous */
     bytes(header, rows > 0 ? address : NOWHERE, 8);
     bytes(header, rows * size, 8);
 }
@@ -249,14 +249,14 @@ object(qdot_text *out, const qdot_text *messages)
 
     qdot_text_add(out, "OHDR");
     bytes(out, 2, 1);
-    bytes(out, 2, 1); /* a size of 4 bytes, no times */
+    bytes(out, 2, 1); /* header flags: size in 4 bytes, no time stamps */
     bytes(out, messages->n, 4);
     qdot_text_add_n(out, qdot_text_str(messages), messages->n);
     if (!out->failed)
         bytes(out, checksum(out->at + from, out->n - from), 4);
 }
 
-enum { OBJECT = 14 }; /* bytes of a header beside its messages */
+enum { OBJECT = 14 }; /* bytes of an object header besides its messages */
 
 /* --- laying out the file ---------------------------------------------------------------- */
 
@@ -281,8 +281,9 @@ column_name(const qdot_table *t, size_t j, qdot_text *out)
 
 /* The addresses of headers and numbers in the file. */
 typedef struct {
-    uint64_t parameters, headers, numbers, end; /* headers: of the columns, the first */
-    const uint64_t *columns; /* of their headers; NULL: not known yet */
+    /* addresses: parameters, first column's header, first column's numbers, end of file */
+    uint64_t parameters, headers, numbers, end;
+    const uint64_t *columns; /* addresses of the columns' headers; NULL: not known yet */
 } places;
 
 /* Append the messages of the root: facts, links to the parameters and to the columns. */
@@ -308,7 +309,7 @@ static void
 superblock(uint64_t end, qdot_text *out)
 {
     qdot_text_add_n(out, "\211HDF\r\n\032\n", 8);
-    bytes(out, 0x080802, 4); /* version 2, addresses and lengths of 8 bytes */
+    bytes(out, 0x080802, 4); /* superblock version 2, addresses and lengths of 8 bytes */
     bytes(out, 0, 8);
     bytes(out, NOWHERE, 8);
     bytes(out, end, 8);

@@ -19,76 +19,76 @@
 typedef enum {
     QDOT_CELL_NUMBER,
     QDOT_CELL_TEXT,
-    QDOT_CELL_FLAG /* a number: 1 yes, 0 no, NaN undecided */
+    QDOT_CELL_FLAG /* a number that means 1 yes, 0 no, NaN undecided */
 } qdot_cell_kind;
 
 /* The form in which a number is shown to people; data files have all digits of a double. */
 typedef enum {
-    QDOT_NUMBER_GENERAL,         /* `digits` significant ones */
-    QDOT_NUMBER_FIXED,           /* `digits` behind the point */
-    QDOT_NUMBER_SCIENTIFIC,      /* 1.5e-07, `digits` behind the point */
-    QDOT_NUMBER_SCIENTIFIC_OR_0, /* the same, but 0 is 0 */
-    QDOT_NUMBER_MEASURED,        /* those that its error leaves; where that leaves none there is no number */
-    QDOT_NUMBER_BOUND            /* one, rounded up */
+    QDOT_NUMBER_GENERAL,         /* `digits` significant digits */
+    QDOT_NUMBER_FIXED,           /* `digits` digits after the decimal point */
+    QDOT_NUMBER_SCIENTIFIC,      /* as 1.5e-07, with `digits` digits after the decimal point */
+    QDOT_NUMBER_SCIENTIFIC_OR_0, /* as QDOT_NUMBER_SCIENTIFIC, but zero is written 0 */
+    QDOT_NUMBER_MEASURED, /* the digits that are certain by the error; if none is, the cell is empty */
+    QDOT_NUMBER_BOUND            /* one significant digit, rounded up */
 } qdot_number_form;
 
 /* The kinds of output in which a column appears. */
 enum {
-    QDOT_IN_TERMINAL = 1, /* in answers that people read */
-    QDOT_IN_ANSWERS = 2,  /* in rows of JSON as answers */
+    QDOT_IN_TERMINAL = 1, /* answers for people */
+    QDOT_IN_ANSWERS = 2,  /* answers as rows of JSON */
     QDOT_IN_TXT = 4,
     QDOT_IN_CSV = 8,
-    QDOT_IN_FILES = 16, /* .json, .html, .h5 */
+    QDOT_IN_FILES = 16, /* files .json, .html, .h5 */
     QDOT_IN_DATA = QDOT_IN_TXT | QDOT_IN_CSV | QDOT_IN_FILES
 };
 
 typedef struct {
-    const char *name; /* UTF-8 */
-    const char *head; /* as people read it; NULL: the name */
-    unsigned in;      /* QDOT_IN_...; 0: everywhere */
+    const char *name; /* name of the column, UTF-8 */
+    const char *head; /* head of the column for people; NULL: the name */
+    unsigned in;      /* bits QDOT_IN_...: where the column appears; 0: everywhere */
     qdot_cell_kind kind;
 
     /* The format used for people. */
     qdot_number_form form;
     int digits;
-    bool left;           /* aligned; else right */
-    unsigned gap, width; /* blanks before it, but for the first; the least width */
+    bool left;           /* aligned left; otherwise right */
+    unsigned gap, width; /* blanks before the column (not before the first); least width */
 
     /* The format used for programs. */
-    int exact;         /* significant digits in CSV; 0: those of a double */
-    bool blank;        /* in CSV nothing stands where there is no number; else nan */
-    bool measured;     /* rows of JSON have its errors */
-    const char *field; /* in rows of JSON: the field that it is; NULL: one of `values` */
+    int exact;         /* significant digits in CSV; 0: as many as a double has */
+    bool blank;        /* in CSV a missing number is an empty cell; otherwise "nan" */
+    bool measured;     /* rows of JSON include the errors of this column */
+    const char *field; /* in rows of JSON: the field's name; NULL: an entry of `values` */
 
     /* The cells of the column: */
-    const double *values, *errors; /* of row k: [k stride]; errors NULL: none are known; else 0: exact, NaN: unknown */
-    size_t stride;                 /* 0: 1 */
+    const double *values, *errors; /* row k: index k stride; errors NULL: none, else 0: exact, NaN: unknown */
+    size_t stride;                 /* distance of two rows in the arrays; 0: 1 */
     char *const *texts;            /* of row k: [k text_stride], NULL: there is none. Of numbers: their digits, where a
                                       double has too few */
-    size_t text_stride;            /* 0: 1 */
-    const char *present, *absent;  /* what stands for any text, for none; NULL: the text itself, nothing */
+    size_t text_stride;            /* distance of two rows in `texts`; 0: 1 */
+    const char *present, *absent; /* written instead of any text, of no text; NULL: the text itself, nothing */
 } qdot_table_column;
 
 /* A fact about the whole table: a text or a number with its name. */
 typedef struct {
-    const char *name, *text; /* text NULL: the number */
+    const char *name, *text; /* name of the fact; text: its value, or NULL if the value is a number */
     double number;
 } qdot_table_fact;
 
 typedef struct {
-    const char *name;  /* of its rows in JSON; NULL: they have none */
-    const char *title; /* of a page */
+    const char *name;  /* key of the rows in JSON; NULL: none */
+    const char *title; /* title of an HTML page */
     size_t n, rows;
-    qdot_table_column *columns; /* [n] */
-    const size_t *order;        /* [rows] which of the arrays' rows these are; NULL: all as they stand */
+    qdot_table_column *columns; /* [n] the columns */
+    const size_t *order;        /* [rows] index of each row in the arrays; NULL: row k is index k */
     size_t n_facts, n_parameters;
     const qdot_table_fact *facts, *parameters;
     struct {
-        size_t n, room; /* cells */
+        size_t n, room; /* used and allocated cells */
         double *values, *errors;
         char **texts;
         bool failed;
-    } own; /* rows of its own; zero: its columns borrow theirs */
+    } own; /* cells owned by the table; all 0: the columns borrow their arrays */
 } qdot_table;
 
 /* --- tables that own their rows --------------------------------------------------------- */
@@ -108,8 +108,8 @@ void qdot_table_clear(qdot_table *t);
 /* --- reading cells ---------------------------------------------------------------------- */
 
 typedef struct {
-    double value, error; /* NaN: there is none, is unknown */
-    const char *text;    /* NULL: none */
+    double value, error; /* value and its error; NaN: no value, unknown error */
+    const char *text;    /* text of the cell; NULL: no text */
 } qdot_table_cell;
 
 qdot_table_cell qdot_table_at(const qdot_table *t, size_t row, size_t column);

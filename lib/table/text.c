@@ -13,7 +13,7 @@ enum { OFTEN = 1024 };
 typedef struct {
     const qdot_table *t;
     const qdot_table_text_options *options;
-    size_t *width; /* [columns] of cells, blanks before them not counted */
+    size_t *width; /* [columns] width of the cells, without the blanks before */
     qdot_text cell;
 } text_writer;
 

@@ -10,9 +10,9 @@
 #include "table/table.h"
 
 typedef struct {
-    unsigned in;      /* QDOT_IN_TERMINAL or QDOT_IN_TXT */
-    int digits;       /* of all numbers; 0: as the columns have it */
-    const char *mark; /* before each cell but the first of a row: "" or QDOT_WRAP_CELL of base/wrap.h */
+    unsigned in;      /* where the table is written: QDOT_IN_TERMINAL or QDOT_IN_TXT */
+    int digits;       /* significant digits of all numbers; 0: as each column states */
+    const char *mark; /* written before each cell except the first of a row: "" or QDOT_WRAP_CELL (base/wrap.h) */
 } qdot_table_text_options;
 
 QDOT_MUST_CHECK qdot_status qdot_table_text(const qdot_table *t, const qdot_table_text_options *options,

@@ -20,7 +20,7 @@ static const struct {
 typedef struct {
     qdot_expr term, unit;
     qdot_expr constant;
-    bool split;    /* too many different multiples: each is a base of its own */
+    bool split;    /* has too many different multiples: each multiple is a base angle of its own */
     uint32_t uses; /* the number of composed arguments that contain this base angle */
     bool made;
     qdot_value sine, cosine;
@@ -45,16 +45,16 @@ typedef struct {
 
 /* One summand of the argument of a sine or cosine. */
 typedef struct {
-    qdot_expr term, coefficient; /* coefficient * term */
-    qdot_expr source, of_source; /* a node of the walk that is of_source * term */
-    qdot_expr constant;          /* term nil: a constant */
+    qdot_expr term, coefficient; /* the summand is coefficient * term */
+    qdot_expr source, of_source; /* a node of the expression equal to of_source * term */
+    qdot_expr constant;          /* the summand if term is nil */
     uint32_t base, multiple;
     bool minus;
 } part;
 
 typedef struct {
-    size_t first, n; /* the first and the number of its summands */
-    bool minus;      /* the argument is minus the sum of these */
+    size_t first, n; /* index of its first summand; number of summands */
+    bool minus;      /* the argument is minus the sum of its summands */
     bool composed;
     uint32_t sum;
 } argument;

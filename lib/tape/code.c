@@ -135,7 +135,7 @@ qdot_code_power(qdot_code *code, qdot_value a, long n)
     const unsigned char *chain = code->chain;
     struct {
         int power;        /* raise to this power; 0: none */
-        qdot_value times; /* multiply by this */
+        qdot_value times; /* the factor to multiply by */
     } todo[2 * QDOT_CODE_MOST_POWER];
     int depth = 0;
 

@@ -16,7 +16,7 @@
 /* Powers above this exponent are computed by pow(). */
 #define QDOT_CODE_MOST_POWER 64
 
-typedef uint32_t qdot_value; /* a value of the code: an index */
+typedef uint32_t qdot_value; /* index of a value in qdot_code.values */
 
 typedef struct {
     qdot_op op;
@@ -27,14 +27,15 @@ typedef struct {
  * 0: ask once, at the end. */
 typedef struct {
     size_t inputs;
-    qdot_vec(qdot_code_value) values; /* first the inputs */
+    qdot_vec(qdot_code_value) values; /* the inputs first, then one value for each operation */
     qdot_vec(double) constants;
-    qdot_vec(signed char) sides; /* sign of the exact constant less the double, see constant.h */
-    qdot_vec(double) lows;       /* the exact constants less the doubles */
+    qdot_vec(signed char) sides; /* sign of (exact constant - its double), see constant.h */
+    qdot_vec(double) lows;       /* exact constant - its double, rounded */
     qdot_vec(qdot_expr) exact;   /* the exact constants, as expressions */
-    qdot_keymap seen;          /* operation -> value */
-    qdot_keymap by_expr;       /* constant expression -> value */
-    unsigned char chain[QDOT_CODE_MOST_POWER + 1]; /* see power_chain() */
+    qdot_keymap seen;          /* maps an operation to the value that it gives */
+    qdot_keymap by_expr;       /* maps a constant expression to its value */
+    /* [n] a factor f of n if x^n is computed as (x^f)^(n/f); 0: by one multiplication */
+    unsigned char chain[QDOT_CODE_MOST_POWER + 1];
     qdot_pool *pool;
     qdot_status status;
 } qdot_code;

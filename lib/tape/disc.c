@@ -153,7 +153,7 @@ disc_execute(const qdot_instruction *i, double *work, double *radius)
 #include "tape/operation.def"
 #undef X
     }
-    if (ra != 0 || rb != 0 || rc != 0) /* otherwise the result is a number, without a radius */
+    if (ra != 0 || rb != 0 || rc != 0) /* if all radii are 0, the result is a number without radius */
         switch (i->op) {
 #define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, ...) \
     case QDOT_OP_##ID: disc; break;

@@ -34,8 +34,8 @@ QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
 /* Kinds of operations through which a function that is large elsewhere may be negligible at a point. */
 typedef enum {
-    QDOT_HIDES_EXPONENTIALS, /* exponentials whose derivatives are all negligible at the start, too */
-    QDOT_HIDES_QUOTIENTS     /* or because it is that much smaller there, as 1/x^2 is */
+    QDOT_HIDES_EXPONENTIALS, /* exponentials that are negligible at the start with all their derivatives */
+    QDOT_HIDES_QUOTIENTS /* also quotients that are negligible at the start, as 1/x^2 at large x */
 } qdot_disc_hiding;
 
 bool qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by);

@@ -9,10 +9,10 @@ typedef struct {
     qdot_code *code;
     size_t m;
     const qdot_value *outputs;
-    uint32_t *uses;  /* [values.n] how often each is read, outputs included */
-    uint32_t *last;  /* [values.n] the last value that reads it; outputs: never dead */
-    uint32_t *place; /* [values.n] */
-    uint32_t *constant; /* [values.n] of a constant: its number among the live ones */
+    uint32_t *uses;  /* [values.n] number of readers of each value, outputs included */
+    uint32_t *last;  /* [values.n] the last value that reads it; an output stays alive */
+    uint32_t *place; /* [values.n] place of each value in the work space */
+    uint32_t *constant; /* [values.n] for a constant: its index among the constants that are used */
 } finish;
 
 static qdot_code_value *

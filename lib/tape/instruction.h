@@ -13,9 +13,9 @@ typedef enum {
 #undef X
     QDOT_OP_COUNT,
     /* Fields used only while a tape is being written: */
-    QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: which */
-    QDOT_OP_CONSTANT,              /* a: which */
-    QDOT_OP_SECOND                 /* a: the SINCOS whose second result this is */
+    QDOT_OP_INPUT = QDOT_OP_COUNT, /* a: index of the input */
+    QDOT_OP_CONSTANT,              /* a: index of the constant */
+    QDOT_OP_SECOND /* a: the SINCOS instruction whose second result, the cosine, this is */
 } qdot_op;
 
 typedef struct {
@@ -32,13 +32,13 @@ typedef struct {
 
 struct qdot_tape {
     size_t inputs, constants, outputs, length, places, operations, calls;
-    double *constant;       /* [constants] */
+    double *constant;       /* [constants] the constants as doubles */
     signed char *side;      /* [constants] sign of the exact value less the double; of a factor 1, by
                                how many doubles rounding moves what it multiplies (rounding.h) */
-    double *low;            /* [constants] that difference; 0 in a shaken tape */
-    qdot_expr *exact;       /* [constants] as expressions, for any precision */
-    uint32_t *output;       /* [outputs] places */
-    qdot_instruction *code; /* [length] */
+    double *low;            /* [constants] exact constant - its double; 0 in a shaken tape */
+    qdot_expr *exact;       /* [constants] exact constants as expressions, for any precision */
+    uint32_t *output;       /* [outputs] place of each output in the work space */
+    qdot_instruction *code; /* [length] the instructions */
 };
 
 #endif

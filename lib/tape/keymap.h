@@ -15,7 +15,7 @@
 
 /* A hash table with keys of four numbers. Start from {0}. */
 typedef struct {
-    uint32_t *entries; /* [size][5]: key, value; value QDOT_KEYMAP_NONE: free */
+    uint32_t *entries; /* [size][5] four words of key, one of value; value QDOT_KEYMAP_NONE: free */
     size_t size, used;
 } qdot_keymap;
 

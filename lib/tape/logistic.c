@@ -9,7 +9,7 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 
-enum { MOST = 8 }; /* factors of one product that are treated */
+enum { MOST = 8 }; /* largest number of factors in a product that is rewritten */
 
 static bool
 is_exp_or_hyperbolic(const qdot_pool *pool, qdot_expr e)
@@ -173,9 +173,9 @@ exponent_of(qdot_pool *pool, const denominator *x)
 
 typedef struct {
     qdot_pool *pool;
-    qdot_expr rest; /* other factors */
-    qdot_expr left; /* e^left of those that are exponentials */
-    qdot_expr sum;  /* a sum over the denominators; nil: none */
+    qdot_expr rest; /* product of the factors that are not rewritten */
+    qdot_expr left; /* product of the exponentials is e^left */
+    qdot_expr sum;  /* a sum of exponentials in the denominator; nil: none */
     qdot_expr from; /* the factor from which these parts were taken */
     denominator under[MOST];
     size_t n;

@@ -17,7 +17,7 @@
 typedef struct {
     qdot_value value;
     bool minus;
-    uint32_t next; /* of the same group; UINT32_MAX: none */
+    uint32_t next; /* next term of the same group; UINT32_MAX: none */
 } term;
 
 typedef struct {
@@ -27,16 +27,16 @@ typedef struct {
 
 /* Data of a node, stored by the node's index in the walk. */
 typedef struct {
-    qdot_value bare;    /* the node without its constant factor */
-    qdot_expr factor;   /* the constant factor */
-    uint32_t negatives; /* products that hold it to a negative power */
-    bool root;          /* ... among them one to half an odd number */
+    qdot_value bare;    /* value of the node without its constant factor */
+    qdot_expr factor;   /* constant factor: node = factor * bare */
+    uint32_t negatives; /* number of products that contain the node to a negative power */
+    bool root;          /* one of these powers is half an odd number, as in 1/sqrt(x) */
 } known;
 
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;
-    known *known; /* [walk.n] */
+    known *known; /* [walk.n] data of each node */
     qdot_code code;
     bool series; /* Taylor series will be computed with this tape */
     qdot_angles *angles;
@@ -172,7 +172,7 @@ lower_sum(lowering *l, qdot_expr e, known *k)
     while (lead < count && addends[lead].minus)
         lead++;
     k->factor = QDOT_ONE;
-    if (lead == count) { /* all terms have a minus: minus the sum of their opposites */
+    if (lead == count) { /* all terms are negative: minus the sum of their opposites */
         for (size_t i = 0; i < count; i++)
             total_add(l, &t, addends[i].value, false);
         k->factor = QDOT_MINUS_ONE;
@@ -437,7 +437,7 @@ lower_node(lowering *l, size_t i)
     case QDOT_NUM:
         return QDOT_OK;
     case QDOT_SYM:
-    case QDOT_UFUN: /* refused at the start */
+    case QDOT_UFUN: /* cannot occur: refused at the start */
         return qdot_constant_unset(l->pool, e);
     case QDOT_SUM:
         return lower_sum(l, e, k);

@@ -233,8 +233,8 @@ enum { FARTHEST = 64 };
 
 typedef struct {
     const qdot_tape *tape;
-    double *work, *errors, *shown[SHOWN]; /* [places] */
-    signed char *sides; /* [length x OPERANDS] of factors before an instruction; 0: none */
+    double *work, *errors, *shown[SHOWN]; /* [places] values; errors; magnification of rounding errors in the outputs */
+    signed char *sides; /* [length x OPERANDS] direction of the factor near 1 on an operand; 0: none */
     size_t count;
 } marking;
 

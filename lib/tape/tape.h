@@ -29,8 +29,8 @@ void qdot_tape_free(qdot_tape *tape);
 
 size_t qdot_tape_inputs(const qdot_tape *tape);
 size_t qdot_tape_outputs(const qdot_tape *tape);
-size_t qdot_tape_work(const qdot_tape *tape);       /* doubles of work space needed */
-size_t qdot_tape_operations(const qdot_tape *tape); /* operations an evaluation */
+size_t qdot_tape_work(const qdot_tape *tape);       /* number of doubles of work space needed */
+size_t qdot_tape_operations(const qdot_tape *tape); /* number of operations of one evaluation */
 /* The number of calls of elementary functions (sincos counts once). */
 size_t qdot_tape_calls(const qdot_tape *tape);
 

@@ -34,10 +34,10 @@ typedef struct {
     const qdot_ode_options *options;
     qdot_ode_result *result;
     double tol, t, t_low, t1, direction;
-    double h; /* positive */
-    double *before, *halves, *full; /* [4n] state with its low part; [2n] (q, q') */
-    double work;      /* that has been counted */
-    double length;    /* that steps from a singular place grow to; else 0 */
+    double h; /* length of a step, positive */
+    double *before, *halves, *full; /* [4n] state with its low part; [2n] each: end of two half steps, of a full step, as (q, q') */
+    double work;      /* work already reported to the meter */
+    double length; /* length to which the first steps grow after a singular start; 0: they do not */
     int undefined;    /* number of attempts in a row from this t at which f was undefined */
 } run;
 
@@ -210,7 +210,7 @@ stop_with_failure(const run *r)
 /* The step lengths of the trial. */
 typedef struct {
     double first, shortest, longest;
-    double now, before; /* the shortest of the window at hand, and of the one before */
+    double now, before; /* shortest accepted step in the present window; in the previous one */
     bool grows;
 } lengths;
 
@@ -260,9 +260,9 @@ try_lengths(run *r, lengths *l)
             continue;
         }
         r->t += r->direction * h;
-        if (r->h < most_growth * h) /* else the tolerance did not limit it */
+        if (r->h < most_growth * h) /* the step did not grow by the largest factor: the tolerance limited it */
             lengths_note(l, r->h);
-        else if (h < whole) /* cut at the end */
+        else if (h < whole) /* the step was shortened to end at t1 */
             r->h = fmax(r->h, whole);
     }
     return QDOT_OK;

@@ -40,10 +40,10 @@ typedef struct qdot_geometric_kernel qdot_geometric_kernel;
 
 struct qdot_geometric_kernel {
     int order;
-    bool separable;    /* F must not depend on v */
-    int stages;        /* of a method of collocation; else 0 */
-    size_t rows, more; /* work space: rows of n doubles, and doubles */
-    size_t of_bonds;   /* and doubles for each constraint; 0: it knows none */
+    bool separable;    /* the method is explicit: the force F must not depend on v */
+    int stages;        /* number of stages of a collocation method; 0: another method */
+    size_t rows, more; /* size of the work space: rows of n doubles; further doubles */
+    size_t of_bonds; /* further doubles for each constraint; 0: the method cannot hold constraints */
     /* Fill the constant part of the work space g->work; NULL: there is no such part. */
     void (*begin)(qdot_geometric *g);
     /* Advance g->y + g->low from t by h; on a failure they are undefined. QDOT_EDOMAIN where an
@@ -52,14 +52,14 @@ struct qdot_geometric_kernel {
 };
 
 struct qdot_geometric {
-    const qdot_ode_system *system; /* borrowed */
+    const qdot_ode_system *system; /* the system to be integrated; borrowed */
     const qdot_geometric_kernel *kernel;
-    size_t n;        /* coordinates */
-    double *y, *low; /* [2n] (q, p) as a sum */
-    double *work;    /* [rows x n + more] the kernel's own */
-    double *state, *rates; /* [2n] (q, q'), and its derivative */
-    bool known;      /* what the kernel keeps of the end of the last step belongs to y */
-    double h;        /* of the last step */
+    size_t n;        /* number of coordinates */
+    double *y, *low; /* [2n] the state (q, p) is the sum y + low */
+    double *work;    /* [rows x n + more] work space of the kernel */
+    double *state, *rates; /* [2n] the state as (q, q'); its time derivative */
+    bool known;      /* what the kernel stored at the end of the last step is still valid for y */
+    double h;        /* length of the last step */
     uint64_t evaluations;
 };
 
@@ -79,8 +79,9 @@ QDOT_MUST_CHECK qdot_status qdot_geometric_integrate(const qdot_ode_system *syst
                                                      qdot_ode_result *result);
 
 /* The kernels of geometric methods, for the table of method.h. */
-extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* splitting.c */
-extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12; /* gauss.c */
-extern const qdot_geometric_kernel qdot_variational; /* variational.c */
+extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* explicit splitting methods, in splitting.c */
+/* Gauss collocation methods, in gauss.c */
+extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12;
+extern const qdot_geometric_kernel qdot_variational; /* the variational integrator, in variational.c */
 
 #endif

@@ -19,10 +19,10 @@
 /* Work space of the stages; the work space of a method begins with it. */
 typedef struct {
     size_t s, n;
-    double *a, *b, *c, *ahead; /* [2 x s x s], [2 x s], [s], [s x s] L_j(1 + c_i) */
-    double *F, *W, *X;         /* [s x n]; X the positions of the stages */
-    double *p;                 /* [n] */
-    double *rest;              /* what follows */
+    double *a, *b, *c, *ahead; /* [2 x s x s], [2 x s], [s] the method's a_ij, b_i, c_i; [s x s] L_j(1 + c_i) */
+    double *F, *W, *X;         /* [s x n] forces F_i, velocities W_i, positions X_i of the stages */
+    double *p;                 /* [n] momenta of one stage */
+    double *rest;              /* the work space after these arrays */
 } qdot_stages;
 
 /* The size of the work space: in rows of n doubles, and in further doubles. */

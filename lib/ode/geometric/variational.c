@@ -39,12 +39,12 @@ enum { stages = 6, patience = 2 };
 typedef struct {
     qdot_stages at;
     size_t m;
-    double *ab;          /* [2 x s x s], the last column 0 */
-    double *inverse;     /* [(s-1) x (s-1)] of C */
-    double *beyond;      /* [(s-1) x (s-1)] as `ahead`, of the first s - 1 places */
-    double *G;           /* [s x n] */
-    double *lambda, *nu; /* [(s-1) x m] */
-    double *g, *sum;     /* [m], [n] */
+    double *ab;          /* [2 x s x s] the coefficients, as double pairs; last column 0 */
+    double *inverse;     /* [(s-1) x (s-1)] inverse of the weight matrix C */
+    double *beyond; /* [(s-1) x (s-1)] extrapolation to the next step, as `ahead`, from the first s - 1 nodes */
+    double *G;           /* [s x n] generalized forces at the nodes */
+    double *lambda, *nu; /* [(s-1) x m] multipliers at the nodes; their corrections */
+    double *g, *sum;     /* [m] constraint values; [n] a sum of vectors */
 } step_state;
 
 static step_state
@@ -79,7 +79,7 @@ invert_weights(const step_state *w)
             for (size_t j = 0; j < stages; j++)
                 C[i * r + k] += w->at.a[(i + 1) * stages + j] * w->ab[j * stages + k];
         }
-    (void)qdot_lu_factor(r, C, rows); /* it is regular */
+    (void)qdot_lu_factor(r, C, rows); /* C is never singular */
     for (size_t k = 0; k < r; k++) {
         for (size_t i = 0; i < r; i++)
             column[i] = i == k;
