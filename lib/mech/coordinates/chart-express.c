@@ -102,7 +102,7 @@ find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *
     }
     for (size_t i = 0; i < r->c->moved.n; i++)
         if (qdot_expr_contains(pool, angle, r->c->moved.at[i].q))
-            return false; /* the expression still contains a length */
+            return false; /* the remaining part of the angle still contains a length */
     *d = add_directions(pool, sum,
                         (direction){qdot_fun1(pool, hyperbolic ? QDOT_COSH : QDOT_COS, angle),
                                     qdot_fun1(pool, hyperbolic ? QDOT_SINH : QDOT_SIN, angle)},
@@ -188,7 +188,7 @@ qdot_chart_rate(const qdot_chart *c, qdot_expr e)
 
         if (!qdot_expr_contains(pool, e, root->symbol))
             continue;
-        if (change == QDOT_NIL) /* N' = (N^2)'/(2 N) */
+        if (change == QDOT_NIL) /* a root N without a given rate: N' = (N^2)'/(2 N) */
             change = qdot_div(
                 pool, qdot_mul(pool, QDOT_HALF, qdot_chart_rate(c, root->square)), root->symbol);
         sum = qdot_add(pool, sum, qdot_mul(pool, qdot_diff(pool, e, root->symbol), change));

@@ -553,7 +553,7 @@ qdot_chart_distance(const qdot_scene *s, const qdot_chart_group *g)
     const uint16_t sine = g->turned ? QDOT_COS : QDOT_SIN, cosine = g->turned ? QDOT_SIN : QDOT_COS;
 
     if (g->kind == QDOT_CHART_PARABOLIC || g->kind == QDOT_CHART_ELLIPTIC)
-        for (size_t k = 0; k < 2; k++) /* the domain u > 0 ends on a line, not at a point */
+        for (size_t k = 0; k < 2; k++) /* the domain u > 0 ends on a line, not only at a point */
             if (is_positive(pool, s, g, k))
                 return k ? b : a;
     switch (g->kind) {

@@ -54,10 +54,10 @@ typedef enum {
     QDOT_CHART_SPHERE,
     QDOT_CHART_BODY,
     QDOT_CHART_PARABOLIC,
-    QDOT_CHART_PARABOLOIDS, /* rotated about an axis; x is the distance from it */
+    QDOT_CHART_PARABOLOIDS, /* paraboloids about an axis; x is the distance from it */
     QDOT_CHART_ELLIPTIC,
-    QDOT_CHART_PROLATE, /* rotated about an axis; y is the distance from it */
-    QDOT_CHART_OBLATE,  /* likewise; x is the distance from it */
+    QDOT_CHART_PROLATE, /* prolate spheroidal, about an axis; y is the distance from it */
+    QDOT_CHART_OBLATE,  /* oblate spheroidal, about an axis; x is the distance from it */
     QDOT_CHART_ROOT
 } qdot_chart_kind;
 
@@ -65,34 +65,34 @@ typedef enum {
 typedef struct {
     qdot_chart_kind kind;
     size_t index[3];
-    bool turned;        /* sin and cos of the angle theta, or v, change places */
-    qdot_expr square;   /* of a root w: the expression P = w^2 */
-    qdot_expr distance; /* 0 at the singular place, in the coordinates given, with its sign */
+    bool turned;        /* sin and cos of the angle theta, or v, are exchanged */
+    qdot_expr square;   /* if the group contains a root w = sqrt(P): the expression P */
+    qdot_expr distance; /* signed distance from the singular place, in the given coordinates */
 } qdot_chart_group;
 
 typedef qdot_vec(qdot_chart_group) qdot_chart_groups;
 
 typedef enum {
     QDOT_CHART_LENGTH,
-    QDOT_CHART_ANGLE,     /* known by its direction, to whole turns */
-    QDOT_CHART_HYPERBOLIC /* known by cosh and sinh */
+    QDOT_CHART_ANGLE,     /* an angle, known from its sine and cosine up to full turns */
+    QDOT_CHART_HYPERBOLIC /* a quantity known from its cosh and sinh */
 } qdot_chart_sort;
 
 /* A coordinate of a group, or an auxiliary angle, in terms of new coordinates and roots. */
 typedef struct {
-    qdot_expr q; /* of an angle that is no coordinate a symbol of its own */
+    qdot_expr q; /* the coordinate; for an auxiliary angle a symbol of its own */
     qdot_chart_sort sort;
     qdot_expr value;        /* the value of a quantity that is not an angle */
-    qdot_expr cosine, sine; /* of an angle; or cosh, sinh */
-    qdot_expr x, y;         /* the angle is atan2(y, x), to whole turns; */
-    qdot_expr factor;       /* or nil: y = factor sin(half of the angle `half` of these) */
+    qdot_expr cosine, sine; /* sine and cosine of an angle; or cosh and sinh */
+    qdot_expr x, y;         /* angle = atan2(y, x) up to full turns */
+    qdot_expr factor;       /* y = factor sin(angle `half` / 2); nil: not of this form */
     size_t half;
-    bool cut;        /* the angle stays within half a turn of `middle` half turns */
+    bool cut;        /* the angle stays within half a turn of pi `middle` */
     int middle;
-    qdot_expr bare;  /* a symbol for the angle outside of sin and cos */
-    qdot_expr rate;  /* q', or nil: that of value, of x and y */
+    qdot_expr bare;  /* a symbol for the angle where it occurs outside of sin and cos */
+    qdot_expr rate; /* time derivative of the coordinate; nil: computed from value, or from x and y */
     qdot_expr given; /* its formula in the coordinates given */
-    qdot_expr ends[2]; /* where its domain may end: singular places; nil: nowhere */
+    qdot_expr ends[2]; /* values at which its domain may end: singular places; nil: none */
     size_t sign;       /* its formula contains sign number `sign` - 1; 0: no sign */
     bool between;      /* its domain ends at singular places, so it makes no full turns */
 } qdot_chart_moved;
@@ -104,16 +104,16 @@ typedef struct {
 
 /* A root that occurs in formulas of a group: the distance N, xi, cosh u ... */
 typedef struct {
-    qdot_expr symbol, square;   /* symbol^2, in new coordinates and roots */
-    qdot_expr partner, product; /* symbol partner = product; or nil */
-    qdot_expr rate;             /* symbol', or nil: that of its square */
+    qdot_expr symbol, square;   /* the root's symbol; symbol^2 in new coordinates and other roots */
+    qdot_expr partner, product; /* symbol * partner = product; nil: no partner */
+    qdot_expr rate;             /* time derivative of the root; nil: that of `square` gives it */
     qdot_expr value;            /* the root in other symbols; nil: the positive root of `square` */
 } qdot_chart_root;
 
 /* What is 1 or -1 along the run: it changes where a singular place is passed exactly, if no domain
  * forbids that. Of a root w that is its sign. */
 typedef struct {
-    qdot_expr symbol; /* or w */
+    qdot_expr symbol; /* the symbol of the sign, or w */
     int start;
     bool branch; /* the sign is that of w, the square root of `square` */
     bool fixed;
@@ -123,17 +123,17 @@ typedef struct {
 
 typedef struct {
     qdot_pool *pool;
-    qdot_scene *of;    /* the scene given, while the chart is made */
-    qdot_scene *scene; /* owned; NULL: it is not regular, `hindrance` says where */
+    qdot_scene *of;    /* the scene in the given coordinates, borrowed while the chart is made */
+    qdot_scene *scene; /* the scene in new coordinates, owned; NULL: not regular, see `hindrance` */
     char hindrance[200];
-    bool open;          /* forces may hold roots: they are singular where these are 0 */
-    bool signed_events; /* events hold a sign: none may change */
+    bool open;          /* forces may contain roots, and are then singular where a root is 0 */
+    bool signed_events; /* events contain a sign: no sign may change during the run */
     qdot_vec(qdot_chart_moved) moved;
     qdot_vec(qdot_chart_fresh) fresh;
-    qdot_vec(qdot_chart_root) roots; /* values hold later ones alone */
+    qdot_vec(qdot_chart_root) roots; /* the value of a root contains only later roots */
     qdot_vec(qdot_chart_sign) signs;
     qdot_vec(qdot_expr) unit; /* constraints of `scene`: each of these is 0 */
-    qdot_text names;          /* "x = r*cos(phi), y = r*sin(phi)" of what is new */
+    qdot_text names; /* formulas of the new coordinates as text: "x = r*cos(phi), y = r*sin(phi)" */
 } qdot_chart;
 
 /* All groups of the scene that can be replaced one by one, no coordinate in two of them. open: those

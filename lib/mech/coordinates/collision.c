@@ -31,20 +31,20 @@ typedef struct {
     qdot_pool *pool;
     qdot_scene *s;
     const qdot_collision_equations *of;
-    size_t d, m; /* components of x, of u */
+    size_t d, m; /* number of components of x, of u */
     int sign;    /* the sign in x = sign L(u) u; -1 only if d = 1 */
     int side;    /* the sign of x[0] at the start */
     qdot_expr u[PARTS], energy, R;
-    qdot_expr x[MOST], rate[MOST];      /* symbols for x, dx/dt */
-    qdot_expr in_u[MOST], rate_u[MOST]; /* L u, 2 L u'/R */
-    qdot_expr strength;                 /* k */
+    qdot_expr x[MOST], rate[MOST];      /* [d] symbols for x and dx/dt */
+    qdot_expr in_u[MOST], rate_u[MOST]; /* [d] x and dx/dt in new coordinates: L u, 2 L u'/R */
+    qdot_expr strength;                 /* strength k of the force k x/R^3 */
     qdot_expr P[MOST];                  /* in terms of x, dx/dt, R */
     /* Fields with an entry for each given coordinate, [n]: */
-    qdot_expr *Q, *w; /* QDOT_NIL where it is a pivot */
+    qdot_expr *Q, *w; /* [n] regular coordinates Q and their rates w; nil for a pivot */
     qdot_expr *value; /* coordinates in terms of x and Q */
     qdot_expr *speed; /* dq/dt in terms of dx/dt and w' */
-    qdot_expr *pull;  /* [n d] c: d2q/dt2 = c.x/R^3 + rest */
-    qdot_expr *rest;  /* [n] */
+    qdot_expr *pull;  /* [n d] the coefficients c in d2q/dt2 = c.x/R^3 + rest */
+    qdot_expr *rest;  /* [n] the regular part of d2q/dt2 */
 } work;
 
 /* --- auxiliary formulas ---------------------------------------------------------------------------- */

@@ -38,7 +38,7 @@ typedef struct {
     size_t pivot[QDOT_COLLISION_MOST];
     /* for d > 1: R^2 = square/scale, where `square` stands under a root in the scene */
     qdot_expr square, scale;
-    qdot_expr distance;      /* R */
+    qdot_expr distance;      /* distance R of the two points */
 } qdot_collision_pair;
 
 typedef qdot_vec(qdot_collision_pair) qdot_collision_pairs;
@@ -47,8 +47,8 @@ typedef qdot_vec(qdot_collision_pair) qdot_collision_pairs;
 typedef struct {
     qdot_pool *pool;
     size_t n;
-    const qdot_expr *q, *accels; /* [n]; accels, q'', are not needed to find pairs */
-    qdot_expr energy;            /* nil: none is conserved */
+    const qdot_expr *q, *accels; /* [n] coordinates; accelerations q'' (not needed to find pairs) */
+    qdot_expr energy;            /* the conserved energy; nil: energy is not conserved */
 } qdot_collision_equations;
 
 /* Whether e is divided by an expression of coordinates, or contains an absolute value of one. */
@@ -62,17 +62,17 @@ QDOT_MUST_CHECK qdot_status qdot_collision_find(const qdot_collision_equations *
 
 typedef struct {
     qdot_pool *pool;
-    qdot_scene *scene; /* owned, in s; NULL: it is not regular, `hindrance` says why */
+    qdot_scene *scene; /* the scene in new coordinates and time s, owned; NULL: not regular, see `hindrance` */
     size_t parts;      /* of u, its first coordinates; then come t, the integral of h, and Q and w of
                           each coordinate that stays */
     qdot_expr time;    /* the coordinate of `scene` that is the time t */
-    qdot_expr strength; /* k; 0 where no force is as 1/R^2 */
+    qdot_expr strength; /* strength k of the force k x/R^3; 0: no force is as 1/R^2 */
     char hindrance[200];
     qdot_collision_pair pair;
     qdot_expr R; /* a symbol for R while the scene is made */
-    qdot_expr energy; /* in its coordinates, by h: nothing is divided by R; or nil */
-    qdot_vec(qdot_expr) q0, v0;   /* the start of its coordinates, in q, q', t given */
-    qdot_vec(qdot_expr) from, to; /* q, q', q'', t, R in its coordinates */
+    qdot_expr energy; /* energy in new coordinates, without division by R; nil: none */
+    qdot_vec(qdot_expr) q0, v0; /* start values of the new coordinates and rates, in the given q, q', t */
+    qdot_vec(qdot_expr) from, to; /* replacements: each of q, q', q'', t, R (from) by its value in new coordinates (to) */
 } qdot_collision;
 
 /* The scene in which the collision of `pair` is regular; events of s are copied. sign: that of x[0]

@@ -20,10 +20,10 @@ typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_minimal *out;
-    bool *solved;    /* [constraints] */
-    bool *gone;      /* [n] coordinates that were solved for */
-    qdot_expr *angle; /* [n] new coordinates, as many as out->fresh */
-    qdot_expr *held; /* [constraints] that are 0: a function of coordinates and t */
+    bool *solved;    /* [constraints] the constraint has been solved for a coordinate */
+    bool *gone;      /* [n] the coordinate has been eliminated */
+    qdot_expr *angle; /* [n] the new angles in terms of given coordinates; out->fresh of them are used */
+    qdot_expr *held; /* [constraints] left sides f(q, t) of holonomic constraints f = 0 */
     const qdot_minimal_start *start;
 } work;
 

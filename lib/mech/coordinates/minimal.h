@@ -22,12 +22,12 @@
 #include "mech/scene/things.h"
 
 typedef struct {
-    qdot_scene *scene; /* owned; NULL: there is no such form, `reason` says why */
+    qdot_scene *scene; /* the scene in minimal coordinates, owned; NULL: none found, see `reason` */
     char reason[160];
-    size_t n;          /* coordinates of the scene as given */
-    qdot_expr *given;  /* [n] these in terms of the coordinates of `scene` */
+    size_t n;          /* number of coordinates of the given scene */
+    qdot_expr *given;  /* [n] the given coordinates in terms of the new ones */
     size_t fresh;      /* number of new angles: the last coordinates of `scene` */
-    qdot_expr *angle;  /* [fresh] in terms of the given coordinates */
+    qdot_expr *angle;  /* [fresh] the new angles in terms of the given coordinates */
 } qdot_minimal;
 
 /* Of an expression in coordinates and parameters at the start: about how large it is, and its exact

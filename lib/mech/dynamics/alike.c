@@ -85,7 +85,7 @@ with_units(qdot_scene *s, qdot_expr e, units *u)
                 u->n = 0;
                 return e;
             }
-    for (size_t k = 1; k < u->n; k++) /* no term in two sums */
+    for (size_t k = 1; k < u->n; k++) /* no term may occur in two of the sums */
         for (uint32_t i = 1; i < qdot_expr_count(pool, u->sum[k]); i += 2)
             for (size_t l = 0; l < k; l++)
                 if (is_term(pool, u->sum[l], qdot_expr_arg(pool, u->sum[k], i))) {

@@ -13,8 +13,8 @@ enum { MOST_DIRECTIONS = 64 };
 
 /* One magnitude |u|, with the symbols that replace it and 1/|u| while a force is rewritten. */
 typedef struct {
-    qdot_expr length, u;       /* |u|, u */
-    qdot_expr symbol, inverse; /* for |u|, 1/|u| */
+    qdot_expr length, u;       /* the magnitude |u|, and u itself */
+    qdot_expr symbol, inverse; /* temporary symbols for |u| and 1/|u| */
 } direction;
 
 bool

@@ -40,18 +40,18 @@ enum { TRIALS = 12, MORE_TRIALS = 60, STEPS = 200 };
 /* Equations f [c], the constraints first, and their slopes by z = (q, q', q''), m = 3n of them, those
  * that are not 0 row by row: as expressions and numbers. */
 typedef struct {
-    size_t n, c, m;                        /* coordinates, equations, 3n */
-    size_t constraints;                    /* the first of the equations; the others are their derivatives */
-    qdot_constraint_kind *kind;            /* [c] */
-    size_t *of;                            /* [c] the constraint */
-    size_t slopes;                         /* not 0 */
-    size_t *first;                         /* [c + 1] of each row among the slopes */
-    size_t *column;                        /* [slopes] */
-    qdot_expr *e;                          /* f, then slopes: [c + slopes] */
-    qdot_expr *z;                          /* [m] */
-    double *value;                         /* of e */
-    double *at, *step, *gram, *rhs, *rows; /* z [m], [m], [c*c], [c], [c*n] */
-    double off;                            /* the largest |f| at z */
+    size_t n, c, m; /* numbers of coordinates, of equations, of variables 3n */
+    size_t constraints; /* number of constraints, the first of the equations; then their time derivatives */
+    qdot_constraint_kind *kind; /* [c] kind of each equation: of positions, velocities or accelerations */
+    size_t *of; /* [c] index of the constraint from which the equation comes */
+    size_t slopes;                         /* number of slopes that are not identically 0 */
+    size_t *first; /* [c + 1] row i has the slopes first[i] ... first[i + 1] - 1 */
+    size_t *column;                        /* [slopes] index in z of each slope's variable */
+    qdot_expr *e; /* [c + slopes] expressions: the equations f, then their slopes */
+    qdot_expr *z;                          /* [m] the variables (q, q', q'') */
+    double *value;                         /* [c + slopes] numerical values of e */
+    double *at, *step, *gram, *rhs, *rows; /* scratch: z and its step [m], Gram matrix [c*c], right side [c], rows [c*n] */
+    double off;                            /* the largest |f| at the point z */
 } problem;
 
 static void
@@ -344,7 +344,7 @@ typedef struct {
     const problem *p;
     const bool *independent;
     size_t last;
-    double *rows; /* [c x m] scratch */
+    double *rows; /* [c x m] scratch for elimination */
 } selection;
 
 /* The rank, at the point found, of their equations of kinds `least` to `most` by q (order 0) to the

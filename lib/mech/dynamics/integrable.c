@@ -18,14 +18,14 @@
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
-    size_t n;      /* coordinates and t */
-    qdot_expr *x;  /* [n] */
-    size_t m;      /* forms */
-    qdot_expr *a;  /* [m * n] */
+    size_t n;      /* number of variables: coordinates and t */
+    qdot_expr *x;  /* [n] the variables: coordinates, then t */
+    size_t m;      /* number of forms */
+    qdot_expr *a;  /* [m x n] coefficients of the forms */
     size_t *of;    /* [m] the constraint that each form belongs to */
-    bool *in;      /* [m] is still in the system */
-    qdot_expr *B;  /* [m * n] the system, reduced */
-    size_t *pivot; /* [m] */
+    bool *in;      /* [m] the form is still part of the system */
+    qdot_expr *B;  /* [m x n] the system in reduced row echelon form */
+    size_t *pivot; /* [m] pivot column of each row */
     size_t rank;
     qdot_facts facts; /* facts of the scene and of its holonomic constraints */
     qdot_expr *relations;

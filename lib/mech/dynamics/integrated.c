@@ -73,7 +73,7 @@ find_one(qdot_scene *s, size_t k, qdot_expr *F, qdot_expr *mu)
     if (c->kind != QDOT_VELOCITY || qdot_expr_size(s->pool, c->f) > MOST_OPERATIONS)
         return QDOT_OK;
     status = qdot_mech_integrable(s, k, true, &found);
-    if (status == QDOT_EINVAL) /* not linear in the velocities */
+    if (status == QDOT_EINVAL) /* the constraint is not linear in the velocities */
         return QDOT_OK;
     QDOT_TRY(status);
     if (found.decision.verdict != QDOT_PROVED || found.integral == QDOT_NIL ||

@@ -218,7 +218,7 @@ typedef struct {
     qdot_vec(summand) known;
     qdot_vec(uint32_t) slots;
     qdot_vec(slope) slopes;
-    qdot_vec(uint32_t) of_symbol; /* id of a coordinate -> index + 1 */
+    qdot_vec(uint32_t) of_symbol; /* index + 1 of each coordinate, by the id of its symbol */
 } summands;
 
 static void

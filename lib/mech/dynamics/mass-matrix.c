@@ -128,7 +128,7 @@ qdot_mass_of_lagrangian(qdot_scene *s, size_t i, size_t j)
     qdot_pool *pool = s->pool;
     qdot_expr V, F, second;
 
-    if (qdot_pool_failed(pool)) /* n^2 entries are asked for after Ctrl-C, too */
+    if (qdot_pool_failed(pool)) /* stop early: n^2 entries are asked for, also after Ctrl-C */
         return QDOT_NIL;
     if (qdot_mech_stated(s)) {
         F = s->lagrangian;

@@ -7,8 +7,8 @@
 /* Sets of items with values; bits of items >= `items` are 0. */
 typedef struct {
     size_t items, sets, words; /* numbers of items and of sets; 64-bit words in a set */
-    const qdot_expr *value;    /* [items] */
-    const uint64_t *bits;      /* [sets * words] */
+    const qdot_expr *value;    /* [items] value of each item */
+    const uint64_t *bits;      /* [sets * words] bit i of a set: item i belongs to it */
 } qdot_family;
 
 /* sum [sets]: the sum of the values of each set, held (qdot_hold), built from the sums of its

@@ -121,7 +121,7 @@ raw_forcing(qdot_scene *s, size_t i)
 typedef struct {
     qdot_scene *s;
     uint64_t units;
-    qdot_vec(qdot_expr) angles; /* base angles met; a pair of sine and cosine each */
+    qdot_vec(qdot_expr) angles; /* base angles found so far; each costs one sine and cosine */
 } bill;
 
 static bool

@@ -11,7 +11,7 @@
 typedef struct {
     const char *name;
     qdot_expr mass, position;
-    const qdot_body *body; /* NULL for a particle */
+    const qdot_body *body; /* the rigid body; NULL: a particle */
 } massive;
 
 static massive

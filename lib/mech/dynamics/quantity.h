@@ -15,34 +15,35 @@
 #include "mech/scene/scene.h"
 
 /* --- kinematics and energy --- */
-qdot_expr qdot_mech_kinetic(qdot_scene *s);    /* T */
-qdot_expr qdot_mech_potential(qdot_scene *s);  /* V: gravity, potentials, springs */
-qdot_expr qdot_mech_lagrangian(qdot_scene *s); /* T - V, or as stated */
-qdot_expr qdot_mech_energy(qdot_scene *s);     /* h = sum p q' - L */
-qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* MAT n x n; of L: d2L/dq'dq' */
+qdot_expr qdot_mech_kinetic(qdot_scene *s);    /* kinetic energy T */
+qdot_expr qdot_mech_potential(qdot_scene *s); /* potential energy V of gravity, potentials, springs */
+qdot_expr qdot_mech_lagrangian(qdot_scene *s); /* Lagrangian: T - V, or as stated */
+qdot_expr qdot_mech_energy(qdot_scene *s);     /* energy function h = sum p q' - L */
+qdot_expr qdot_mech_mass_matrix(qdot_scene *s); /* n x n MAT of T; of a stated L: d2L/dq'dq' */
 
 /* --- geometry of r(q, t); R a VEC or scalar --- */
-qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R);    /* in dq, dt */
-qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* in q' */
+qdot_expr qdot_mech_ds2(qdot_scene *s, qdot_expr R); /* line element ds^2 of positions R, in dq, dt */
+qdot_expr qdot_mech_speed2(qdot_scene *s, qdot_expr R); /* (ds/dt)^2 of positions R, in q' */
 qdot_expr qdot_mech_metric(qdot_scene *s, qdot_expr R); /* MAT; over the coordinates in R; or of
                                                            a line element, a scalar in dq */
 /* The coordinates of a metric, in declared order: those in R, or whose differentials are in R. */
-qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* a LIST */
+qdot_expr qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R); /* LIST of the coordinates in R */
 
 /* --- momenta and generalized forces --- */
-qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* dL/dq' */
-qdot_expr qdot_mech_momenta(qdot_scene *s);                /* LIST, in order of q */
-qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q]: all applied forces, -dV/dq among them */
+qdot_expr qdot_mech_momentum(qdot_scene *s, qdot_expr q);  /* generalized momentum dL/dq' */
+qdot_expr qdot_mech_momenta(qdot_scene *s); /* LIST of momenta in the order of coordinates */
+/* Q[q]: sum of all applied generalized forces, -dV/dq included */
+qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);
 /* The generalized force in Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
-qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
-qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
+qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST of generalized forces in the order of coordinates */
+qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum of Q delta[q] */
 
 /* --- parts of T, V and the generalized forces, listed one by one ----- */
 typedef struct {
-    const char *kind; /* "kinetic energy", "gravity", "potential", "spring" */
-    const char *name; /* what it is of or on, its label; NULL: none */
-    qdot_expr value;  /* simplified, common factors kept; nil on failure */
+    const char *kind; /* source of this part: "kinetic energy", "gravity", "potential", "spring" */
+    const char *name; /* label of the particle, body, spring ...; NULL: none */
+    qdot_expr value;  /* the part as an expression, simplified; nil on failure */
 } qdot_energy_part;
 /* The kinetic energy of particle or body k: 1/2 m v^2 + 1/2 w.I w; _potential_part: part k of V.
  * False past the end. */
@@ -53,7 +54,7 @@ typedef struct {
     const char *kind, *name; /* "gravity", "spring", "damper" ...; its label or what it acts on, or
                                 NULL */
     bool conservative;       /* the force is the gradient of a part of V */
-    size_t row, k;           /* internal */
+    size_t row, k;           /* place in the list of all sources; for internal use */
 } qdot_force_source;
 /* Source number k of generalized forces; false past the end. */
 bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
@@ -61,11 +62,11 @@ bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
 qdot_expr qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q);
 
 /* --- equations of motion --- */
-qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* an EQ, with multipliers */
-qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST */
+qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* Lagrange's equation of q as an EQ, with multipliers */
+qdot_expr qdot_mech_equations(qdot_scene *s);             /* LIST of Lagrange's equations */
 /* The accelerations, solved for, without multipliers; QDOT_ELIMIT past the budget, QDOT_ESINGULAR names q. */
 qdot_expr qdot_mech_accel(qdot_scene *s, qdot_expr q);
-qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST, in order of q */
+qdot_expr qdot_mech_accels(qdot_scene *s); /* LIST of q'' in the order of coordinates */
 /* lambda of constraint k in q, q', t, from the same equations; nil without a failure: constraints
  * are redundant, so the multipliers are not unique. */
 qdot_expr qdot_mech_multiplier(qdot_scene *s, size_t k);
@@ -73,7 +74,7 @@ qdot_expr qdot_mech_multiplier(qdot_scene *s, size_t k);
 /* --- conserved quantities, degrees of freedom --- */
 typedef struct {
     qdot_expr coordinate, momentum;
-    qdot_expr rate;   /* dp/dt: nil when conserved; else the sum of applied forces, multipliers */
+    qdot_expr rate;   /* dp/dt: nil if conserved; else the sum of applied forces and multipliers */
 } qdot_cyclic;
 /* Coordinates absent from L (their velocities may occur). *list [*n], owned by caller. */
 QDOT_MUST_CHECK qdot_status qdot_mech_cyclic(qdot_scene *s, qdot_cyclic **list, size_t *n);
@@ -93,7 +94,7 @@ qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
  * rates as above do not know. */
 bool qdot_mech_lacks_mass(qdot_scene *s);
 typedef struct {
-    size_t coordinates, constraints, independent; /* independent by symbolic rank */
+    size_t coordinates, constraints, independent; /* numbers; independent: symbolic rank of the constraints */
     size_t freedom;                               /* coordinates - independent */
     const bool *is_independent; /* [constraints] of those declared before; borrowed until the
                                    scene changes */
@@ -102,7 +103,7 @@ typedef struct {
                               of the constraints (x = t, x' = y: y = 1); likewise */
     bool unmet;           /* no point was found where all constraints hold, whatever the
                              parameters: no proof that there is none */
-    bool cartesian;       /* n = N D - C applies: every particle at plain coordinates */
+    bool cartesian;       /* n = N D - C applies: every particle has plain Cartesian coordinates */
     size_t particles, dimension;
 } qdot_dof;
 QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
@@ -111,7 +112,7 @@ QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
  * M(q, t) q'' = f(q, q', t): M as MAT, f as VEC (LIST when n = 1); n coordinates in declared
  * order. M is built from grouped Jacobians (scene/cache.h), work N^2 for a chain. Without the
  * multipliers of constraints. */
-qdot_expr qdot_mech_numeric_kinetic(qdot_scene *s); /* T */
+qdot_expr qdot_mech_numeric_kinetic(qdot_scene *s); /* kinetic energy T for numerical evaluation, not simplified */
 qdot_expr qdot_mech_numeric_mass(qdot_scene *s);
 qdot_expr qdot_mech_numeric_forcing(qdot_scene *s);
 /* h with that M. Simplified only if M cannot be used: with a stated Lagrangian, masses or

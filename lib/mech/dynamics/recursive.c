@@ -205,12 +205,12 @@ bool
 qdot_recursive_forcing(qdot_scene *s, qdot_kinematics *k, qdot_expr *f)
 {
     qdot_pool *pool = s->pool;
-    bool ready = qdot_kinematics_rest(s, k) != NULL; /* also fills the sets of masses of k */
+    bool ready = qdot_kinematics_rest(s, k) != NULL; /* this call also computes the sets of masses of k */
     size_t sets = k->weight.n, n = s->coordinates.n;
     qdot_family family = {.items = k->terms.n, .words = k->words};
     qdot_expr *force = qdot_calloc(k->terms.n + 1, sizeof *force);
     qdot_expr *sum = qdot_calloc(sets + 1, sizeof *sum);
-    uint32_t *number = qdot_calloc(sets + 1, sizeof *number); /* of a set, + 1 */
+    uint32_t *number = qdot_calloc(sets + 1, sizeof *number); /* [sets] index + 1 of the sum for each set */
     uint64_t *bits = qdot_calloc(sets * k->words + 1, sizeof *bits);
 
     if (!ready || !force || !sum || !number || !bits) {

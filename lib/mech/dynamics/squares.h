@@ -11,12 +11,12 @@
 #include "mech/scene/scene.h"
 
 typedef struct {
-    qdot_expr key, sum; /* 1/2 key sum, no coordinate in the key */
+    qdot_expr key, sum; /* the summand 1/2 key sum, `sum` one or more squares; no coordinate occurs in the key */
 } qdot_square;
 
 /* A sum of squares being built; cleared by qdot_squares_clear. */
 typedef struct {
-    qdot_scene *s; /* borrowed */
+    qdot_scene *s; /* the scene, borrowed */
     qdot_vec(qdot_square) at;
     qdot_expr rest; /* the terms that are not squares */
 } qdot_squares;

@@ -283,7 +283,7 @@ torque_words(const qdot_scene *s, size_t k)
 
 static const struct {
     const char *(*words)(const qdot_scene *s, size_t k);
-    bool conservative; /* part of L where that is T - V */
+    bool conservative; /* contained in L if L = T - V */
     size_t (*count)(const qdot_scene *s);
     qdot_expr (*force)(qdot_scene *s, size_t k, size_t i, bool kane);
     const char *(*name)(const qdot_scene *s, size_t k);

@@ -10,8 +10,8 @@
 #include "normal/simplify/simplify.h"
 
 enum {
-    TIDY_LIMIT = 400,  /* operations of a part; beyond, it is left as it is */
-    WHOLE_LIMIT = 100  /* of a sum of simplified parts */
+    TIDY_LIMIT = 400,  /* a part with more operations is not simplified */
+    WHOLE_LIMIT = 100  /* a sum of simplified parts with more operations is not simplified again */
 };
 
 bool

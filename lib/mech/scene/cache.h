@@ -26,28 +26,28 @@ typedef struct {
 
 typedef struct {
     qdot_expr e;
-    uint32_t set; /* of terms p */
+    uint32_t set; /* index of the set of terms p that it multiplies */
 } qdot_group;
 
 typedef qdot_vec(qdot_group) qdot_groups;
 
 typedef struct {
-    size_t n;     /* coordinates; index n stands for t */
-    size_t words; /* of a set */
+    size_t n;     /* number of coordinates; index n stands for t */
+    size_t words; /* 64-bit words in a set */
     qdot_vec(qdot_inertial) terms;
-    qdot_vec(uint64_t) bits;    /* [sets * words]; set 0 is empty */
-    qdot_vec(qdot_expr) weight; /* [sets]: sum of w, nil until needed */
-    qdot_vec(uint32_t) slots;   /* open hash table of sets, + 1 */
-    uint32_t axis_set[3];       /* terms of positions along an axis */
-    qdot_groups *dx, *dy;       /* [n + 1]: dx/dq_i, dx/dt; dy == dx where all y = x */
+    qdot_vec(uint64_t) bits; /* [sets * words] bit i of a set: term i belongs to it; set 0 is empty */
+    qdot_vec(qdot_expr) weight; /* [sets] sum of the weights w of each set; nil until needed */
+    qdot_vec(uint32_t) slots;   /* open hash table of the sets; an entry is the index + 1 */
+    uint32_t axis_set[3];       /* set of the terms that are positions along axis x, y, z */
+    qdot_groups *dx, *dy;       /* [n + 1] dx/dq_i, then dx/dt; dy == dx if y = x in all terms */
     bool rest_ready, place_ready;
-    qdot_groups rest;  /* x'' at q'' = 0; ask qdot_kinematics_rest */
-    qdot_groups place; /* x itself, by its terms; ask qdot_kinematics_place */
+    qdot_groups rest;  /* x'' for q'' = 0; computed by qdot_kinematics_rest */
+    qdot_groups place; /* x itself, by its terms; computed by qdot_kinematics_place */
 } qdot_kinematics;
 
 typedef struct {
-    uint32_t j, k; /* entry j <= k of M */
-    uint32_t i;    /* by this coordinate; n: by t */
+    uint32_t j, k; /* row and column of an entry of M, j <= k */
+    uint32_t i;    /* index of the coordinate of the derivative; n: the derivative by t */
     qdot_expr value;
 } qdot_mass_slope;
 
@@ -69,26 +69,26 @@ struct qdot_derived {
     bool kinematics_ready;
     qdot_kinematics kinematics;
     qdot_expr *square_spring,
-        *square_damper;  /* u.u of a link, simplified, nil until asked */
-    qdot_expr *M, *b, c; /* of T: [n*n], [n], scalar; simplified; M NULL until asked */
+        *square_damper;  /* u.u of each spring and damper, simplified; nil until requested */
+    qdot_expr *M, *b, c; /* T = 1/2 q'Mq' + b q' + c: [n*n], [n], scalar, simplified; M is NULL until requested */
     bool slopes_ready;
-    qdot_vec(qdot_mass_slope) slopes; /* the derivatives of M that are not 0 */
+    qdot_vec(qdot_mass_slope) slopes; /* derivatives of entries of M that are not 0 */
     qdot_vec(qdot_pattern) patterns;
     qdot_expr kinetic, potential, lagrangian, energy, mass_matrix;
-    qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each */
-    qdot_expr *accel;                                     /* [n], all at once */
-    qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
+    qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each: by coordinate */
+    qdot_expr *accel; /* [n] accelerations q'', computed together */
+    qdot_expr *lambda; /* [constraints] multipliers, computed with accel; nil if not unique */
     qdot_expr numeric_mass, numeric_forcing, numeric_energy;
     /* [constraints] of velocity constraints that are holonomic in disguise: F and mu, mu f = dF/dt
      * (mech/dynamics/integrated.h); nil for others */
     qdot_expr *integral, *factor;
     bool *integral_known;
-    bool holonomic_known, holonomic; /* qdot_mech_is_holonomic */
-    bool *independent; /* [constraints] */
-    bool *hidden;      /* [constraints] leaves a condition (qdot_dof.is_hidden) */
+    bool holonomic_known, holonomic; /* cached answer of qdot_mech_is_holonomic, and whether it is known */
+    bool *independent; /* [constraints] does not follow from the constraints before it */
+    bool *hidden;      /* [constraints] implies a further condition (qdot_dof.is_hidden) */
     bool unmet;        /* no point was found where all constraints hold */
     bool conserved_known, conserved;
-    qdot_cyclic_known *cyclic; /* [n] NULL until one is asked for */
+    qdot_cyclic_known *cyclic; /* [n] facts of cyclic coordinates; NULL until requested */
 };
 
 /* The stored results for the scene; emptied first if the scene has changed. */

@@ -154,7 +154,7 @@ put_side(const qdot_scene *s, size_t from, size_t to, bool right, qdot_text *out
     if (last == 0)
         return print_plain(s, right ? c[from].right : c[from].left, out);
     if (last < 2)
-        last = 2; /* further components hold identically and were left out */
+        last = 2; /* print at least two components: further ones hold identically and were left out */
     qdot_text_char(out, '(');
     for (size_t i = from; place <= last; place++) {
         qdot_text_add(out, place > 1 ? ", " : "");

@@ -82,7 +82,7 @@ qdot_scene_remove(qdot_scene *s, const char *label)
     bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
 
     qdot_scene_forget_dropped(s);
-    if (qdot_scene_find_event(s, label)) { /* derived results remain valid without the event */
+    if (qdot_scene_find_event(s, label)) { /* results derived without the event remain valid */
         FILTER(s->events, p, qdot_label_is(p->name, label));
         return found ? QDOT_OK : QDOT_EFAILED;
     }

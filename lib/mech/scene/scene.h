@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "mech/scene/things.h"
 
-qdot_scene *qdot_scene_new(qdot_pool *pool); /* NULL: no memory */
+qdot_scene *qdot_scene_new(qdot_pool *pool); /* returns NULL if memory runs out */
 void qdot_scene_free(qdot_scene *scene);
 
 /* Adders: check kinds and dimensions (QDOT_ETYPE), name clashes among labels (QDOT_ENAME), and
@@ -76,7 +76,7 @@ void qdot_scene_changed(qdot_scene *s);
  * `version` that the scene had then. */
 enum { QDOT_SCENE_PARTS = 15 };
 typedef struct {
-    void *at;            /* the pointer to the items */
+    void *at;            /* address of the array's pointer */
     size_t *n, *capacity, size;
 } qdot_scene_part;
 qdot_scene_part qdot_scene_part_at(qdot_scene *s, size_t k);

@@ -20,19 +20,19 @@ typedef struct {
 
 typedef struct {
     char *name;
-    qdot_expr mass, position; /* centre of mass, in 2 or 3 dimensions */
-    qdot_expr rotation;       /* a 2x2 or 3x3 MAT: its columns the body's axes in space */
+    qdot_expr mass, position; /* mass; position of the centre of mass in 2 or 3 dimensions */
+    qdot_expr rotation;       /* 2x2 or 3x3 MAT whose columns are the body's axes in space */
     qdot_expr inertia;        /* plane: a scalar; space: a symmetric 3x3 MAT, body axes, about the
                                  centre of mass */
-    qdot_expr angle;          /* plane: the declared angle; nil in space */
+    qdot_expr angle;          /* in the plane: the declared angle; nil in space */
     qdot_expr unused;
 } qdot_body;
 
 typedef struct {
     char *name; /* NULL: no label */
-    qdot_expr at[2]; /* the ends: positions */
-    char *end[2];    /* their labels, NULL for a point */
-    qdot_expr stiffness, rest; /* spring; of a damper: coefficient, nil */
+    qdot_expr at[2]; /* positions of the two ends */
+    char *end[2];    /* labels of the things at the ends; NULL for a point */
+    qdot_expr stiffness, rest; /* spring: stiffness and rest length; damper: coefficient and nil */
 } qdot_link;
 
 /* A term of V, a term of the Rayleigh function, or a uniform field. */
@@ -43,32 +43,32 @@ typedef struct {
 
 typedef struct {
     char *name;   /* NULL: no label */
-    qdot_expr force; /* vector (or scalar in 1-D) */
-    qdot_expr point; /* the position of the point on which it acts */
-    char *on;     /* label of the particle or body, NULL for a point */
+    qdot_expr force; /* the force: a vector; in one dimension a scalar */
+    qdot_expr point; /* position of the point on which the force acts */
+    char *on;     /* label of the particle or body; NULL for a point */
     bool material; /* acts on the material of body `on` that is at `point` at that time:
                       Q = F . dv/dq', v = velocity(on, point); else Q = F . d(point)/dq */
     char unused[7];
 } qdot_force;
 
 typedef struct {
-    char *name;       /* NULL */
-    qdot_expr torque; /* scalar; vector for a spatial body */
-    qdot_expr coordinate; /* a generalized force on this coordinate; nil: a torque on `body` */
-    bool force;           /* it was declared with `force` */
+    char *name;       /* label; NULL: none */
+    qdot_expr torque; /* the torque: a scalar in the plane, a vector for a body in space */
+    qdot_expr coordinate; /* coordinate of a generalized force; nil: a torque on `body` */
+    bool force;           /* declared by the statement `force` */
     char unused[3];
-    int body;             /* index of the body that it turns */
+    int body;             /* index of the body on which the torque acts */
 } qdot_torque;
 
 typedef enum { QDOT_HOLONOMIC, QDOT_VELOCITY, QDOT_ACCELERATION } qdot_constraint_kind;
 
 typedef struct {
-    char *name;       /* "rod", "pin, 1" for a component; "1", "2" ... without label */
-    char *label;      /* "rod", "pin"; NULL without label */
+    char *name;       /* "rod"; "pin, 1" for a component; without label "1", "2" ... */
+    char *label;      /* "rod", "pin"; NULL: no label */
     qdot_expr f;      /* left - right = 0 */
     qdot_expr left, right;
-    qdot_constraint_kind kind; /* the highest derivative f holds */
-    qdot_expr multiplier;      /* the symbol lambda[name] */
+    qdot_constraint_kind kind; /* by the highest time derivative in f: of positions, velocities, accelerations */
+    qdot_expr multiplier;      /* its Lagrange multiplier, the symbol lambda[name] */
     qdot_expr unused;
 } qdot_constraint;
 
@@ -76,8 +76,8 @@ typedef struct {
 typedef struct {
     char *name;
     qdot_expr left, right;
-    int way;   /* left - right 1: rises, -1: falls as t grows, 0: either */
-    bool stop; /* the run ends there */
+    int way;   /* direction of left - right as t grows: 1 rising, -1 falling, 0 either */
+    bool stop; /* the run ends at this event */
     char unused[3];
     qdot_vec(qdot_expr) targets, values; /* q, q' or a parameter becomes the value, all at
                                             once */
@@ -86,22 +86,22 @@ typedef struct {
 /* A statement `assume`, as it was typed. */
 typedef struct {
     qdot_expr relation;
-    bool turned; /* written as b > a for the relation a < b */
+    bool turned; /* the user wrote b > a, stored as a < b */
     char unused[3];
 } qdot_assumption;
 
 #pragma GCC diagnostic pop
 
-typedef struct qdot_derived qdot_derived; /* mech/scene/cache.h */
+typedef struct qdot_derived qdot_derived; /* defined in mech/scene/cache.h */
 
 typedef struct qdot_scene {
-    qdot_pool *pool;  /* borrowed */
+    qdot_pool *pool;  /* pool of all expressions of the scene; borrowed */
     qdot_arena *texts;
-    uint64_t version; /* one number for each state: qdot_scene_changed */
+    uint64_t version; /* a different number for each state of the scene: qdot_scene_changed */
     qdot_vec(qdot_expr) coordinates;
     qdot_vec(qdot_particle) particles;
     qdot_vec(qdot_body) bodies;
-    qdot_vec(qdot_term) gravities;    /* vectors: fields that add up, one without label */
+    qdot_vec(qdot_term) gravities; /* uniform gravity fields, vectors, which add up; at most one has no label */
     qdot_vec(qdot_term) potentials;   /* terms of V declared with `potential` */
     qdot_vec(qdot_link) springs, dampers;
     qdot_vec(qdot_term) dissipations; /* terms of the Rayleigh function */
@@ -110,14 +110,14 @@ typedef struct qdot_scene {
     qdot_vec(qdot_constraint) constraints;
     qdot_vec(qdot_event) events;
     qdot_vec(qdot_assumption) assumed;
-    qdot_vec(qdot_expr) conditions; /* its inequalities */
+    qdot_vec(qdot_expr) conditions; /* inequalities among the assumptions */
     qdot_vec(qdot_expr) relations;  /* equations and their derivatives, as expressions that are 0 */
-    qdot_expr lagrangian;           /* stated; nil: T - V */
+    qdot_expr lagrangian;           /* the stated Lagrangian; nil: L = T - V */
     qdot_vec(char *) dropped;       /* what the latest call dropped, for a notice: components of
                                        a constraint that hold identically ("pin, 2"); springs,
                                        forces ... on a removed thing ("spring s1", "a force") */
-    qdot_derived *derived;          /* owned; results derived for `version` */
-    void *kept;                     /* plans kept by sim; NULL: none */
+    qdot_derived *derived;          /* results derived for this `version`; owned */
+    void *kept;                     /* plans of runs kept by sim/; NULL: none */
     void (*kept_free)(void *kept);
 } qdot_scene;
 
@@ -128,7 +128,7 @@ typedef enum {
     QDOT_SPRING,
     QDOT_DAMPER,
     QDOT_DISSIPATION,
-    QDOT_FORCE, /* on a particle, a body, at a place; then those on coordinates */
+    QDOT_FORCE, /* forces on particles, bodies and points, then generalized forces on coordinates */
     QDOT_TORQUE
 } qdot_scene_kind;
 

@@ -14,8 +14,8 @@
 #include "normal/simplify/simplify.h"
 
 enum {
-    LARGE = 3000,     /* operations beyond which nothing is looked at */
-    MOST_BODIES = 12, /* in the plane; half as many in space, where there are more orders */
+    LARGE = 3000,     /* constraints with more operations are not examined */
+    MOST_BODIES = 12, /* largest number of bodies in the plane; in space half as many */
 };
 
 typedef qdot_vec(qdot_expr) expressions;
@@ -23,9 +23,9 @@ typedef qdot_vec(qdot_expr) expressions;
 typedef struct {
     qdot_scene *s;
     qdot_facts facts;
-    uint32_t n;        /* components */
-    qdot_expr square[3]; /* u, its components in no known order and of no known sign */
-    qdot_expr u;       /* the components in the order and with the signs that are tried */
+    uint32_t n;        /* number of components of u */
+    qdot_expr square[3]; /* squares of the components of u; order and signs are not known */
+    qdot_expr u;       /* u with the order and signs of components that are being tried */
 } search;
 
 static bool

@@ -27,17 +27,17 @@ enum { MOST_RELATIONS = 30, MOST_POINTS = 64, BUDGET = 20000 };
 typedef struct {
     qdot_expr exact;
     double at;
-    uint32_t zero_of; /* bits of the relations */
+    uint32_t zero_of; /* bits: which functions g are 0 there */
 } point;
 
 typedef struct {
     qdot_pool *pool;
     const qdot_facts *facts;
     qdot_expr u;
-    qdot_expr g[MOST_RELATIONS]; /* positive where the relation holds */
+    qdot_expr g[MOST_RELATIONS]; /* functions that are positive where the relations hold */
     bool strict[MOST_RELATIONS];
     size_t relations;
-    bool turn; /* an angle without domain: u is the same after 2 pi */
+    bool turn; /* u is an angle without declared domain: period 2 pi */
     point at[MOST_POINTS];
     size_t points;
 } line;
@@ -174,7 +174,7 @@ poles_of(line *l, qdot_expr g, bool *known)
             *known = op == QDOT_SIN || op == QDOT_COS || op == QDOT_EXP || op == QDOT_SINH ||
                      op == QDOT_COSH || op == QDOT_TANH || op == QDOT_ATAN || op == QDOT_ASIN ||
                      op == QDOT_ACOS || op == QDOT_LOG || op == QDOT_ABS || op == QDOT_SIGN;
-            if (op == QDOT_SIGN) /* it jumps */
+            if (op == QDOT_SIGN) /* sign(x) jumps at 0, where it has a value */
                 status = zeros_of(l, qdot_expr_arg(pool, node, 0), 0, known);
             *known = *known || op == QDOT_MAX || op == QDOT_MIN || op == QDOT_IF;
         } else if (kind == QDOT_PROD) {
@@ -191,7 +191,7 @@ poles_of(line *l, qdot_expr g, bool *known)
                 if (*known && fmpq_sgn(exponent) < 0)
                     status = zeros_of(l, base, 0, known);
             }
-        } else if (kind == QDOT_REL) { /* an if(...) jumps where its sides are equal */
+        } else if (kind == QDOT_REL) { /* an if(...) jumps where the two sides of its condition are equal */
             status = zeros_of(l, qdot_sub(pool, qdot_expr_arg(pool, node, 1), qdot_expr_arg(pool, node, 0)), 0, known);
         } else {
             *known = kind == QDOT_SUM || kind == QDOT_SYM;
@@ -335,7 +335,7 @@ by_zeros(line *l, qdot_bands *out, bool *found)
         if (*found)
             QDOT_TRY(poles_of(l, l->g[i], found));
     }
-    for (int side = 0; side < 2 && *found; side++) { /* the domain is a relation too */
+    for (int side = 0; side < 2 && *found; side++) { /* the bounds of the domain are relations, too */
         qdot_expr end = side == 0 ? u->lo : u->hi;
 
         if (end == QDOT_NIL)

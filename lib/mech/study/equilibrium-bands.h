@@ -18,14 +18,14 @@
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
-    bool numeric; /* an end is a decimal number that is known to 12 digits */
+    bool numeric; /* an end is a decimal number, known to 12 digits */
 } qdot_band;
 
 typedef struct {
     qdot_vec(qdot_band) at;
-    qdot_expr also; /* conditions without u under which the interval has points; nil: none */
-    bool whole;     /* all of u's domain; then there is none in `at` */
-    bool touched;   /* at a point inside an interval a relation holds with equality */
+    qdot_expr also; /* conditions without u under which the intervals are not empty; nil: none */
+    bool whole;     /* the relations hold on all of u's domain; then `at` is empty */
+    bool touched;   /* a relation holds with equality at a point inside an interval */
 } qdot_bands;
 
 /* The set of u inside its declared domain at which all relations [n] hold, each a < b or a <= b. *found is false

@@ -126,7 +126,8 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
             for (size_t k = 0; k < n; k++)
                 with[k] = qdot_subs(pool, G[k], 1, &from, &side);
             when = qdot_rest_value(r->s, nowhere, push_back(r, n, with, side, u, 1));
-            when = qdot_condition(pool, when, false, &r->facts); /* 0: there is no friction, and s is any */
+            /* `when` = 0: no friction, the symbol s is arbitrary */
+            when = qdot_condition(pool, when, false, &r->facts);
             if (when != QDOT_FALSE && when != QDOT_NIL) { /* a force that does not oppose the motion drives it; it is 0 at rest */
                 room[0] = side;
                 for (size_t k = 0; k < n; k++)

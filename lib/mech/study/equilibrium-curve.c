@@ -288,7 +288,7 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
 
     *at = NULL;
     *count = 0;
-    rest.system.unknowns.at = NULL; /* the search appends to its own */
+    rest.system.unknowns.at = NULL; /* the search appends the unknowns to its own list */
     rest.system.unknowns.n = rest.system.unknowns.capacity = 0;
     for (size_t i = 0; i < c->rest.system.unknowns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&rest.system.unknowns, c->rest.system.unknowns.at[i]);
@@ -298,7 +298,7 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
     }
     if (status == QDOT_OK)
         status = qdot_rest_find(&rest, bind_all, &value, &unused);
-    if (status == QDOT_EDOMAIN) { /* at this p the equations or the energy have no real value: nothing is at rest */
+    if (status == QDOT_EDOMAIN) { /* the equations or the energy have no real value at this p: no equilibrium */
         rest.found.n = 0;
         status = QDOT_OK;
     }

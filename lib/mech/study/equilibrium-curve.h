@@ -22,21 +22,21 @@ typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_expr parameter;
-    qdot_binder bind; /* of all parameters but this one */
+    qdot_binder bind; /* gives the values of all parameters except this one */
     void *user;
-    size_t n, coordinates; /* unknowns; those that are coordinates come first */
-    qdot_expr *unknown;    /* [n + 1] with p behind them */
-    qdot_expr *F;          /* [n] */
-    bool *angle;           /* [n] a full turn changes nothing */
-    double *lo, *hi;       /* [n + 1] the domains; of ends that move with p the whole line */
-    qdot_expr *end;        /* [2 n] ends that move with p, lower and upper of each unknown; nil: it does not */
-    bool moving;           /* some end of a domain depends on p */
+    size_t n, coordinates; /* number of unknowns; how many, the first, are coordinates */
+    qdot_expr *unknown;    /* [n + 1] the unknowns, then the parameter p */
+    qdot_expr *F;          /* [n] equations of equilibrium, F = 0 */
+    bool *angle;           /* [n] an angle with period 2 pi */
+    double *lo, *hi; /* [n + 1] bounds of the domains; the whole line if a bound depends on p */
+    qdot_expr *end;        /* [2 n] lower and upper bounds that depend on p; nil: constant bound */
+    bool moving;           /* some bound of a domain depends on p */
     size_t all;            /* number of coordinates of the scene plus constraints */
-    qdot_expr *K, *Gamma, *M; /* [all * all] H with A and A^T beside it; Gamma, M with 0 */
-    bool damped;           /* Gamma has values at rest: no |v| v */
+    qdot_expr *K, *Gamma, *M; /* [all x all] H with A, A^T beside it; Gamma and M padded with 0 */
+    bool damped;           /* Gamma is defined at rest: no damping as |v| v */
     qdot_rest rest;
     qdot_judge *judge;
-    qdot_linear_roots roots; /* room */
+    qdot_linear_roots roots; /* roots of the linear motion; scratch */
 } qdot_equilibrium_curve;
 
 /* c is from {0}, and ended in any case. bind leaves p free. Errors: QDOT_EINVAL if p has no

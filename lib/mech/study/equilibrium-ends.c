@@ -25,8 +25,8 @@ typedef struct {
     qdot_rest *r;
     size_t place;
     qdot_expr p, value;
-    qdot_expr others; /* its other conditions, with that value put in */
-    qdot_facts facts; /* of the search, with `others`; special values of parameters count */
+    qdot_expr others; /* the other conditions of this equilibrium, with p = value */
+    qdot_facts facts; /* facts of the search and `others`; p has a special value */
     qdot_expr room[QDOT_CONDITIONS_MOST];
 } end;
 
@@ -130,9 +130,9 @@ is_listed(const end *e, qdot_expr values)
 }
 
 typedef enum {
-    IS_NONE,   /* not proved to be a rest */
-    IS_LISTED, /* another place is the same, or its other conditions exclude it */
-    IS_NEW     /* a rest that no other place is */
+    IS_NONE,   /* not proved to be an equilibrium */
+    IS_LISTED, /* already listed at another place, or excluded by the other conditions */
+    IS_NEW     /* an equilibrium that is not in the list */
 } verdict;
 
 /* The verdict on the k-th place, which exists where `exists` holds, at p = root->value, where both sides of the i-th
@@ -152,7 +152,7 @@ judge_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr p, con
         if (n != i)
             others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, exists, n));
     e.others = qdot_conditions_at(pool, others, 1, &p, &value, &exact);
-    if (is_undefined(pool) || e.others == QDOT_FALSE) /* the other conditions exclude the end */
+    if (is_undefined(pool) || e.others == QDOT_FALSE) /* the other conditions exclude this end */
         return IS_LISTED;
     e.facts = qdot_facts_and(pool, &exact, e.others, e.room);
     values = at_end(&e, place->equations);
@@ -162,7 +162,7 @@ judge_end(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr p, con
     there = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, there, values));
     if (is_undefined(pool))
         return IS_NONE;
-    if (!are_zero(&e, there)) { /* at a kink the equations have another value than beside it */
+    if (!are_zero(&e, there)) { /* not at rest: at a kink the equations have another value than beside it */
         qdot_held held;
 
         if (qdot_rest_is_held(r, values, p, value, &e.facts, &held) != QDOT_OK)
@@ -197,7 +197,8 @@ judge_factor(qdot_rest *r, size_t k, qdot_expr exists, uint32_t i, qdot_expr fac
         if (!qdot_expr_is_class(pool, p, QDOT_PARAM))
             continue;
         slope = qdot_diff(pool, factor, p);
-        if (slope == QDOT_NIL || (qdot_expr_node(pool, slope)->sign & QDOT_NE0) == 0) /* monotone: one zero at most */
+        /* the factor is monotone in p: at most one zero */
+        if (slope == QDOT_NIL || (qdot_expr_node(pool, slope)->sign & QDOT_NE0) == 0)
             continue;
         status = qdot_solve(pool, factor, p, &r->facts, &zero);
         known = status == QDOT_OK && zero.complete && zero.root.n == 1 && zero.root.at[0].period == QDOT_NIL &&

@@ -7,7 +7,7 @@
 #include "normal/solve/cramer.h"
 #include "normal/solve/zeros.h"
 
-enum { MOST = 3, MOST_WALLS = 12 }; /* unknowns beside p */
+enum { MOST = 3, MOST_WALLS = 12 }; /* largest number of unknowns besides p, of walls */
 
 /* budgets[n]: the work allowed for a search in n unknowns and p. */
 static const uint64_t budgets[MOST + 1] = {0, 30000, 40000, 40000};

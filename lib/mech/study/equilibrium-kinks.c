@@ -209,7 +209,8 @@ sign_beside(qdot_pool *pool, qdot_expr u, qdot_expr v, bool up, const qdot_facts
                     to[2] = {up ? v : qdot_neg(pool, v), up ? QDOT_ONE : QDOT_MINUS_ONE};
     qdot_expr ratio = qdot_subs(pool, u, 2, from, to);
 
-    for (int i = 0; i < MOST_NESTED && ratio != QDOT_NIL; i++) /* |4 x + |x||, |5 x|, 5 |x|, 5 x */
+    /* repeat for nested absolute values: |4 x + |x||, |5 x|, 5 |x|, 5 x */
+    for (int i = 0; i < MOST_NESTED && ratio != QDOT_NIL; i++)
         ratio = qdot_subs(pool, qdot_simplify(pool, ratio, facts), 2, from, to);
     ratio = qdot_simplify(pool, qdot_div(pool, ratio, v), facts);
     if (ratio == QDOT_NIL)
@@ -487,11 +488,11 @@ jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
     case QDOT_SIGN:
         QDOT_TRY(steps_over(r, node, QDOT_MINUS_ONE, QDOT_ONE, a, &smooth));
         break;
-    case QDOT_FLOOR: /* from m - 1 to m where a = m */
+    case QDOT_FLOOR: /* floor(a) jumps from m - 1 to m where a = m */
         at = qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, a));
         QDOT_TRY(steps_over(r, node, qdot_sub(pool, m, QDOT_ONE), m, qdot_sub(pool, a, m), &smooth));
         break;
-    case QDOT_MOD: /* from b to 0 where a = m b */
+    case QDOT_MOD: /* a mod b jumps from b to 0 where a = m b */
         b = qdot_expr_arg(pool, node, 1);
         at = qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, qdot_div(pool, a, b)));
         QDOT_TRY(steps_over(r, node, b, QDOT_ZERO, qdot_sub(pool, a, qdot_mul(pool, m, b)), &smooth));

@@ -12,7 +12,8 @@
 #include "normal/solve/condition-forms.h"
 #include "normal/solve/solve.h"
 
-enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 }; /* places; operations of a set of conditions with roots */
+/* largest number of places; of operations in a set of conditions with roots */
+enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 };
 
 /* Whether a shift of u leaves the equations of motion unchanged, so that all members of a family
  * are equivalent. */
@@ -161,7 +162,8 @@ append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
     for (uint32_t i = 0; i < qdot_expr_count(pool, values); i++) {
         qdot_expr one = qdot_expr_arg(pool, values, i);
 
-        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_FORMAL)) /* the side of a corner */
+        /* not the symbol that stands for the sign of u at a corner u = 0 */
+        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_FORMAL))
             e.equations = qdot_list_appended(pool, e.equations, 1, &one);
     }
     QDOT_TRY(qdot_pool_check(pool));

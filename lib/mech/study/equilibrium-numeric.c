@@ -27,16 +27,16 @@ enum { RANGES = sizeof ranges / sizeof *ranges };
 typedef struct {
     qdot_pool *pool;
     size_t n, slopes;
-    size_t coordinates;      /* the first of the unknowns; then multipliers */
+    size_t coordinates; /* how many unknowns, the first, are coordinates; the others are multipliers */
     const qdot_expr *u;
-    qdot_expr *e;            /* [n + slopes] residuals, then those slopes that are not 0 */
-    size_t *row, *column;    /* [slopes] */
-    double *lo, *hi;         /* [n] domains */
-    bool *angle;             /* [n] no end, and a full turn changes nothing */
-    double *value;           /* [n + slopes] at x */
-    double *x, *try, *step;  /* [n] */
-    double *rhs;             /* [n] */
-    gsl_matrix *J, *A;       /* slopes whole; J^T J + damping */
+    qdot_expr *e;            /* [n + slopes] the residuals, then their non-zero derivatives */
+    size_t *row, *column;    /* [slopes] row and column of each derivative */
+    double *lo, *hi;         /* [n] bounds of the domains */
+    bool *angle;             /* [n] an angle without bounds, period 2 pi */
+    double *value;           /* [n + slopes] values of e at x */
+    double *x, *try, *step;  /* [n] point, trial point, Newton step */
+    double *rhs;             /* [n] right side of the Newton equations */
+    gsl_matrix *J, *A;       /* Jacobian [n x n]; J^T J + damping [n x n] */
     gsl_permutation *order;
 } problem;
 
@@ -213,7 +213,7 @@ begin_at(problem *p, uint64_t start)
     }
 }
 
-typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the equations hold, their slopes are singular */
+typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the residuals are 0, but J is singular */
 
 /* Whether the residual is rounding error, compared to its derivatives times x. */
 static bool
@@ -362,7 +362,7 @@ places_search(problem *p, qdot_isolate *isolate, qdot_places *out)
             continue;
         }
         for (size_t i = 0; i < n; i++)
-            if (fabs(place[i]) <= radius[i]) /* the value is 0 within its error */
+            if (fabs(place[i]) <= radius[i]) /* the value is 0 within its error bound */
                 place[i] = 0;
         if (place_normalise(p, place) && is_new(out->at, out->n, n, place))
             out->n++;

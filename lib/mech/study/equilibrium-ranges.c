@@ -78,7 +78,7 @@ list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
     }
     facts = qdot_facts_and(pool, &r->facts, exists, room);
     status = qdot_bands_find(pool, u, n, in, &facts, &bands, done);
-    if (status == QDOT_EDOMAIN) { /* a condition has no value somewhere: the region stays as it is */
+    if (status == QDOT_EDOMAIN) { /* a condition is undefined somewhere: leave the region as it is */
         *done = false;
         status = QDOT_OK;
     }

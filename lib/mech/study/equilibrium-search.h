@@ -15,20 +15,20 @@ typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_facts facts;
-    qdot_assumptions assumed; /* what is assumed of coordinates and parameters; `facts` borrows from it */
-    qdot_simultaneous system; /* the equations at rest; coordinates, then multipliers, then sides of jumps */
-    qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
-    qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */
-    qdot_expr slips;     /* a LIST: the u of each of these signs */
-    qdot_expr energy;    /* L at rest */
-    qdot_expr sliding;   /* the conditions under which these forces hold and do not drive */
-    size_t searched; /* unknowns that are searched for in numbers: without the sides */
+    qdot_assumptions assumed; /* assumptions on coordinates and parameters, from which `facts` borrows */
+    qdot_simultaneous system; /* equations at rest; unknowns: coordinates, multipliers, then sides of jumps */
+    qdot_expr forces; /* a LIST: generalized force on each coordinate at rest, with multipliers */
+    qdot_expr friction; /* a LIST of unknowns in [-1, 1] that replace signs of velocities; nil: no friction */
+    qdot_expr slips;     /* a LIST of the velocities u whose signs `friction` replaces */
+    qdot_expr energy;    /* the Lagrangian L at rest */
+    qdot_expr sliding; /* conditions under which the friction forces hold and do not drive the motion */
+    size_t searched; /* number of unknowns of the numerical search: all except sides of jumps */
     qdot_vec(qdot_equilibrium) found;
-    qdot_binder bind; /* values of parameters for numbers; may be NULL */
+    qdot_binder bind; /* gives values of parameters for a numerical search; may be NULL */
     void *user;
-    qdot_expr meeting; /* a LIST of LISTs of what is 0 where two kinks of one coordinate meet, and the place; nil: none */
-    bool formulas;   /* these alone give all places, whatever the parameters are */
-    bool unresolved; /* there may be rests at kinks that were not searched: the list is not complete */
+    qdot_expr meeting; /* a LIST of (expression, place): two kinks of a coordinate coincide where it is 0; nil: none */
+    bool formulas;   /* formulas give all equilibria, for all parameter values */
+    bool unresolved; /* kinks were left unsearched: the list may be incomplete */
 } qdot_rest;
 
 /* The equations at rest and their unknowns; ended in any case. Then all places of rest, to r->found, not
@@ -64,8 +64,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 
 typedef enum {
     QDOT_HELD_UNKNOWN,
-    QDOT_HELD,    /* the force beside it does not push away */
-    QDOT_NOT_HELD /* it does on one side at least, and there is a force at the place itself */
+    QDOT_HELD,    /* the force on either side does not push away from the kink */
+    QDOT_NOT_HELD /* a force on one side pushes away, and the force at the kink itself is not 0 */
 } qdot_held;
 
 /* What is proved of the only coordinate at its value in `values`, a LIST, with p = value put in. (equilibrium-corners.c) */
@@ -146,9 +146,9 @@ enum { QDOT_PLACES_MOST = 100 };
 typedef struct {
     double *at;
     size_t n, starts;
-    bool complete;   /* proved: these are all; then there were no starts */
-    double reach;    /* starts lay within +-reach where no domain is declared */
-    size_t unproved; /* starts that ended at an unproved zero within rounding */
+    bool complete;   /* proved that these are all; then no start points were used */
+    double reach;    /* start points lay within +-reach if no domain is declared */
+    size_t unproved; /* number of start points that led to an unproved zero within rounding */
 } qdot_places;
 
 /* Zeros of r [unknowns] in the unknowns, every other symbol bound; rest->complete if these are

@@ -183,7 +183,7 @@ add_walls_of_jump(qdot_equilibrium_set *set, qdot_expr node)
     switch (qdot_expr_node(pool, node)->op) {
     case QDOT_ABS:
     case QDOT_SIGN:
-    case QDOT_ATAN2: /* (y, x): where y = 0 and x <= 0 */
+    case QDOT_ATAN2: /* atan2(y, x) jumps where y = 0 and x <= 0 */
         return add_walls(set, first);
     case QDOT_MIN:
     case QDOT_MAX:

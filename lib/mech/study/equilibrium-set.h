@@ -16,11 +16,11 @@
 
 typedef struct {
     qdot_equilibrium place;
-    qdot_expr value; /* a LIST: f [n], then g */
-    bool corner;     /* forces jump there, so that it is no zero of the equations at rest */
-    bool known;      /* proved: all its walls are known, so that it does not jump within a cell */
-    bool judged;     /* place.stability holds where all of `when` are positive, elsewhere it is undecided */
-    qdot_expr when;  /* a LIST */
+    qdot_expr value; /* a LIST of coordinates f [n] and multipliers g as functions of p */
+    bool corner;     /* forces jump at this place: it is not a zero of the smooth equations */
+    bool known;      /* proved: all its walls are known, so it is continuous between walls */
+    bool judged; /* place.stability holds where all of `when` are positive; elsewhere undecided */
+    qdot_expr when;  /* a LIST of expressions that must be positive */
 } qdot_equilibrium_member;
 
 /* A single value of p at which the energy or a force has no value: there `what` is 0. */
@@ -30,14 +30,14 @@ typedef struct {
 } qdot_equilibrium_gap;
 
 typedef struct {
-    const qdot_equilibrium_curve *c; /* borrowed */
-    double least, most;              /* of p */
+    const qdot_equilibrium_curve *c; /* equations of the equilibria; borrowed */
+    double least, most;              /* range of the parameter p */
     qdot_vec(qdot_equilibrium_member) member;
-    qdot_vec(double) wall; /* between cells: ascending, least and most the first and the last */
+    qdot_vec(double) wall; /* values of p that separate cells, ascending; first least, last most */
     /* proved: except for single values of p, all equilibria are members of the set, and all walls are known */
     bool complete;
     qdot_vec(qdot_equilibrium_gap) gap;
-    bool families;         /* some equilibria belong to infinite families, of which one is a member of the set */
+    bool families; /* some equilibria are infinite families, of which only one member is listed */
 } qdot_equilibrium_set;
 
 /* Begin a set {0}; call _end in any case. If nothing can be found the set is empty and incomplete. */

@@ -39,7 +39,7 @@ qdot_rest_is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *y
 
         *yes = there == QDOT_FALSE;
         status = qdot_pool_check(pool);
-        if (status == QDOT_EDOMAIN) { /* the equations are not defined at this value */
+        if (status == QDOT_EDOMAIN) { /* the equations are undefined at this parameter value */
             *yes = true;
             status = QDOT_OK;
         }

@@ -48,7 +48,7 @@ qdot_rest_symmetric(qdot_rest *r)
         QDOT_TRY(qdot_pool_check(pool));
         hold = hold_there(r, b.known);
         status = qdot_pool_check(pool);
-        if (status == QDOT_EDOMAIN) /* a pole */
+        if (status == QDOT_EDOMAIN) /* the equations are singular at this place */
             continue;
         QDOT_TRY(status);
         if (hold)

@@ -485,7 +485,7 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
     *out = (qdot_equilibria){0};
     if (status == QDOT_OK)
         status = qdot_rest_find(&r, bind, user, out);
-    if (status == QDOT_OK && first_only) /* the first one must be where coordinates are assumed to be */
+    if (status == QDOT_OK && first_only) /* the first place must satisfy the assumptions on coordinates */
         status = keep_assumed(&r);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, r.found.n, r.found.at, &out->special);

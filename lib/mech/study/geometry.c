@@ -19,10 +19,10 @@ typedef struct {
     qdot_expr R, det;
     uint32_t n;
     bool diagonal;
-    qdot_expr *q;       /* [n] */
-    qdot_expr *g;       /* [n*n] */
-    qdot_expr *inverse; /* [n*n] */
-    qdot_expr *gamma;   /* [n*n*n], nil until asked */
+    qdot_expr *q;       /* [n] coordinates */
+    qdot_expr *g;       /* [n*n] metric g_ij */
+    qdot_expr *inverse; /* [n*n] inverse metric g^ij */
+    qdot_expr *gamma;   /* [n*n*n] Christoffel symbols; nil until requested */
 } geometry;
 
 static qdot_expr

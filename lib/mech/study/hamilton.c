@@ -20,8 +20,8 @@ typedef struct {
     qdot_facts facts;
     uint32_t n;
     qdot_expr L;
-    qdot_expr *q, *qdot, *p; /* [n] */
-    qdot_expr *rest;         /* [n]: p - dL/dq' at q' = 0 */
+    qdot_expr *q, *qdot, *p; /* [n] coordinates, velocities, momenta */
+    qdot_expr *rest;         /* [n] p - dL/dq' for q' = 0 */
     qdot_expr *A;            /* [n*n] d2L/dq'dq' */
     qdot_expr *solved;       /* [n]: q' in terms of p */
 } legendre;

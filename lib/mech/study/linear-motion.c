@@ -37,7 +37,7 @@ qdot_rest_facts(qdot_scene *s, qdot_expr exists, qdot_facts *facts, qdot_expr **
 typedef struct {
     qdot_scene *s;
     qdot_facts facts;
-    qdot_expr *own; /* the facts' conditions */
+    qdot_expr *own; /* [conditions] array for the conditions of `facts`; owned */
     size_t n;
     qdot_expr *from, *to;
 } place;
@@ -118,8 +118,8 @@ qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
 /* The gradients of constraints in reduced row echelon form. */
 typedef struct {
     size_t n, rank;
-    qdot_expr *A;  /* [rank x n] */
-    size_t *pivot; /* [rank] the column of each row's 1, in which the other rows are 0 */
+    qdot_expr *A;  /* [rank x n] the reduced gradients */
+    size_t *pivot; /* [rank] column of each row's leading 1; other rows have 0 there */
 } echelon;
 
 /* Subtract `by` times the row `other` [n] from row [n]. */

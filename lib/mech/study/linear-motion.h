@@ -14,13 +14,13 @@
 
 typedef struct {
     size_t n;
-    qdot_expr *M, *Gamma, *H; /* [n * n] */
-    qdot_expr *N;             /* [coordinates * n] */
-    size_t *which;            /* [n] the coordinate that equals y_a */
+    qdot_expr *M, *Gamma, *H; /* [n x n] matrices of M y'' + Gamma y' + H y = 0 */
+    qdot_expr *N;             /* [coordinates x n] displacement of each coordinate: N y */
+    size_t *which;            /* [n] index of the coordinate whose displacement is y_a */
     size_t rank;              /* of the constraints' Jacobian at the equilibrium */
-    qdot_expr *pivot;         /* [rank] what its elimination divided by: N holds where none is 0 */
-    bool exact;               /* the equations are linear: nothing is neglected */
-    bool damped;              /* Gamma is defined; else it is set to 0 (|v| v at v = 0) */
+    qdot_expr *pivot;         /* [rank] pivots of the elimination: N holds where none is 0 */
+    bool exact;               /* the equations of motion are linear: nothing is neglected */
+    bool damped;              /* Gamma is defined; false: set to 0, as for a force |v| v at v = 0 */
 } qdot_linear_motion;
 
 /* About the equilibrium `equations`, which exists under the conditions `exists` (a LIST; nil:

@@ -15,7 +15,7 @@
 #include "normal/inequality/less.h"
 #include "normal/simplify/simplify.h"
 
-enum { MOST_DECIDED = 300 }; /* operations of a power that is asked for its sign */
+enum { MOST_DECIDED = 300 }; /* largest number of operations of a power whose sign is determined */
 
 /* The expression e with all velocities set to 0. */
 static qdot_expr
@@ -125,7 +125,7 @@ declared_forces_dissipate(qdot_scene *s, const qdot_facts *facts, bool *yes, boo
         power = qdot_sub(pool, power,
                          qdot_mul(pool, qdot_mech_jet(s, i, 1), qdot_sub(pool, Q, F[i])));
         status = qdot_pool_check(pool);
-        if (status == QDOT_EDOMAIN) { /* x'/|x'| has no value at rest */
+        if (status == QDOT_EDOMAIN) { /* the force is along x'/|x'|, which is undefined at rest */
             qdot_free(F);
             *yes = false;
             return QDOT_OK;

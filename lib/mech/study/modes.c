@@ -387,7 +387,7 @@ of_two(job *j, qdot_root *roots)
     qdot_expr cross[4], b, root, W[2];
     static const int pick[3][4] = {{0, 3, 3, 0}, {0, 1, 1, 0}, {3, 1, 1, 3}};
 
-    for (int i = 0; i < 3; i++) /* M_x H_y - M_z H_w */
+    for (int i = 0; i < 3; i++) /* coefficients of products: M_x H_y - M_z H_w */
         cross[i] =
             qdot_simplify(pool,
                           qdot_sub(pool, qdot_mul(pool, M[pick[i][0]], H[pick[i][1]]),
@@ -581,7 +581,7 @@ modes_linearise(job *j, qdot_expr equations)
 
     for (size_t i = 0; i < j->s->coordinates.n && status == QDOT_EDOMAIN; i++) {
         (void)qdot_rest_value(j->s, equations, qdot_motion_residual(j->s, i));
-        QDOT_TRY(qdot_pool_check(j->pool)); /* the expression has no value at the equilibrium */
+        QDOT_TRY(qdot_pool_check(j->pool)); /* the equations have no value at the equilibrium */
     }
     if (status != QDOT_EDOMAIN)
         return status;

@@ -29,7 +29,7 @@ enum { MOST_COORDINATES = 16 };
 /* An unknown coefficient in the linear ansatz for a symmetry. */
 typedef struct {
     enum { BOOST, ROTATION, TRANSLATION, TIME } kind;
-    size_t i, j; /* xi_i has b t, c q_j, a */
+    size_t i, j; /* indices in xi_i: b t for a boost, c q_j for a rotation, a for a translation */
 } unknown;
 
 typedef struct {
@@ -38,8 +38,8 @@ typedef struct {
     qdot_facts facts;
     qdot_expr L;
     size_t n;
-    qdot_expr *E;     /* [n]: d/dt dL/dq' - dL/dq */
-    qdot_expr *slope; /* [3*n*n]: dE_i/dq_j, dE_i/dq_j', dE_i/dq_j'' */
+    qdot_expr *E;     /* [n] Lagrange's expressions E_i = d/dt dL/dq_i' - dL/dq_i */
+    qdot_expr *slope; /* [3*n*n] derivatives dE_i/dq_j, dE_i/dq_j', dE_i/dq_j'' */
     qdot_vec(unknown) unknowns;
     qdot_vec(qdot_expr) found;
 } search;

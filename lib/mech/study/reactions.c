@@ -15,8 +15,8 @@ typedef struct {
     qdot_scene *s;
     size_t n;
     qdot_expr *R;   /* [n] generalized reactions */
-    uint32_t *uses; /* [n] particles and bodies that depend on each coordinate */
-    bool *told;     /* [n] is in a force or torque */
+    uint32_t *uses; /* [n] how many particles and bodies depend on the coordinate */
+    bool *told;     /* [n] the coordinate's reaction is contained in a reported force or torque */
     qdot_vec(qdot_reaction) list;
 } work;
 
@@ -135,13 +135,13 @@ reaction(work *w, const thing *one)
 
         rows = jacobian_column(w, one, own[i], slopes);
         QDOT_TRY(qdot_pool_check(pool));
-        if (rows < k) /* more coordinates than directions: not determined */
+        if (rows < k) /* more coordinates than directions: the force is not determined */
             return QDOT_OK;
         memcpy(J + i * rows, slopes, rows * sizeof *slopes);
         R[i] = w->R[own[i]];
     }
     moving = moving_rows(rows, k, J, kept);
-    if (one->body && moving != k) /* a least force and torque would mix their units */
+    if (one->body && moving != k) /* not unique: a smallest force and torque would mix units */
         return QDOT_OK;
     status = reactions_solve(w, moving, k, J, R, part);
     if (status == QDOT_ESINGULAR)

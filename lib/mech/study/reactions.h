@@ -22,10 +22,10 @@
 #include "mech/scene/things.h"
 
 typedef struct {
-    const char *name;     /* of the particle or body, borrowed; NULL: a coordinate */
-    qdot_expr coordinate; /* nil: a particle or body */
-    qdot_expr force;      /* a vector (scalar in one dimension); of a coordinate: R_j */
-    qdot_expr torque;     /* of a body: a scalar in the plane, a vector; else nil */
+    const char *name;     /* label of the particle or body, borrowed; NULL: a coordinate */
+    qdot_expr coordinate; /* the coordinate; nil: a particle or body */
+    qdot_expr force; /* force of the constraints: a vector (scalar in one dimension); for a coordinate R_j */
+    qdot_expr torque;     /* torque on a body: scalar in the plane, vector in space; else nil */
 } qdot_reaction;
 
 /* *list [*n], owned by the caller: particles, bodies, then coordinates, in the order of

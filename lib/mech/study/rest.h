@@ -13,15 +13,15 @@ typedef enum {
 
 typedef struct {
     qdot_expr
-        equations;    /* a LIST: coordinate = value ..., then lambda[...] = value ... */
-    qdot_expr exists; /* a LIST of RELs under which it is real; nil: always */
-    qdot_expr range;  /* a LIST of RELs lo <= u, u <= hi: every u between is a rest; nil: none */
-    bool touched;       /* at a point inside the range friction is at its limit */
-    bool numeric_range; /* an end of it is a decimal number, known to 12 digits */
+        equations;    /* a LIST: coordinate = value ..., then multipliers lambda[...] = value ... */
+    qdot_expr exists; /* a LIST of conditions (REL) under which it is real; nil: always */
+    qdot_expr range; /* a LIST lo <= u, u <= hi: every u between is an equilibrium; nil: a single point */
+    bool touched;       /* at a point inside the range friction is exactly at its limit */
+    bool numeric_range; /* an end of the range is a decimal number, known to 12 digits */
     qdot_stability stability;
-    qdot_expr stable_when; /* a LIST of RELs under which `stability` holds; nil: wherever the place exists */
+    qdot_expr stable_when; /* a LIST of conditions (REL) for `stability`; nil: it holds wherever the place exists */
     bool numeric;
-    bool may_jump; /* the energy may jump there: nothing is said of its stability */
+    bool may_jump; /* the energy may be discontinuous there: stability is not judged */
 } qdot_equilibrium;
 
 /* Whether it is unstable wherever it exists. */
@@ -32,20 +32,20 @@ qdot_equilibrium_is_unstable(const qdot_equilibrium *e)
 }
 
 typedef struct {
-    qdot_equilibrium *at; /* [n], owned */
+    qdot_equilibrium *at; /* [n] the equilibria, owned */
     size_t n;
-    bool complete;        /* these are all, for generic parameters */
-    bool recurs;          /* an angle with one declared end: of one turn, the others are whole turns away */
-    size_t starts;        /* of a numerical search; 0: there was none */
-    double reach;         /* starts lay within +-reach if no domain is declared */
-    size_t unproved;      /* starts that ended at an unproved zero within rounding */
-    qdot_expr special;    /* a LIST of what values divide by: where one is 0 this is not the list; nil: none */
-    qdot_expr undefined;  /* a LIST of what is 0 where the energy or a force has no value at any place; nil: none */
-    qdot_expr meeting;    /* a LIST of what is 0 where kinks meet: rests there may be others; nil: none */
+    bool complete;        /* the list has all equilibria, for generic parameter values */
+    bool recurs; /* an angle has one declared bound: one turn is listed, others differ by full turns */
+    size_t starts;        /* number of start points of a numerical search; 0: no such search */
+    double reach;         /* start points lay within +-reach if no domain is declared */
+    size_t unproved;      /* number of start points that led to an unproved zero within rounding */
+    qdot_expr special; /* a LIST of divisors in the results: where one is 0 the list does not hold; nil: none */
+    qdot_expr undefined; /* a LIST: where one of these is 0 the energy or a force is undefined everywhere; nil: none */
+    qdot_expr meeting; /* a LIST: where one of these is 0 two kinks coincide and equilibria may differ; nil: none */
     const char *pole;     /* a coordinate whose open domain ends where the chart alone is singular: a rest may be there,
                            * which is not looked for; NULL: none. The pool's */
-    qdot_expr jump;       /* a function by which the energy jumps: no rest is looked for where it does; nil: none */
-    const char *unset;    /* a parameter whose value a numerical search needs; NULL: none. The pool's */
+    qdot_expr jump; /* the energy jumps where this function does; equilibria there are not searched; nil: none */
+    const char *unset; /* a parameter that the numerical search needs but has no value, in the pool; NULL: none */
 } qdot_equilibria;
 
 /* Replaces the parameters in e by their values, as far as they are known. */

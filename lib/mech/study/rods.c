@@ -15,16 +15,16 @@
 #include "normal/simplify/simplify.h"
 
 enum {
-    LARGE = 3000,  /* operations beyond which nothing is proved */
-    ALL_PAIRS = 8, /* particles up to which every pair is looked at */
+    LARGE = 3000,  /* expressions with more operations are not examined */
+    ALL_PAIRS = 8, /* up to this number of particles every pair is examined */
 };
 
 typedef struct {
     qdot_scene *s;
     qdot_facts facts;
     qdot_arms
-        points; /* of the particles; the origin; fixed ends of springs and dampers */
-    size_t particles; /* how many of them are particles, each place once */
+        points; /* positions of particles, the origin, fixed ends of springs and dampers */
+    size_t particles; /* how many of `points` are particles; equal positions count once */
     qdot_rods *rods;
 } search;
 
@@ -268,7 +268,7 @@ of_constraint(search *w, const qdot_constraint *c)
     for (size_t i = 0; i < n; i++) {
         qdot_expr r = w->points.at[i], centre = centre_of(w, c->f, r);
 
-        if (centre == QDOT_NIL) /* norm(a - c) = L */
+        if (centre == QDOT_NIL) /* a constraint of the form norm(a - c) = L */
             centre = centre_of(w,
                                qdot_sub(pool, qdot_pow_int(pool, c->left, 2),
                                         qdot_pow_int(pool, c->right, 2)),

@@ -28,9 +28,9 @@
 
 typedef struct {
     qdot_expr
-        ends[2]; /* positions, expanded; the second is the one nearer to the fixed end */
+        ends[2]; /* positions of the two ends, expanded; the second is nearer to a fixed point */
     const char
-        *name; /* label of the constraint, borrowed; NULL: r(q) keeps the distance */
+        *name; /* label of the constraint, borrowed; NULL: constant by r(q) itself */
 } qdot_rod;
 
 typedef qdot_vec(qdot_rod) qdot_rods;

@@ -42,12 +42,12 @@ typedef struct {
     qdot_judgement *j;
     qdot_equilibrium *e;
     qdot_pool *pool;
-    size_t n, m;                               /* coordinates; kinks */
-    qdot_expr u[MOST_KINKS], s[MOST_KINKS];    /* what is 0 at the place; the symbol of its sign */
+    size_t n, m;                               /* numbers of coordinates and of kinks */
+    qdot_expr u[MOST_KINKS], s[MOST_KINKS]; /* for each kink: the expression that is 0 there, and a symbol for its sign */
     qdot_expr a[MOST_KINKS * MOST_COORDINATES];
-    qdot_expr F[MOST_COORDINATES];             /* forces near the place, with these symbols */
-    qdot_expr there[MOST_COORDINATES];         /* at the place */
-    bool rough;                                /* the slopes of forces jump too */
+    qdot_expr F[MOST_COORDINATES]; /* generalized forces near the place, in terms of these symbols */
+    qdot_expr there[MOST_COORDINATES];         /* generalized forces exactly at the place */
+    bool rough;                                /* derivatives of the forces jump, too */
 } corner;
 
 /* --- kinks of the forces -------------------------------------------------------------------- */

@@ -75,7 +75,7 @@ chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
     there = qdot_subs(pool, u, 1, &o->eps, &zero);
     if (there == QDOT_NIL)
         o->status = qdot_pool_check(pool);
-    else /* 0, or of either sign as the parameters are */
+    else /* the sign is 0, or depends on the parameters */
         o->known = false;
     return e;
 }
@@ -201,7 +201,7 @@ push_back_beside(qdot_judgement *j, qdot_expr q, qdot_expr place, bool below, lo
     status = qdot_pool_check(pool);
     if (status == QDOT_OK)
         return qdot_judgement_one_side(j, below ? F : qdot_neg(pool, F), eps, leading, sign, known);
-    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* there is no force on this side */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* EDOMAIN: no force is defined on this side */
 }
 
 /* The potential of one coordinate rises on either side, or falls on one, by the force at q0 +-
@@ -213,7 +213,7 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
     qdot_scene *s = j->s;
     qdot_pool *pool = s->pool;
     qdot_expr q = s->coordinates.at[0], mass, up, place;
-    qdot_expr back[2]; /* leading terms of the force towards the place, on either side of it */
+    qdot_expr back[2]; /* leading terms of the force towards the place, on both sides */
     int sign[2];
     long root;
 
@@ -411,7 +411,8 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
     if (j->judge->velocity_kink || j->judge->timed || !j->m.damped)
         return QDOT_OK;
     if (e->stability == QDOT_STABLE && j->when.n > before.when && j->m.exact &&
-        !qdot_judgement_is_symmetric(j, j->m.n, j->m.Gamma, 1)) { /* gyroscopic terms may hold what no energy does */
+        /* gyroscopic terms may stabilise without a positive energy */
+        !qdot_judgement_is_symmetric(j, j->m.n, j->m.Gamma, 1)) {
         qdot_judgement_back_to(j, before);
         e->stability = QDOT_STABILITY_UNDECIDED;
         QDOT_TRY(qdot_stability_by_roots(j, e));

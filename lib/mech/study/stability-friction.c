@@ -34,9 +34,9 @@
 typedef struct {
     qdot_judgement j;
     qdot_equilibrium *e;
-    qdot_expr inside;     /* a LIST: the conditions of e and its range, strictly */
-    qdot_expr *limit;     /* [coordinates] the largest friction f_i; nil: there is none */
-    qdot_expr *force;     /* [coordinates] F_i, without friction */
+    qdot_expr inside;     /* a LIST of strict inequalities: the conditions of e and its range */
+    qdot_expr *limit;     /* [coordinates] largest friction force f_i; nil: no friction */
+    qdot_expr *force;     /* [coordinates] the other forces F_i */
 } held;
 
 /* --- coordinates held by friction ---------------------------------------------------------- */

@@ -25,11 +25,11 @@ static const double SMALL = 1e-9, AWAY = 1e-3, ALONE = 1e-5, DECAYS = 1e-6;
 
 struct qdot_stability_numbers {
     qdot_scene *s;
-    size_t n, c;    /* coordinates, constraints */
-    qdot_expr *e;   /* M, Gamma, H [n * n] each, then A [c * n] */
-    bool damped;    /* Gamma has values */
-    bool *told;     /* [n] stands in an equation at rest */
-    size_t m;       /* of symbols: jets 0, 1, 2, then multipliers, then the free parameter */
+    size_t n, c;    /* numbers of coordinates and constraints */
+    qdot_expr *e;   /* expressions M, Gamma, H [n * n] each, then A = df/dq [c * n] */
+    bool damped;    /* Gamma is defined at rest */
+    bool *told;     /* [n] the coordinate occurs in an equation at rest */
+    size_t m;       /* number of symbols: q, q', q'', multipliers, then the free parameter */
     qdot_expr *symbol;
     double *at, *value;
 };
@@ -105,7 +105,7 @@ qdot_stability_numbers_free(qdot_stability_numbers *x)
 /* The motion in the tangent space: y, first those in equations at rest; scaled so that M = 1. */
 typedef struct {
     size_t m, told;
-    double *M, *G, *H; /* [m * m] */
+    double *M, *G, *H; /* [m x m] mass, damping and stiffness matrix */
 } motion;
 
 /* Set the values of the symbols at the equilibrium. */
@@ -163,7 +163,8 @@ numeric_tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
     for (size_t k = 0; k < c && fine; k++)
         for (size_t i = 0; i < n; i++)
             gsl_matrix_set(A, k, i, x->value[3 * n * n + k * n + i]);
-    for (size_t i = 0; i < n && fine; i++) { /* free ones kept apart by rows of their own */
+    /* rows that separate coordinates that do not occur in the equations at rest */
+    for (size_t i = 0; i < n && fine; i++) {
         told += x->told[i];
         if (!x->told[i])
             gsl_matrix_set(A, c + i, i, 1);
@@ -293,13 +294,13 @@ normalise(motion *x)
     for (int k = 0; k < 2; k++) {
         double *X = k == 0 ? x->G : x->H;
 
-        for (size_t b = 0; b < m; b++) /* L^-1 X */
+        for (size_t b = 0; b < m; b++) /* replace X by L^-1 X, where M = L L^T */
             for (size_t a = 0; a < m; a++) {
                 for (size_t i = 0; i < a; i++)
                     X[a * m + b] -= x->M[a * m + i] * X[i * m + b];
                 X[a * m + b] /= x->M[a * m + a];
             }
-        for (size_t a = 0; a < m; a++) /* . L^-T */
+        for (size_t a = 0; a < m; a++) /* replace X by X L^-T */
             for (size_t b = 0; b < m; b++) {
                 for (size_t i = 0; i < b; i++)
                     X[a * m + b] -= x->M[b * m + i] * X[a * m + i];
@@ -339,7 +340,7 @@ stability_by_roots(const motion *x, double h, double g, bool definite)
     }
     if (verdict == QDOT_STABILITY_UNDECIDED && definite && x->told == x->m &&
         eigenvalue_range(x->G, x->m, x->m, &least, &most)) {
-        if (least > SMALL * fmax(most, fast)) /* complete damping */
+        if (least > SMALL * fmax(most, fast)) /* damping is positive definite */
             verdict = QDOT_STABLE;
         else if (least >= -1e-12 * fmax(most, fast))
             verdict = QDOT_STABLE_TO_FIRST_ORDER;
@@ -356,7 +357,7 @@ verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motio
     bool symmetric, definite;
 
     if (x->m == 0)
-        return QDOT_STABLE; /* nothing can move */
+        return QDOT_STABLE; /* no motion is possible */
     if (x->told == 0 || !normalise(x))
         return QDOT_STABILITY_UNDECIDED;
     if (all != NULL && roots(x, all->re, all->im))

@@ -10,22 +10,22 @@ typedef struct {
     qdot_judge *judge;
     qdot_scene *s;
     qdot_facts facts;
-    qdot_vec(qdot_expr) known; /* scalars that are positive */
-    qdot_vec(qdot_expr) when;  /* RELs */
+    qdot_vec(qdot_expr) known; /* expressions that are known to be positive */
+    qdot_vec(qdot_expr) when;  /* relations (REL) under which the verdict holds */
     /* Of a family of places, what was taken to be positive and holds its coordinates: a parameter is
      * generic, a coordinate runs through every value. */
     qdot_vec(qdot_expr) claims;
     qdot_linear_motion m;
-    qdot_expr *M, *Gamma, *H;  /* of those y whose place is told, [n * n] */
+    qdot_expr *M, *Gamma, *H; /* [n x n] matrices of M, Gamma, H for the coordinates y that the equations at rest determine */
     size_t n;
-    bool regular;              /* the constraints have the rank there that they have elsewhere */
+    bool regular; /* the constraints' Jacobian has full rank at the place, as elsewhere */
 } qdot_judgement;
 
 /* --- signs and conditions (stability-signs.c) ---- */
 
 typedef enum {
     QDOT_DEFINITE_POSITIVE,
-    QDOT_DEFINITE_CONDITIONAL, /* under conditions that were noted */
+    QDOT_DEFINITE_CONDITIONAL, /* positive definite under conditions that have been recorded in `when` */
     QDOT_NEGATIVE_SOMEWHERE,
     QDOT_DEFINITE_UNKNOWN
 } qdot_definite;

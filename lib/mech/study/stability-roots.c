@@ -284,9 +284,10 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
     if (potential && qdot_judgement_is_damping(j, x->n, x->Gamma))
         QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));
     if (!qdot_judgement_is_symmetric(j, x->n, x->Gamma, 1)) {
-        if (how == QDOT_NEGATIVE_SOMEWHERE) /* gyroscopic terms may hold it, */
+        if (how == QDOT_NEGATIVE_SOMEWHERE) /* H is not positive, but gyroscopic terms may stabilise */
             how = QDOT_DEFINITE_UNKNOWN;
-        if (how == QDOT_DEFINITE_CONDITIONAL && undamped && x->n == 2) { /* also where H is not definite */
+        /* two undamped coordinates may be stable although H is indefinite */
+        if (how == QDOT_DEFINITE_CONDITIONAL && undamped && x->n == 2) {
             qdot_judgement_back_to(j, before);
             QDOT_TRY(undamped_pair(j, x, &how));
             motion_settle(j, before, how, BOUNDED, what);
@@ -426,7 +427,7 @@ qdot_stability_by_roots(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(status);
     if (all == GROWS)
         e->stability = QDOT_UNSTABLE;
-    else if (j->n < n) /* a family of rests: a motion along it neither grows nor decays */
+    else if (j->n < n) /* a family of equilibria: motion along it neither grows nor decays */
         qdot_judgement_back_to(j, before);
     else if (all == DECAYS || (all == BOUNDED && j->m.exact))
         e->stability = QDOT_STABLE;

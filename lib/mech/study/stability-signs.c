@@ -105,7 +105,7 @@ qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdo
 {
     qdot_pool *pool = j->s->pool;
     const qdot_judgement_point before = qdot_judgement_mark(j);
-    qdot_expr not_negative = QDOT_NIL; /* conditions 0 <= minor for the leading minors before the present one */
+    qdot_expr not_negative = QDOT_NIL; /* the conditions 0 <= minor of all smaller leading minors */
 
     *how = QDOT_DEFINITE_UNKNOWN;
     for (size_t i = 0; i < n; i++) {

@@ -14,15 +14,15 @@ typedef struct {
     void *user;
     qdot_energy_law law;
     bool holonomic;     /* every constraint is holonomic, possibly in disguise (qdot_mech_is_holonomic) */
-    bool timed;         /* the equations depend on t */
-    bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
-    qdot_expr at_rest;  /* the equations at rest, a LIST */
+    bool timed;         /* the equations contain t explicitly */
+    bool velocity_kink; /* the equations contain |q'|, sign(q') ...: no linear part at rest */
+    qdot_expr at_rest;  /* a LIST of the equations at rest */
     /* dry friction, as in qdot_rest; nil if there is none */
     qdot_expr forces, friction, slips;
-    qdot_expr by_signs; /* the forces with their jumps as signs; nil: they are not known */
-    qdot_expr nonzero; /* a LIST of what the places divide by; nil: nothing */
-    qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
-    qdot_expr parameter; /* one that bind leaves free, with a value at each place; nil: none */
+    qdot_expr by_signs; /* forces with each jump written as a sign; nil: not known */
+    qdot_expr nonzero; /* a LIST of expressions by which the results are divided; nil: none */
+    qdot_stability_numbers *numbers; /* scratch for numerical places, allocated at first use */
+    qdot_expr parameter; /* parameter left free by `bind`, with a value at each place; nil: none */
 } qdot_judge;
 
 /* Prepare for a scene, whose equations at rest are a LIST; then judge each equilibrium: sets
@@ -74,7 +74,7 @@ typedef struct {
 /* The roots s of det(M s^2 + Gamma s + H) in the tangent space; re, im with room for twice the
  * coordinates. */
 typedef struct {
-    size_t n; /* 0: they are not known */
+    size_t n; /* number of roots; 0: not known */
     double *re, *im;
 } qdot_linear_roots;
 

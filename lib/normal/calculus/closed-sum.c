@@ -33,7 +33,7 @@ powers_up_to(range *r, long n, long p, qdot_expr *S)
 
     for (long i = 0; i <= p; i++) {
         qdot_expr sum = qdot_pow(pool, next, qdot_expr_int(pool, i + 1)),
-                  binomial = QDOT_ONE; /* (i+1, j) */
+                  binomial = QDOT_ONE; /* the binomial coefficient (i+1 over j) */
 
         for (long j = 0; j < i; j++) {
             sum = qdot_sub(pool, sum, qdot_mul(pool, binomial, S[j]));

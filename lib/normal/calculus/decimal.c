@@ -117,7 +117,7 @@ qdot_decimal(qdot_pool *pool, qdot_expr e, int digits, qdot_expr *value, double 
 
 typedef struct {
     qdot_pool *pool;
-    qdot_walk *walk; /* the value of a node: with decimals for what is constant */
+    qdot_walk *walk; /* walk.value: the node with all constant parts replaced by decimals */
     int digits;
 } writer;
 

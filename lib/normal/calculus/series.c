@@ -35,9 +35,9 @@ typedef struct {
     qdot_pool *pool;
     qdot_facts facts;
     qdot_expr ray;
-    size_t n;                                 /* of each of these: */
-    const qdot_expr *symbols;                 /* x */
-    qdot_vec(qdot_expr) places, steps, moves; /* a + ray u; u; x - a */
+    size_t n;                                 /* length of the three lists below */
+    const qdot_expr *symbols;                 /* the symbols x in which the series is expanded */
+    qdot_vec(qdot_expr) places, steps, moves; /* x on a ray, a + ray u; its direction u; the distance x - a */
     int depth;
 } course;
 
@@ -424,10 +424,10 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
         inner.c.at[0] = QDOT_ZERO;
     }
     s->least = 0;
-    for (long k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner */
+    for (long k = most; k >= 0 && status == QDOT_OK; k--) { /* Horner's scheme */
         if (s->c.n > 0)
             status = multiply(x, s, &inner, most);
-        while (status == QDOT_OK && s->least > 0) { /* from order 0 on */
+        while (status == QDOT_OK && s->least > 0) { /* add zeros so that the list starts at order 0 */
             laurent whole = {0};
 
             for (long i = 0; i < s->least + (long)s->c.n && status == QDOT_OK; i++)

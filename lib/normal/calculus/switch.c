@@ -10,7 +10,7 @@
 
 typedef struct {
     qdot_pool *pool;
-    qdot_expr ray; /* 0 at the point */
+    qdot_expr ray; /* the parameter along a ray; 0 at the point */
     const qdot_facts *facts;
 } place;
 
@@ -20,7 +20,7 @@ vanishes(const place *x, qdot_expr e)
     const qdot_expr zero = QDOT_ZERO;
     qdot_expr there = qdot_subs(x->pool, e, 1, &x->ray, &zero);
 
-    if (there == QDOT_NIL) { /* not defined there */
+    if (there == QDOT_NIL) { /* the expression is undefined at the point */
         (void)!qdot_pool_check(x->pool);
         return false;
     }

@@ -293,7 +293,7 @@ qdot_factor_join(qdot_field *f, qdot_factors *factors)
             fmpz_mpoly_clear(factors->poly + factors->n, f->ctx);
             factors->complete = false;
             any = true;
-            j = i; /* the product may go with one before */
+            j = i; /* the joined factor may also combine with an earlier one */
         }
     fmpz_mpoly_clear(product, f->ctx);
     return any;
@@ -314,7 +314,7 @@ qdot_factor_clear(qdot_field *f, qdot_factors *out)
 /* The positions of groups by their keys, as a hash table: open addressing, -1: free. */
 typedef struct {
     slong *at;
-    size_t size; /* a power of 2, at least twice the groups */
+    size_t size; /* a power of 2, at least twice the number of groups */
 } index_of;
 
 static size_t

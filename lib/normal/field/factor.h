@@ -12,7 +12,7 @@ typedef struct {
     fmpz_mpoly_struct *poly;
     slong *exp;
     slong n;
-    bool complete; /* every poly irreducible */
+    bool complete; /* every factor poly[i] is irreducible */
 } qdot_factors;
 
 /* Factor p, not zero; if that exceeds the bounds only integers and generators are split off. */
@@ -25,8 +25,8 @@ void qdot_factor_clear(qdot_field *f, qdot_factors *out);
 
 /* Terms of a polynomial grouped by their exponents in some variables. */
 typedef struct {
-    ulong *key;              /* [n * gens], 0 outside the variables asked for */
-    fmpz_mpoly_struct *poly; /* [n] without these variables */
+    ulong *key;              /* [n x gens] exponents in the chosen variables, 0 for the others */
+    fmpz_mpoly_struct *poly; /* [n] coefficient of each group, without the chosen variables */
     slong n;
 } qdot_groups;
 

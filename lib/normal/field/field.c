@@ -226,7 +226,7 @@ field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr 
     for (size_t i = 0; i < n; i++)
         QDOT_TRY(nodes_push(g, e[i]));
     while (g->depth > 0 || rows < f->circular.n_rows) {
-        if (g->depth == 0) { /* new angles may bring new roots */
+        if (g->depth == 0) { /* new angles may lead to new roots */
             rows = f->circular.n_rows;
             QDOT_TRY(add_offset_roots(f, g));
             continue;
@@ -326,7 +326,7 @@ compare_generators(const void *a, const void *b, void *pool)
     if (x->of != QDOT_NIL && x->of != y->of)
         return qdot_expr_compare(pool, x->of, y->of);
     return qdot_expr_compare(pool, y->expr,
-                             x->expr); /* accelerations before parameters */
+                             x->expr); /* reversed: accelerations come before parameters */
 }
 
 static void

@@ -24,9 +24,9 @@ static _Thread_local struct {
     bool on;
     qdot_status why;
     jmp_buf out;
-    qdot_scope own;     /* what memory.h allocated in this computation */
+    qdot_scope own;     /* blocks allocated through memory.h during this computation */
     qdot_scope library; /* what FLINT and GMP allocated since the thread began */
-    size_t cached;      /* bytes of `library` when the computation began */
+    size_t cached;      /* size of `library` at the start of the computation, in bytes */
 } guard;
 
 /* --- memory functions for FLINT and GMP -------------------------------------------------- */
@@ -165,7 +165,7 @@ give_back_aligned(void *block)
 
 static struct {
     pthread_mutex_t lock;
-    int users; /* computations that run; the first puts ours in place, the last takes them away */
+    int users; /* computations running; the first installs our memory functions, the last restores the old ones */
     void *(*take)(size_t), *(*take_clear)(size_t, size_t), *(*enlarge)(void *, size_t);
     void (*give_back)(void *);
     void *(*take_aligned)(size_t, size_t);
@@ -228,7 +228,7 @@ typedef struct {
     void (*work)(void *user);
     void *user;
     qdot_status status;
-    qdot_error error; /* the last failure: of who asks, then of who answers */
+    qdot_error error; /* the last failure: first of the caller's thread, then of this one */
 } worker;
 
 /* This thread's worker. When the thread ends, the destructor of the key ends the worker and frees what FLINT has cached
@@ -280,7 +280,7 @@ compute_for(void *user)
         w->error = *qdot_last_error();
         pthread_cond_signal(&w->changed);
     }
-    if (begun) /* FLINT is not asked: when left it may have been in the middle of a change */
+    if (begun) /* do not call FLINT: it may have been interrupted while it changed its state */
         qdot_scope_discard(&guard.library);
     pthread_mutex_unlock(&w->lock);
     return NULL;

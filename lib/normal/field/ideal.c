@@ -173,7 +173,8 @@ ideal_complete(qdot_ideal *ideal, qdot_field *f)
                 continue;
             status = polynomial_strip(f, s, ideal->generic);
             if (status == QDOT_OK && fmpz_mpoly_is_fmpz(s, f->ctx))
-                continue; /* contradictory relations prove nothing here */
+                /* the relations contradict each other: nothing may be concluded from them */
+                continue;
             if (status == QDOT_OK)
                 status = ideal_add(ideal, f, s);
         }

@@ -10,9 +10,9 @@
 
 /* Start with `qdot_ideal i = {0};`. */
 typedef struct {
-    fmpz_mpoly_struct **poly; /* [n] */
+    fmpz_mpoly_struct **poly; /* [n] the polynomials of the Groebner basis */
     size_t n, capacity;
-    bool generic; /* no relation binds parameters alone */
+    bool generic; /* no relation contains parameters only */
 } qdot_ideal;
 
 /* Make the ideal of relation[n] (numerators of their values in f) and of f's rules. */

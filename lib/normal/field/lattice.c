@@ -186,8 +186,8 @@ combination(qdot_lattice *l, qdot_pool *pool, size_t n, const qdot_lattice_term 
 }
 
 struct direction {
-    size_t row; /* the row that shows it; its scalar is 1 */
-    fmpq unit;  /* gcd of the scalars */
+    size_t row; /* the row that defines the direction, with scalar 1 */
+    fmpq unit;  /* greatest common divisor of the rows' scalars */
 };
 
 /* Whether row b is a rational multiple of row a; *q is b/a. Terms are sorted by

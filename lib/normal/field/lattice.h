@@ -22,10 +22,10 @@ typedef struct {
 
 typedef struct {
     qdot_expr arg;
-    fmpq pi;                 /* the multiple of pi, if its denominator divides 12 */
-    qdot_lattice_term *term; /* [n] */
+    fmpq pi;                 /* rational multiple of pi in `arg`, if its denominator divides 12 */
+    qdot_lattice_term *term; /* [n] the other terms of `arg` */
     size_t n, capacity;
-    slong *at; /* [n_bases] its coordinates */
+    slong *at; /* [n_bases] integer coordinates: arg = pi + sum of at[i] base[i] */
 } qdot_lattice_row;
 
 /* Start with `qdot_lattice l = {0};`. */
@@ -34,9 +34,9 @@ typedef struct {
     size_t n_rows, rows_capacity;
     qdot_expr *mono;
     size_t n_monos, monos_capacity;
-    qdot_expr *base; /* [n_bases] */
+    qdot_expr *base; /* [n_bases] the base angles */
     size_t n_bases;
-    qdot_map rows, monos; /* their numbers, once there are many */
+    qdot_map rows, monos; /* indices of rows and monomials by expression, used if there are many */
 } qdot_lattice;
 
 /* Add an argument (a sum of terms; twice is once). `offsets`: split multiples of pi off.

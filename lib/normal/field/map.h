@@ -8,7 +8,7 @@
 /* Start with `qdot_map m = {0};`. */
 typedef struct {
     struct {
-        qdot_expr key; /* nil: free */
+        qdot_expr key; /* id of the expression; nil: this slot is free */
         uint32_t value;
     } * at;
     uint32_t n, mask;

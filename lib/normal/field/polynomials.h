@@ -6,9 +6,9 @@
 
 /* Start with `qdot_polynomials t = {0};`. */
 typedef struct {
-    fmpz_mpoly_struct *at; /* [n] */
-    uint64_t *hash;        /* [n] */
-    uint32_t *place;       /* [places] by hash: index in `at` + 1, 0: free */
+    fmpz_mpoly_struct *at; /* [n] the polynomials */
+    uint64_t *hash;        /* [n] their hash values */
+    uint32_t *place; /* [places] open hash table; an entry is the index in `at` + 1, 0: free */
     size_t n, places, at_capacity, hash_capacity;
 } qdot_polynomials;
 

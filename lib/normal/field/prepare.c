@@ -11,8 +11,8 @@
 #include "normal/field/field.h"
 #include "normal/field/split.h"
 
-#define WORK 400000     /* for one argument */
-#define ALL_WORK 20000000 /* for those of one expression */
+#define WORK 400000     /* budget of operations for one argument */
+#define ALL_WORK 20000000 /* budget of operations for all arguments of one expression */
 #define MOST_MULTIPLE 12
 #define MOST_PARTS 16
 
@@ -111,7 +111,8 @@ whole_and_rest(qdot_field *f, const qdot_ratio *x)
     if (qdot_field_charge(f, 4 * fmpz_mpoly_length(x->n, f->ctx),
                           fmpz_mpoly_length(d, f->ctx))) {
         fmpz_mpoly_quasidivrem(fmpq_numref(c), q, r, x->n, d, f->ctx);
-        fmpz_mul(fmpq_denref(c), fmpq_denref(c), fmpq_numref(c)); /* s n = q d + r */
+        /* s n = q d + r, so the integer part is divided by s */
+        fmpz_mul(fmpq_denref(c), fmpq_denref(c), fmpq_numref(c));
         fmpz_one(fmpq_numref(c));
         fmpq_canonicalise(c);
         over = qdot_expr_fmpq(f->pool, c);

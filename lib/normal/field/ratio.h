@@ -12,7 +12,7 @@
 #include "normal/field/map.h"
 
 typedef enum {
-    QDOT_GEN_PLAIN, /* a symbol, a function without rules */
+    QDOT_GEN_PLAIN, /* a symbol, or a function for which there are no rules */
     QDOT_GEN_ROOT,
     QDOT_GEN_ABS,
     QDOT_GEN_SIN,
@@ -25,10 +25,10 @@ typedef enum {
 typedef struct {
     qdot_gen_kind kind;
     bool fast; /* a velocity, acceleration, multiplier, momentum, differential, delta */
-    qdot_expr expr; /* what it stands for */
-    qdot_expr of;   /* ROOT, ABS: b; trigonometric, EXP: the base angle */
-    uint32_t order; /* ROOT: q */
-    uint32_t pair;  /* SIN <-> COS, SINH <-> COSH: the other one's variable */
+    qdot_expr expr; /* the expression that the generator represents */
+    qdot_expr of;   /* ROOT, ABS: the argument b; sine, cosine, EXP: the base angle */
+    uint32_t order; /* for ROOT: the degree q of the root */
+    uint32_t pair;  /* SIN <-> COS, SINH <-> COSH: variable of the other function of this angle */
 } qdot_gen;
 
 /* A quotient n/d of polynomials; d is not zero. */
@@ -39,27 +39,27 @@ typedef struct {
 typedef struct {
     slong var;
     slong power;
-    fmpz_mpoly_t poly; /* var^power - ... */
+    fmpz_mpoly_t poly; /* the relation var^power - ... = 0 */
 } qdot_rule;
 
 typedef enum {
     QDOT_FIELD_GOES,
-    QDOT_FIELD_OVER,      /* past the budget */
+    QDOT_FIELD_OVER,      /* the budget is used up */
     QDOT_FIELD_UNDEFINED, /* a denominator is zero everywhere */
-    QDOT_FIELD_FAILED     /* no memory, interrupted, the pool failed: see `status` */
+    QDOT_FIELD_FAILED     /* out of memory, interrupted, or the pool failed: see `status` */
 } qdot_field_state;
 
 typedef struct {
     qdot_pool *pool;
     fmpz_mpoly_ctx_t ctx;
     bool has_ctx;
-    slong n;       /* generators */
-    qdot_gen *gen; /* [n] */
+    slong n;       /* number of generators */
+    qdot_gen *gen; /* [n] the generators, one for each variable of the polynomials */
     qdot_rule *rule;
     size_t n_rules;
     qdot_lattice circular, hyperbolic, exponential;
-    qdot_map vars;  /* generator expression -> variable */
-    qdot_map nodes; /* node -> index in value */
+    qdot_map vars;  /* maps an expression to the variable of its generator */
+    qdot_map nodes; /* maps a node to its index in `value` */
     qdot_expr *node;
     qdot_ratio *value;
     size_t n_nodes;
@@ -92,7 +92,7 @@ void qdot_field_mul(qdot_field *f, fmpz_mpoly_t a, const fmpz_mpoly_t b,
 void qdot_field_gcd(qdot_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a,
                     const fmpz_mpoly_t b);
 
-void qdot_ratio_init(qdot_field *f, qdot_ratio *r); /* 0/1 */
+void qdot_ratio_init(qdot_field *f, qdot_ratio *r); /* set *r to 0/1 */
 void qdot_ratio_clear(qdot_field *f, qdot_ratio *r);
 void qdot_ratio_set(qdot_field *f, qdot_ratio *r, const qdot_ratio *a);
 void qdot_ratio_add(qdot_field *f, qdot_ratio *r, const qdot_ratio *a,

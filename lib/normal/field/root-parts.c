@@ -77,7 +77,7 @@ struct placed {
 typedef struct {
     qdot_pool *pool;
     qdot_root_parts *to;
-    size_t first; /* row */
+    size_t first; /* index of the first row that this call adds */
     qdot_vec(struct placed) placed;
 } division;
 

@@ -21,8 +21,8 @@ struct parts {
         long m;
     } * at;
     size_t n, capacity;
-    qdot_expr rest; /* factors of unknown sign that cannot be told apart; 1: none */
-    bool negative;  /* of parts of any sign: -1 times all this */
+    qdot_expr rest; /* product of factors whose single signs are unknown; 1: none */
+    bool negative;  /* the value is minus the product; for parts of any sign */
 };
 
 static void

@@ -50,7 +50,8 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
     fmpz_one(fmpq_numref(k));
     e = scaled_by(f->pool, k, qdot_form_coefficient(form, whole));
     if (out != QDOT_NIL &&
-        qdot_expr_size(f->pool, out) <= qdot_expr_size(f->pool, e)) /* 2*(1 - x)*v' */
+        /* if not longer, with the number in front: 2*(1 - x)*v' */
+        qdot_expr_size(f->pool, out) <= qdot_expr_size(f->pool, e))
         e = out;
     fmpz_clear(content);
     fmpq_clear(k);
@@ -313,7 +314,8 @@ say_by_degree(qdot_form *form, const qdot_groups *groups, const fmpq_t c)
     for (slong i = 0; i < groups->n; i++) {
         if (degree_of(groups, i, f->n) > MOST_DEGREE)
             return QDOT_NIL;
-        for (slong v = 0; v < f->n; v++) /* an energy, not an equation of motion */
+        /* polynomials in velocities only: an energy, not an equation of motion */
+        for (slong v = 0; v < f->n; v++)
             if (groups->key[i * f->n + v] > 0 &&
                 !(qdot_expr_node(f->pool, f->gen[v].expr)->holds & QDOT_HAS_VELOCITY))
                 return QDOT_NIL;
@@ -399,7 +401,7 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     if (groups.n > 1) {
         qdot_expr out;
 
-        if (form->quotient && fmpz_is_one(fmpq_denref(c))) /* 2*(u*u' + v*v')/d */
+        if (form->quotient && fmpz_is_one(fmpq_denref(c))) /* keep the integer as a factor: 2*(u*u' + v*v')/d */
             qdot_form_keep(
                 pool, &best,
                 scaled_by(pool, c, say_collected(form, &groups, unit, one, false)));
@@ -410,7 +412,7 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
             qdot_expr inner = say_collected(form, &groups, g, one, merged);
 
             qdot_form_keep(pool, &best, qdot_mul(pool, scaled_by(pool, c, out), inner));
-            if (!all_moving(f, &groups)) /* r^2*(m*phi' + 1/2*q*B) */
+            if (!all_moving(f, &groups)) /* a common factor in front: r^2*(m*phi' + 1/2*q*B) */
                 qdot_form_keep(
                     pool, &best,
                     qdot_mul(pool, out, say_collected(form, &groups, g, c, merged)));

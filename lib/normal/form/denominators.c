@@ -19,9 +19,9 @@ enum { MOST_PARTS = 40, MOST_TURNS = 4 };
 struct part {
     qdot_ratio r;
     fmpq_t k;
-    slong key; /* of the group */
+    slong key; /* index of the group of terms to which the part belongs */
     bool said;
-    qdot_expr own, shared; /* k n/d as a product, the latter of sums to some powers */
+    qdot_expr own, shared; /* k n/d as a product: with its own denominator; with a common one, of powers of sums */
 };
 
 struct parts {
@@ -30,7 +30,7 @@ struct parts {
     struct part at[MOST_PARTS];
     slong n;
     qdot_groups groups;
-    fmpz_mpoly_t above, below; /* what all numerators, all denominators share */
+    fmpz_mpoly_t above, below; /* factors common to all numerators; to all denominators */
 };
 
 static slong

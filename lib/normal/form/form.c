@@ -337,7 +337,7 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
     if (fmpz_mpoly_length(p, f->ctx) <= 1)
         return qdot_field_expr(f, p);
     best = sum_or_squares(form, p);
-    if (fmpz_mpoly_length(p, f->ctx) <= 4) { /* sign(x)*(1 - abs(x)) is sign(x) - x */
+    if (fmpz_mpoly_length(p, f->ctx) <= 4) { /* multiply out short products: sign(x)*(1 - abs(x)) is sign(x) - x */
         qdot_expr sum = qdot_field_expr(f, p);
 
         if (sum != QDOT_NIL && best != QDOT_NIL &&
@@ -417,7 +417,7 @@ say_groups(qdot_form *form, const fmpz_mpoly_t p, bool by_trig)
         if (!by_trig) {
             sum =
                 qdot_add(f->pool, sum, say_item(form, items.at[i].sum, items.at[i].key));
-        } else { /* the trigonometric sum in parts */
+        } else { /* write the trigonometric sum group by group */
             qdot_items parts = {0};
             fmpz_mpoly_t unit;
             qdot_expr inner = QDOT_ZERO;
@@ -490,7 +490,7 @@ say_factors(qdot_form *form, const fmpz_mpoly_t p)
 
     if (qdot_factor(f, &factors, p) == QDOT_OK) {
         e = product_of_sums(form, &factors);
-        if (qdot_factor_join(f, &factors)) /* cosh(u)^2 - cos(v)^2 */
+        if (qdot_factor_join(f, &factors)) /* two factors are one difference again: cosh(u)^2 - cos(v)^2 */
             qdot_form_keep(f->pool, &e, product_of_sums(form, &factors));
     }
     qdot_factor_clear(f, &factors);
@@ -520,7 +520,7 @@ qdot_form_coefficient(qdot_form *form, const fmpz_mpoly_t p)
     if (factor != QDOT_ONE && fmpz_mpoly_length(rest, f->ctx) > 1)
         qdot_form_keep(pool, &best, qdot_mul(pool, factor, say_sum(form, rest)));
     if (fmpz_mpoly_length(rest, f->ctx) >= 4 && fmpz_mpoly_length(rest, f->ctx) <= 8) {
-        fmpq_t one; /* (2 + v*cos(u/2))^2 + v^2/4 */
+        fmpq_t one; /* try completed squares: (2 + v*cos(u/2))^2 + v^2/4 */
 
         fmpq_init(one);
         fmpq_one(one);

@@ -12,12 +12,12 @@
 /* The kinds of variables of a field, and the forms of polynomials found so far. */
 typedef struct {
     qdot_field *f;
-    bool *fast, *trig; /* [gens] */
+    bool *fast, *trig; /* [gens] the variable is a velocity or the like (ratio.h); is a sine or cosine */
     qdot_polynomials known;
-    qdot_expr *said; /* [known.n] the form of each */
+    qdot_expr *said; /* [known.n] the shortest form found for each polynomial */
     size_t said_capacity;
-    int depth, horner; /* of products within products, of powers taken out */
-    bool quotient; /* the polynomial is a numerator over a denominator */
+    int depth, horner; /* nesting depth of products; number of powers taken out of sums */
+    bool quotient; /* the polynomial is the numerator of a quotient */
 } qdot_form;
 
 QDOT_MUST_CHECK qdot_status qdot_form_begin(qdot_form *form, qdot_field *f);

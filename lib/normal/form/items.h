@@ -5,7 +5,7 @@
 #include "normal/field/field.h"
 
 typedef struct {
-    fmpz_mpoly_t key, sum; /* key primitive, its leading coefficient positive */
+    fmpz_mpoly_t key, sum; /* a summand is key * sum; key is primitive with positive leading coefficient */
 } qdot_item;
 
 /* Start with `qdot_items i = {0};`. */

@@ -36,7 +36,7 @@ tangents(qdot_pool *pool, qdot_expr e, void *user)
             else if (qdot_expr_node(pool, s)->op != QDOT_SIN ||
                      qdot_expr_node(pool, c)->op != QDOT_COS)
                 continue;
-            if (quotient == QDOT_TAN && m < 0 && k > 0) { /* cot */
+            if (quotient == QDOT_TAN && m < 0 && k > 0) { /* cos^k sin^m with m < 0: write cot */
                 quotient = QDOT_COT;
                 m = -m;
                 k = -k;

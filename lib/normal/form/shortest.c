@@ -32,7 +32,7 @@ struct simplifier {
     qdot_field *f;
     qdot_form form;
     qdot_expr best;
-    bool too_long; /* for any form of the quotient to be tried */
+    bool too_long; /* the quotient is too long to try any of its forms */
 };
 
 static void
@@ -268,9 +268,9 @@ is_beyond_doubles(qdot_pool *pool, qdot_expr e, bool below)
 
 struct request {
     const qdot_facts *facts;
-    int64_t work; /* the budget of one scalar */
-    bool spent;   /* some budget was */
-    qdot_map simplified; /* what stands inside functions and under roots -> its simplest form */
+    int64_t work; /* budget of operations for one scalar */
+    bool spent;   /* some budget was used up */
+    qdot_map simplified; /* maps an argument of a function or root to its simplest form */
 };
 
 /* The shortest form of e; arguments of functions and bases of roots are not changed. */
@@ -459,7 +459,7 @@ simplify_by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *w
                            *whole ? parts.entries.at[k]
                                   : shorten_arguments(pool, shortest_outer(pool, parts.entries.at[k], request),
                                                       request));
-        if (request->spent) /* one part is past the budget: similar ones would be, too */
+        if (request->spent) /* if one part exceeds the budget, similar parts would, too */
             sum = e;
         request->spent |= spent;
         /* the expanded sum counts only if it still has roots or was simplified part by part */

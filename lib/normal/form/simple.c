@@ -151,9 +151,9 @@ qdot_simple_is_done(const qdot_pool *pool, qdot_expr e)
 
 /* A product of powers of symbols and of two sines and cosines of coordinates. */
 typedef struct {
-    qdot_expr angle[2]; /* in the order of the product; a square has the same twice */
+    qdot_expr angle[2]; /* the two angles, in the order of the product; equal for a square */
     bool sine[2];
-    uint32_t at[2]; /* where in the product */
+    uint32_t at[2]; /* positions of the two functions in the product */
 } two_angles;
 
 static bool
@@ -238,7 +238,7 @@ sum_of_angles(qdot_pool *pool, qdot_expr e)
     if (!same && c[1] != qdot_neg(pool, c[0]))
         return QDOT_NIL;
     if (t.angle[0] == t.angle[1] && (!same || t.sine[0] != t.sine[1]))
-        return QDOT_NIL; /* of a double angle */
+        return QDOT_NIL; /* sin a cos a: double angles are treated elsewhere */
     if (!shared_powers(pool, term[0], &t, term[1], &u, &front))
         return QDOT_NIL;
     if (t.angle[0] == t.angle[1])

@@ -14,8 +14,8 @@ enum { MOST_TERMS = 24 };
 struct terms {
     qdot_field *f;
     slong n;
-    ulong *exp; /* [n * f->n] */
-    fmpz *c;    /* [n] */
+    ulong *exp; /* [n x gens] exponents of each term */
+    fmpz *c;    /* [n] coefficient of each term */
     bool used[MOST_TERMS];
 };
 

@@ -176,7 +176,8 @@ fourier_times(struct fourier *y, const struct fourier *x, int j, bool sine, bool
         down[j]--;
         fmpq_div_2exp(s, &x->at[i].s, 1);
         fmpq_div_2exp(c, &x->at[i].c, 1);
-        if (!sine) { /* s c' = (s+ + s-)/2, c c' = (c+ + c-)/2 */
+        /* with s, c sine and cosine, s+, c+ of the sum of angles: s c' = (s+ + s-)/2, c c' = (c+ + c-)/2 */
+        if (!sine) {
             fourier_add(y, up, s, c);
             fourier_add(y, down, s, c);
             continue;

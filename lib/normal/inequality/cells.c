@@ -28,23 +28,23 @@ typedef qdot_vec(fmpz_mpoly_struct) polynomials;
 typedef struct {
     qdot_pool *pool;
     qdot_field f;
-    qdot_expr *all; /* [1 + n_conditions + n_bases]: e, gaps, bases of even roots */
+    qdot_expr *all; /* [1 + n_conditions + n_bases] e, gaps of conditions, arguments of even roots */
     size_t n_conditions, n_bases;
-    qdot_expr unused[MOST_CONDITIONS]; /* gaps of weak conditions that are asked of counterexamples alone */
+    qdot_expr unused[MOST_CONDITIONS]; /* gaps of conditions that only a counterexample must satisfy */
     size_t n_unused;
     bool weak[MOST_CONDITIONS];
-    slong symbol[MOST_SYMBOLS]; /* variables of the field, the last is projected first */
+    slong symbol[MOST_SYMBOLS]; /* variables of the field; the last is eliminated first */
     slong n;
     polynomials level[MOST_SYMBOLS];
-    polynomials zero; /* factors of the norm of e */
+    polynomials zero; /* factors of the norm of e, whose zeros include those of e */
     fmpq x[MOST_SYMBOLS];
-    slong chosen; /* of them */
-    arb_t root;   /* with one symbol: in place of x[0] */
+    slong chosen; /* number of x that have a value */
+    arb_t root;   /* if there is one symbol: an algebraic number in place of x[0] */
     bool at_root;
     qdot_ball ball;
     int64_t *work; /* the remaining budget */
     bool too_much, any, inside, touches;
-    bool denied; /* e < 0 was found where a condition that is not used does not hold, or may not */
+    bool denied; /* e < 0 at a point where an unused condition fails or is undecided */
     qdot_expr point;
 } cells;
 
@@ -159,7 +159,7 @@ to_norm(cells *c, fmpz_mpoly_t p)
     qdot_field *f = &c->f;
 
     for (size_t i = 0; i < f->n_rules && !c->too_much; i++) {
-        const qdot_rule *r = &f->rule[i]; /* outer ones first */
+        const qdot_rule *r = &f->rule[i]; /* replace outer roots first */
 
         if (fmpz_mpoly_degree_si(p, r->var, f->ctx) == 0)
             continue;
@@ -348,7 +348,7 @@ look_here(cells *c)
     c->any = true;
     if (s >= 0)
         return true;
-    if (!unused_hold(c)) { /* no counterexample; another point may be one */
+    if (!unused_hold(c)) { /* not a counterexample: an unused condition fails here */
         c->denied = true;
         return true;
     }
@@ -477,7 +477,7 @@ choose_values_from(cells *c, slong k)
         c->chosen = k + 1;
         if (!charge(c, 20 * (int64_t)c->ball.walk.n))
             break;
-        if (k + 1 < c->n) { /* what is known to fail already */
+        if (k + 1 < c->n) { /* skip this value if a condition already fails */
             qdot_ball_eval(&c->ball, 64, cells_value_of, c);
             if (cells_look_around(c) == OUTSIDE)
                 continue;
@@ -591,7 +591,7 @@ gather_bases(cells *c)
         if (f->gen[v].kind != QDOT_GEN_ROOT || qdot_is_constant(c->pool, of))
             continue;
         if (c->n > 1 && !(qdot_expr_node(c->pool, of)->sign & QDOT_GE0) && !qdot_gap_is_linear(&c->f, of))
-            return false; /* where it is 0 there may be none beside it where it is not */
+            return false; /* points where the argument is 0 might be isolated */
         more = qdot_realloc(c->all, (n + 1) * sizeof *more);
         if (more == NULL)
             return false;

@@ -25,17 +25,17 @@
 #include "expr/id.h"
 
 typedef struct {
-    qdot_expr gap; /* > 0, or >= 0 if weak */
+    qdot_expr gap; /* the condition gap > 0, or gap >= 0 if `weak` */
     bool weak;
 } qdot_cells_condition;
 
 typedef enum {
-    QDOT_CELLS_UNKNOWN,  /* too large, or outside the class */
-    QDOT_CELLS_EMPTY,    /* the conditions leave no open set */
+    QDOT_CELLS_UNKNOWN,  /* not decided: too large, or outside of the class that can be treated */
+    QDOT_CELLS_EMPTY,    /* the conditions are satisfied on no open set */
     QDOT_CELLS_POSITIVE, /* e > 0 wherever it is defined */
     QDOT_CELLS_NOT_NEGATIVE,
-    QDOT_CELLS_NEGATIVE, /* at the point *at */
-    QDOT_CELLS_ZERO      /* one symbol: e >= 0, and e = 0 at the point *at */
+    QDOT_CELLS_NEGATIVE, /* e < 0 at the point *at */
+    QDOT_CELLS_ZERO      /* one symbol only: e >= 0, and e = 0 at the point *at */
 } qdot_cells;
 
 /* *at: a LIST of equations symbol = rational. *work, about 20 ns each, is used up; past it nothing is

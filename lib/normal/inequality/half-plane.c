@@ -17,7 +17,7 @@ enum { FIRST = 128, LAST = 2048, SURE = 1 << 16, MOST_DEGREE = 64 };
 typedef struct {
     qdot_pool *pool;
     size_t n;
-    const qdot_expr *of[3]; /* H, G, M: by powers of s */
+    const qdot_expr *of[3]; /* matrices H, G, M [n x n]: the coefficients of s^0, s^1, s^2 */
     bool even;
     qdot_half_plane found;
     qdot_status status;
@@ -150,7 +150,7 @@ exactly(question *q)
     fmpz_poly_init(p);
     fmpz_poly_factor_init(parts);
     integer_polynomial(q, p);
-    if (fmpz_poly_degree(p) == 2 * (slong)q->n) { /* else M is singular */
+    if (fmpz_poly_degree(p) == 2 * (slong)q->n) { /* full degree 2 n; otherwise M is singular */
         q->found.decays = q->found.bounded = true;
         fmpz_poly_factor_squarefree(parts, p);
         for (slong i = 0; i < parts->num; i++)

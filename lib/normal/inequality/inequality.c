@@ -221,7 +221,7 @@ question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bo
 {
     qdot_cells result = QDOT_CELLS_UNKNOWN;
     qdot_expr point = QDOT_NIL;
-    bool by_rows; /* decided by elimination, which tells > from >= */
+    bool by_rows; /* decided by elimination of linear inequalities, which distinguishes > and >= */
 
     *proved = false;
     if (!q->too_much && q->e != QDOT_NIL && qdot_is_constant(pool, q->e)) {

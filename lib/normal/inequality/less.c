@@ -272,7 +272,7 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
         if (gap == QDOT_ZERO)
             continue;
         rest = qdot_div(pool, d, gap);
-        if (!sharp) /* where the gap is 0, d is if the ratio has a value there */
+        if (!sharp) /* where the gap is 0, d = 0 if the ratio d/gap is defined there */
             rest = qdot_shortest(pool, rest, facts);
         if ((sharp || divides_by_nonzero(pool, rest)) && proved(pool, rest, strict, facts))
             return true;

@@ -17,15 +17,15 @@ enum { MOST_SYMBOLS = 12, MOST_ROWS = 160 };
 
 /* The inequality c[0] x[0] + ... + c[width - 2] x[width - 2] + c[width - 1] > 0, or >= 0 if weak. */
 typedef struct {
-    fmpz *c; /* [width] */
+    fmpz *c; /* [width] coefficients of the inequality */
     bool weak;
 } row;
 
 typedef struct {
     slong width;
     qdot_vec(row) row;
-    bool wrong;    /* a row without symbols does not hold */
-    bool too_much; /* rows, or no memory */
+    bool wrong;    /* contradiction: a row without symbols is false */
+    bool too_much; /* too many rows, or out of memory */
 } rows;
 
 static void

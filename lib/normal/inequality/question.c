@@ -251,7 +251,7 @@ put_whole_parts(qdot_pool *pool, qdot_expr e, void *user)
     switch (qdot_expr_node(s->pool, e)->op) {
     case QDOT_FLOOR:
         y = bounded_unknown(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
-        stand_for(s, e, y); /* one more name */
+        stand_for(s, e, y); /* replaces e by the new symbol y */
         return qdot_sub(s->pool, qdot_expr_arg(s->pool, e, 0), y);
     case QDOT_MOD:
         m = qdot_expr_arg(s->pool, e, 1);
@@ -294,7 +294,7 @@ qdot_question_reduce(qdot_pool *pool, qdot_question *q)
         else
             q->condition[i - 1].gap = now;
     }
-    for (size_t i = n; i < q->n && !q->too_much; i++) /* bounds by pi */
+    for (size_t i = n; i < q->n && !q->too_much; i++) /* conditions that contain pi: bound pi by rationals */
         q->condition[i].gap = qdot_subs(pool, q->condition[i].gap, s.n, s.from, s.to);
     q->too_much |= !qdot_field_goes(&f);
     qdot_field_end(&f);

@@ -14,9 +14,9 @@ typedef struct {
     qdot_cells_condition condition[QDOT_QUESTION_CONDITIONS];
     size_t n;
     bool too_much;
-    int64_t *work; /* rest of the budget of all questions */
-    bool chosen; /* a branch of an if: points that belong to no open set count too */
-    bool exact; /* a counterexample is one of the original question too */
+    int64_t *work; /* rest of the budget of operations for all questions */
+    bool chosen; /* inside an if(...): also isolated points and curves count */
+    bool exact; /* a counterexample also refutes the question before the substitutions */
 } qdot_question;
 
 void qdot_question_demand(qdot_question *q, qdot_expr gap, bool weak);

@@ -27,11 +27,11 @@ typedef struct {
 } part;
 
 typedef struct {
-    qdot_vec(part) stack; /* still to be searched; the leftmost is the last */
+    qdot_vec(part) stack; /* intervals still to be searched, the leftmost on top */
     slong scale;
-    bool minus; /* the zeros are those of p(-x) */
+    bool minus; /* negative zeros: search p(-x) */
     double work;
-    arb_ptr zero; /* [degree]; balls whose ends are those of the intervals, or exact */
+    arb_ptr zero; /* [degree] zeros found: balls that cover their intervals, or exact */
     slong found;
 } isolation;
 
@@ -195,7 +195,7 @@ sign_at(const fmpz_poly_t p, const arf_t at)
     arb_init(v);
     arb_set_arf(x, at);
     for (slong prec = 64; sign == 2; prec *= 2) {
-        if (prec > 4096) { /* probably 0: evaluate it exactly */
+        if (prec > 4096) { /* probably 0: evaluate exactly */
             arb_fmpz_poly_evaluate_arb_horner(v, p, x, ARF_PREC_EXACT);
             sign = arf_sgn(arb_midref(v));
             break;
@@ -227,7 +227,7 @@ bisect(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
     arb_get_lbound_arf(lo, isolated, ARF_PREC_EXACT);
     arb_get_ubound_arf(hi, isolated, ARF_PREC_EXACT);
     left = sign_at(p, lo);
-    if (left == 0) { /* the end is another zero of p: the slope there has the sign of p behind it */
+    if (left == 0) { /* the interval's end is another zero of p: use the sign of p just inside */
         fmpz_poly_t slope;
 
         fmpz_poly_init(slope);
@@ -286,7 +286,7 @@ qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros)
     fmpz_poly_set(q, p);
     if (fmpz_is_zero(q->coeffs)) {
         fmpz_poly_shift_right(q, q, 1);
-        s.found = 1; /* 0 itself */
+        s.found = 1; /* the zero x = 0 */
     }
     for (int i = 0; i < 2 && good; i++) {
         s.minus = i == 1;

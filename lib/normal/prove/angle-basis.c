@@ -21,9 +21,9 @@ struct basis {
     size_t n, points;
     qdot_expr column[MOST + 1];
     double value[MOST + 1][POINTS];
-    double base[MOST + 1][POINTS]; /* orthogonal, of length 1; of independent columns */
-    double share[MOST + 1][MOST + 1]; /* column j = sum share[j][i] base[i] + ... */
-    double length[MOST + 1];          /* of what is left of it; 0: dependent */
+    double base[MOST + 1][POINTS]; /* orthonormal vectors from the independent columns */
+    double share[MOST + 1][MOST + 1]; /* coefficients: column j = sum_i share[j][i] base[i] + remainder */
+    double length[MOST + 1]; /* length of the remainder of a column; 0: the column is dependent */
 };
 
 static bool

@@ -154,7 +154,7 @@ add_angle(struct sum *s, long k, qdot_expr e)
         other = root_of(pool, qdot_add(pool, QDOT_ONE, squared(pool, u)));
         sum_multiply(s, k, QDOT_ONE, u, other);
         return;
-    case QDOT_ATAN2: /* of y, x */
+    case QDOT_ATAN2: /* arguments are y, x */
         other = qdot_expr_arg(pool, e, 1);
         sum_multiply(s, k, other, u,
                      root_of(pool, qdot_add(pool, squared(pool, other), squared(pool, u))));
@@ -265,7 +265,7 @@ is_zero_sum(const qdot_zero *z, const fmpz_mpoly_t p, ulong *exp, bool *zero)
     fmpz_init(g);
     if (shared_factor(f, p, g, exp)) {
         put_together(f, &s, p, g, exp);
-        if (qdot_pool_failed(pool)) { /* no value, no proof */
+        if (qdot_pool_failed(pool)) { /* undefined: nothing can be proved */
             status = qdot_grave(qdot_pool_check(pool));
         } else if (stays_within(&s, 1))
             status = z->prove(pool, s.im, QDOT_ZERO, z->n_positive, z->positive,

@@ -108,12 +108,12 @@ sign_key(qdot_pool *pool, qdot_expr u, int *sign)
 struct cases {
     qdot_pool *pool;
     qdot_expr side[2];
-    qdot_expr leaf[LEAVES]; /* arguments of max and min */
-    qdot_expr sign[SIGNS];  /* keys of arguments of abs, sign and of what if asks */
+    qdot_expr leaf[LEAVES]; /* the different arguments of max and min */
+    qdot_expr sign[SIGNS];  /* canonical forms u of |u|, sign(u) and of conditions of if(...) */
     size_t n_leaves, n_signs;
-    bool zero[SIGNS]; /* there is a sign(...) or an if: its zero is a case */
+    bool zero[SIGNS]; /* u = 0 is a case of its own, because of sign(u) or an if(...) */
     qdot_expr node[NODES],
-        to[NODES]; /* the functions, inner ones first, and their values */
+        to[NODES]; /* the functions max, abs ..., inner ones first; their values in the present case */
     size_t n;
     /* an expression proved equal to the one at `place` of `list`, or to its negative */
     struct alias {
@@ -551,7 +551,7 @@ cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_fa
             if (sign[k] == 0)
                 side[i] = at_zero_of(c->pool, side[i], c->sign[k]);
     }
-    if (qdot_pool_failed(c->pool)) { /* a division by zero */
+    if (qdot_pool_failed(c->pool)) { /* undefined in this case: a division by zero */
         status = qdot_pool_check(c->pool);
         *equal = no_value_at_zero(c, status, sign);
         qdot_free(condition);

@@ -18,17 +18,17 @@
 #include "normal/prove/unify.h"
 #include "normal/refute/sample.h"
 
-#define LARGE 2000 /* nodes; larger expressions are compared at fewer points */
-#define SMALL 400  /* nodes; smaller ones are compared at edges too */
+#define LARGE 2000 /* in nodes: larger expressions are compared at fewer points */
+#define SMALL 400  /* in nodes: smaller expressions are compared at edges of domains, too */
 #define MOST_EDGES 160
 
 /* --- looking for a counterexample -------------------------------------------------- */
 
 struct look {
-    int points;    /* wanted */
-    int tries;     /* at most so many points are chosen */
-    slong prec[4]; /* ascending, 0 ends */
-    bool edges;    /* qdot_sample_edge instead of qdot_sample_point */
+    int points;    /* number of points at which to compare */
+    int tries;     /* largest number of points tried, as some are outside domains */
+    slong prec[4]; /* precisions in bits, ascending; ended by 0 */
+    bool edges;    /* take points at edges of domains: qdot_sample_edge */
 };
 
 static const struct look quick = {2, 24, {96, 0}, false};
@@ -50,7 +50,7 @@ static int
 digits_of(const arb_t difference, arb_srcptr left)
 {
     double radius = mag_get_d_log2_approx(arb_radref(difference));
-    slong size = arf_abs_bound_lt_2exp_si(arb_midref(left)); /* left < 2^size */
+    slong size = arf_abs_bound_lt_2exp_si(arb_midref(left)); /* exponent: |left| < 2^size */
 
     if (mag_is_zero(arb_radref(difference)))
         return 9999;
@@ -272,7 +272,7 @@ look_at_unified(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_fac
     e[2] = arguments(pool, qdot_list(pool, 2, e));
     if (e[2] == QDOT_NIL)
         return qdot_pool_failed(pool) ? qdot_pool_check(pool) : QDOT_OK;
-    for (int round = 0; round < 3 && changed; round++) { /* functions within functions */
+    for (int round = 0; round < 3 && changed; round++) { /* again, because functions may be nested */
         QDOT_TRY(qdot_unify(pool, 3, e, facts, &way, &changed));
         any |= changed;
     }
@@ -346,7 +346,7 @@ decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts 
         qdot_decision more = {.verdict = QDOT_UNDECIDED};
 
         QDOT_TRY(look_at_points(pool, left, right, facts, &edges, &more));
-        if (more.verdict == QDOT_REFUTED) { /* the proof does not hold where a divisor is 0 */
+        if (more.verdict == QDOT_REFUTED) { /* the proof does not hold where a divisor is 0: a point counts more */
             *d = more;
             equal = false;
         }

@@ -116,7 +116,7 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
         if (qdot_field_goes(&f) && !fmpz_mpoly_is_zero(r.n, f.ctx)) {
             product = QDOT_ONE;
             status = unknown_factors(&f, r.n, weak, &product);
-            if (status == QDOT_OK) /* the denominator is not 0 */
+            if (status == QDOT_OK) /* the condition: denominator != 0 */
                 status = unknown_factors(&f, r.d, false, &product);
         }
         qdot_ratio_clear(&f, &r);
@@ -205,7 +205,7 @@ qdot_defined(qdot_pool *pool, size_t n, const qdot_expr *e, qdot_defined_gap tel
     for (size_t i = 0; i < n; i++)
         if (e[i] != QDOT_NIL)
             qdot_walk_set(&w, e[i], 1);
-    for (size_t i = w.n; i-- > 0 && status == QDOT_OK;) { /* parents first */
+    for (size_t i = w.n; i-- > 0 && status == QDOT_OK;) { /* parents before children */
         qdot_expr at = w.at[i];
         qdot_kind kind = qdot_expr_kind(pool, at);
 

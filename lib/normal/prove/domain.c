@@ -19,7 +19,7 @@ typedef struct {
     qdot_pool *pool;
     size_t n;
     qdot_expr *e;
-    qdot_exprs gap; /* > 0, or >= 0 where weak */
+    qdot_exprs gap; /* left sides of the conditions gap > 0, or gap >= 0 if `weak` */
     qdot_vec(bool) weak;
     bool changed, empty;
 } job;
@@ -181,7 +181,7 @@ tighten_bounds(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
     if (s.hi != QDOT_NIL && !qdot_is_constant(j->pool, s.hi))
         s.hi = QDOT_NIL;
     if (s.lo != QDOT_NIL && s.hi != QDOT_NIL && !surely_less(j->pool, s.lo, s.hi))
-        return; /* no room between them */
+        return; /* lo < hi is not certain */
     domain_move_bounds(j, x, s);
 }
 

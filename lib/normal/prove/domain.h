@@ -19,8 +19,8 @@ typedef qdot_vec(qdot_expr) qdot_exprs;
 
 /* The conditions that could not be eliminated. */
 typedef struct {
-    qdot_exprs positive; /* gaps > 0 that were not solved; owned by the caller */
-    bool empty; /* conditions and declared signs contradict each other, no point is left */
+    qdot_exprs positive; /* left sides of conditions gap > 0 that remain; owned by the caller */
+    bool empty; /* the conditions contradict each other: no point satisfies them */
 } qdot_domain_rest;
 
 /* Rewrite e[n] in place; the last nr of them are relations, replaced by 0 once solved. */

@@ -72,7 +72,7 @@ against_rest(const qdot_zero *z, const qdot_groups *groups, bool *zero)
     qdot_expr product, content, rest;
     qdot_status status = QDOT_OK;
     slong with = -1;
-    ulong *none; /* the exponents of 1 */
+    ulong *none; /* exponents of the constant monomial 1 */
     fmpz_mpoly_t key, others, c, logs;
 
     for (slong i = 0; i < groups->n; i++)

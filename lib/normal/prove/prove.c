@@ -9,7 +9,7 @@
 #include "normal/prove/rewrite.h"
 #include "normal/prove/unify.h"
 
-#define ROUNDS 3 /* functions within functions, whose values are their own */
+#define ROUNDS 3 /* how often to repeat for nested functions */
 
 /* Replace symbols so that conditions and bounds hold; conditions that cannot be eliminated follow
  * the relations. */
@@ -109,6 +109,6 @@ qdot_prove_defined(qdot_pool *pool, qdot_expr left, qdot_expr right,
     if (empty != NULL)
         *empty = none;
     else
-        *equal &= !none; /* equality is not claimed where no point is left */
+        *equal &= !none; /* no claim of equality on an empty domain */
     return status;
 }

@@ -202,7 +202,7 @@ by_facts(const qdot_zero *z, const fmpz_mpoly_t p)
         /* n/d > 0: n d > 0 */
         qdot_field_mul(f, product, r->n, r->d);
         if (qdot_field_goes(f) && fmpz_mpoly_divides(q, product, p, f->ctx))
-            sign = by_terms(z, q); /* p q > 0 */
+            sign = by_terms(z, q); /* p q > 0, so p has the sign of q */
         if (sign != 0)
             sign |= QDOT_NE0;
     }
@@ -327,7 +327,7 @@ by_larger(qdot_zero *z, const fmpz_mpoly_t p, int depth)
     fmpz_mpoly_gen(r, rule->var, f->ctx);
     fmpz_mpoly_mul(d, Q, r, f->ctx);
     fmpz_mpoly_sub(P, p, d, f->ctx);
-    qdot_field_mul(f, d, d, d); /* Q^2 B */
+    qdot_field_mul(f, d, d, d); /* d is now Q^2 B */
     qdot_field_mul(f, r, P, P);
     fmpz_mpoly_sub(d, d, r, f->ctx);
     if (qdot_field_goes(f)) {

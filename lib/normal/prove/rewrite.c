@@ -54,7 +54,7 @@ whole_part(qdot_pool *pool, qdot_expr x)
 {
     qdot_expr k;
 
-    x = qdot_expand(pool, x); /* (c + 8)/4 */
+    x = qdot_expand(pool, x); /* to find integers in sums, as in (c + 8)/4 */
     if (x == QDOT_NIL || qdot_expr_kind(pool, x) != QDOT_SUM)
         return qdot_fun1(pool, QDOT_FLOOR, x);
     k = qdot_fun1(pool, QDOT_FLOOR, qdot_expr_arg(pool, x, 0));

@@ -28,7 +28,7 @@ typedef enum { NONE, ANGLE, ABSOLUTE, BASE, LOGARITHM, OTHER } class;
 /* The position of an argument: in which function or power. */
 struct place {
     class class;
-    uint32_t op; /* OTHER: in this function */
+    uint32_t op; /* for class OTHER: the function */
     qdot_kind kind;
 };
 
@@ -44,8 +44,8 @@ typedef struct {
     const qdot_facts *facts;
     qdot_sample sample;
     qdot_walk walk;
-    arb_ptr value[POINTS]; /* [walk.n] */
-    uint8_t *known;        /* [walk.n] all points have a value */
+    arb_ptr value[POINTS]; /* [walk.n] values of all nodes at each sample point */
+    uint8_t *known;        /* [walk.n] the node has a value at all points */
     struct seen *seen;
     size_t n_seen;
     int proofs;
@@ -224,7 +224,7 @@ unify_function(job *j, qdot_expr old, qdot_expr *now)
         scaled = qdot_mul(pool, qdot_expr_fmpq(pool, c), with);
         any |= scaled != args[i];
         args[i] = scaled;
-        if (class == ABSOLUTE && any) { /* |c B| = |c| |B| */
+        if (class == ABSOLUTE && any) { /* moves a factor out: |c B| = |c| |B| */
             fmpq_abs(c, c);
             *now =
                 qdot_mul(pool, qdot_expr_fmpq(pool, c), qdot_fun1(pool, QDOT_ABS, with));
@@ -260,7 +260,7 @@ unify_undefined(job *j, qdot_expr old, qdot_expr *now)
     fmpq_init(c);
     for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
         args[i] = qdot_expr_arg(pool, *now, i);
-        if (2 * i >= n) /* orders of derivatives */
+        if (2 * i >= n) /* the orders of derivatives of an undefined function */
             continue;
         status = unify_find(j, (struct place){OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN},
                             args[i], argument_index(j, old, i), &with, c);
@@ -428,7 +428,7 @@ qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *facts,
 
         status = unify_node(&j, j.walk.at[i], &now);
         if (now == QDOT_NIL && status == QDOT_OK)
-            status = QDOT_EFAILED; /* a wrong turn */
+            status = QDOT_EFAILED; /* the result is undefined: the replacement was wrong */
         qdot_walk_set(&j.walk, j.walk.at[i], now);
     }
     for (size_t i = 0; i < n && status == QDOT_OK && j.changed; i++)

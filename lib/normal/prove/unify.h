@@ -15,9 +15,9 @@
 
 /* The procedures that prove arguments equal. */
 typedef struct {
-    qdot_prover prove;   /* a bounded number of times */
-    qdot_prover harder;  /* tried if `prove` fails; NULL: none */
-    bool only_undefined; /* undefined functions only */
+    qdot_prover prove;   /* called a limited number of times */
+    qdot_prover harder;  /* a stronger prover, tried if `prove` fails; NULL: none */
+    bool only_undefined; /* only for arguments of undefined functions */
 } qdot_unify_way;
 
 /* Rewrite e[n] in place; the relations of facts may be used, and are among the e if they

@@ -23,7 +23,7 @@ bounded_by_quarters(const qdot_pool *pool, qdot_expr bound, long n, bool below)
         return false;
     fmpq_init(limit);
     fmpq_init(c);
-    if (x != NULL) { /* 355/113 is above pi, 333/106 below: on the safe side */
+    if (x != NULL) { /* rational bounds 333/106 < pi < 355/113, each on the safe side */
         bool less = (n > 0) != below;
 
         fmpq_set(c, x);

@@ -348,7 +348,7 @@ analytic_generator(qdot_zero *z, slong v, int depth)
     b = qdot_field_value(f, gen->of);
     if (b == NULL)
         return false;
-    fmpz_mpoly_init(p, f->ctx); /* n/d > 0: n d > 0, so d is not 0 */
+    fmpz_mpoly_init(p, f->ctx); /* n/d > 0 is equivalent to n d > 0 */
     qdot_field_mul(f, p, b->n, b->d);
     if (qdot_field_goes(f))
         positive = (qdot_zero_sign(z, p) & QDOT_POS) == QDOT_POS;

@@ -79,7 +79,7 @@ ball_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
         arb_srcptr v = b->value + ball_argument_index(b, e, 0), u = b->value + ball_argument_index(b, e, 1);
 
         if (arb_contains_zero(v) && (arb_contains_zero(u) || (!arb_is_zero(v) && !arb_is_positive(u))))
-            return false; /* the origin, or both sides of the jump from pi to -pi */
+            return false; /* undefined at the origin; from pi to -pi there is a jump */
         arb_atan2(y, v, u, prec);
     } else if (op == QDOT_MOD) {
         eval_mod(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1), prec);

@@ -11,9 +11,9 @@
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;
-    arb_ptr value; /* [walk.n] */
+    arb_ptr value; /* [walk.n] enclosure of each node's value */
     uint8_t
-        *known; /* [walk.n] scalars: 1 finite; relations: 1 true, 2 false; 0 not known */
+        *known; /* [walk.n] 0 unknown; scalars: 1 finite; relations: 1 true, 2 false */
 } qdot_ball;
 
 /* Begin; errors: QDOT_ENOMEM, QDOT_EINTR, after which _end must not be called. */

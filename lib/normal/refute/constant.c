@@ -40,9 +40,9 @@ struct root {
 typedef struct {
     qdot_pool *pool;
     qdot_walk walk;
-    size *of; /* [walk.n] */
+    size *of; /* [walk.n] root bound of each node */
     qdot_vec(struct root) roots;
-    ulong unity; /* the order of the roots of unity */
+    ulong unity; /* order n of the roots of unity e^(2 pi i/n) that occur */
 } bound;
 
 /* x increased a little, to cover the rounding of the logarithms themselves. */
@@ -127,7 +127,7 @@ size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
     if (x == NULL || fmpz_bits(fmpq_numref(x)) > MOST_EXPONENT_BITS ||
         fmpz_bits(fmpq_denref(x)) > MOST_EXPONENT_BITS)
         return QDOT_EFAILED;
-    p = fmpz_get_ui(fmpq_numref(x)); /* of |p| */
+    p = fmpz_get_ui(fmpq_numref(x)); /* p is |numerator| of the exponent */
     q = fmpz_get_ui(fmpq_denref(x));
     *s = get(b, base);
     if (q > 1) {
@@ -194,7 +194,7 @@ size_of_node(bound *b, qdot_expr e, size *s)
 
     switch (qdot_expr_kind(pool, e)) {
     case QDOT_NUM: *s = size_of_number(qdot_expr_rational(pool, e)); return QDOT_OK;
-    case QDOT_SYM: /* pi: fit only as an angle */
+    case QDOT_SYM: /* pi, allowed only in angles of sine and cosine */
         *s = (size){NAN, NAN};
         return e == QDOT_PI ? QDOT_OK : QDOT_EFAILED;
     case QDOT_SUM:

@@ -15,19 +15,19 @@
 typedef struct {
     qdot_kind kind;
     uint32_t op;
-    uint32_t n, at; /* operands arg[at .. at + n): of a sum terms, of a product bases */
-    bool constant;  /* its value is known once and for all */
-    size_t unknown; /* which symbol */
+    uint32_t n, at; /* operands are arg[at] ... arg[at + n - 1]: terms of a sum, bases of a product */
+    bool constant;  /* a constant: evaluated once, when the object is made */
+    size_t unknown; /* for a symbol: its index among the unknowns */
 } node;
 
 struct qdot_enclosure {
     size_t n, m, count;
-    node *nodes;                 /* [count] children first */
-    qdot_enclosure_value *value; /* [count] */
-    uint32_t *arg;               /* operands */
-    qdot_interval *number;       /* beside each: its coefficient or exponent */
-    bool *integer;               /* beside each: the exponent is an integer */
-    uint32_t *root;              /* [m] */
+    node *nodes;                 /* [count] the nodes, children first */
+    qdot_enclosure_value *value; /* [count] present enclosure of each node */
+    uint32_t *arg;               /* indices of the operands of all nodes */
+    qdot_interval *number;       /* for each operand: coefficient in a sum, exponent in a product */
+    bool *integer;               /* for each operand: its exponent is an integer */
+    uint32_t *root;              /* [m] the node of each expression */
     bool slopes;
 };
 
@@ -125,7 +125,7 @@ circular(uint32_t op, qdot_interval a)
     case QDOT_SIN: return (image){s, c, QDOT_ENCLOSURE_WHOLE};
     case QDOT_COS: return (image){c, qdot_interval_negative(s), QDOT_ENCLOSURE_WHOLE};
     case QDOT_TAN:
-        if (!holds_zero(c) && a.hi - a.lo < 3) /* within one branch, where it rises */
+        if (!holds_zero(c) && a.hi - a.lo < 3) /* within one branch, in which tan increases */
             return (image){qdot_interval_rising(tan, a), inverse(interval_square(c)),
                            QDOT_ENCLOSURE_WHOLE};
         return fraction(s, c, inverse(interval_square(c)));
@@ -334,7 +334,7 @@ general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
                worse(compare_with_domain(v->y, 0, INFINITY, false), worse(v->state, p->state))};
 
     f.y = qdot_interval_power(base, p->y);
-    if (s->slopes) { /* all of them at once: y (p' log v + p v'/v) */
+    if (s->slopes) { /* derivative of y = p^v: y (v' log p + v p'/p) */
         qdot_interval log_v = qdot_interval_rising(log, base);
 
         enclosure_add_slopes(s, to, qdot_interval_product(f.y, log_v, false), p);

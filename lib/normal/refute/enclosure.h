@@ -22,7 +22,7 @@
 #include "expr/id.h"
 #include "num/interval.h"
 
-enum { QDOT_ENCLOSURE_MOST = 6 }; /* unknowns */
+enum { QDOT_ENCLOSURE_MOST = 6 }; /* largest number of unknowns */
 
 typedef enum {
     QDOT_ENCLOSURE_NOWHERE,
@@ -31,12 +31,12 @@ typedef enum {
 } qdot_enclosure_state;
 
 typedef struct {
-    qdot_interval y; /* of a relation: 1 true, 0 false, 0..1 not known */
+    qdot_interval y; /* bounds of the value; for a relation 1 true, 0 false, [0, 1] unknown */
     qdot_interval slope[QDOT_ENCLOSURE_MOST];
     qdot_enclosure_state state;
 } qdot_enclosure_value;
 
-typedef struct qdot_enclosure qdot_enclosure; /* one pass over some expressions */
+typedef struct qdot_enclosure qdot_enclosure; /* a prepared list of expressions */
 
 /* For e [m] that contain only the symbols x [n], n <= QDOT_ENCLOSURE_MOST, and pi. Freed by the caller.
  * Errors: QDOT_ENOMEM, QDOT_EINTR, QDOT_ETYPE: something else in them. */
@@ -51,7 +51,7 @@ void qdot_enclosure_eval(qdot_enclosure *s, const qdot_interval *X, bool slopes)
 /* The number of nodes in one evaluation. */
 size_t qdot_enclosure_size(const qdot_enclosure *s);
 
-size_t qdot_enclosure_count(const qdot_enclosure *s); /* m, of qdot_enclosure_new */
+size_t qdot_enclosure_count(const qdot_enclosure *s); /* number m of expressions given to qdot_enclosure_new */
 /* The value of the i-th expression, valid until the next evaluation. */
 const qdot_enclosure_value *qdot_enclosure_get(const qdot_enclosure *s, size_t i);
 

@@ -292,7 +292,7 @@ encloses(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong bits, slong p
     if (left * sign_at(s, a, end, prec, f) < 0) {
         arb_set_arf(a->value, x);
         mag_set_ui_2exp_si(arb_radref(a->value), 1, -bits);
-        (void)sign_here(s, a, prec, f); /* it has values in between */
+        (void)sign_here(s, a, prec, f); /* evaluate again inside the ball: leaves its value in a->value */
         holds = s->root_work <= ROOT_WORK && qdot_ball_get(a->relation, a->solution) != NULL;
     }
     arf_clear(end);

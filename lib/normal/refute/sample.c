@@ -14,7 +14,7 @@
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
 
-#define SIMPLE 24 /* points with small numbers */
+#define SIMPLE 24 /* the first points have small numbers */
 #define FAR 96    /* number of points from which on some have large coordinates */
 
 /* --- preparing samples ------------------------------------------------------------- */
@@ -220,7 +220,7 @@ sample_gather(qdot_sample *s, size_t n, const qdot_expr *e)
     parts[3] = qdot_list(pool, (uint32_t)n_solved, put);
     of_relations = qdot_expr_atoms(pool, parts[1], true);
     s->list = qdot_list(pool, 4, parts);
-    for (int round = 0; round < 3; round++) { /* bounds may hold symbols with bounds */
+    for (int round = 0; round < 3; round++) { /* repeat, because bounds may contain symbols that have bounds */
         parts[4] = qdot_expr_atoms(pool, s->list, true);
         if (parts[4] == QDOT_NIL)
             break;
@@ -323,7 +323,7 @@ rational_between(fmpq_t x, double lo, double hi, double where, double about)
     }
     if (fabs(at) < 1e12) {
         fmpq_set_si(x, (long)nearbyint(at * 1048576), 1048576);
-    } else if (isfinite(at)) { /* an integer of any size */
+    } else if (isfinite(at)) { /* beyond the spacing of 1/2^20: an integer */
         fmpz_set_d(fmpq_numref(x), at);
         fmpz_one(fmpq_denref(x));
     }
@@ -382,7 +382,7 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
            hi = size, x;
     uint8_t sign = qdot_expr_node(s->pool, atom)->sign;
 
-    if (k >= FAR && k % 3 == 0) { /* what is defined far out only */
+    if (k >= FAR && k % 3 == 0) { /* for expressions that are defined only at large values */
         size *= 1000;
         lo = -size;
         hi = size;
@@ -414,7 +414,7 @@ static void
 sample_choose(qdot_sample *s, qdot_sample_atom *a)
 {
     double where = (1 + sample_draw(s, 61)) / 63.0, lo, hi;
-    double about = s->k < SIMPLE ? 0.1 : 0.01; /* integers first */
+    double about = s->k < SIMPLE ? 0.1 : 0.01; /* first integers, then other rationals */
 
     if (qdot_sample_is_sign(s->pool, a->atom)) {
         fmpq_set_si(&a->x, sample_draw(s, 2) == 0 ? 1 : -1, 1);
@@ -560,7 +560,7 @@ qdot_sample_list(qdot_sample *s)
             x = qdot_expr_fmpq(s->pool, &s->atom[i].x);
             if (s->atom[i].turn)
                 x = qdot_mul(s->pool, x, QDOT_PI);
-        } else { /* its value, rounded for printing */
+        } else { /* irrational: a decimal number for printing */
             fmpq_t rounded;
 
             fmpq_init(rounded);

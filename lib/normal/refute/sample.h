@@ -17,12 +17,12 @@
 #include "normal/refute/ball.h"
 
 typedef struct {
-    qdot_expr atom, solution; /* solution nil: free */
-    bool implicit;            /* solution is what is 0 */
-    qdot_ball *relation;      /* ... evaluated by itself; made when it is needed */
-    fmpq x;                   /* free: its value */
-    bool turn;                /* times pi */
-    bool edge;                /* at a bound that belongs to it */
+    qdot_expr atom, solution; /* a symbol; its value from the relations, nil: chosen freely */
+    bool implicit;            /* the value is a root: `solution` is an expression that is 0 */
+    qdot_ball *relation;      /* the expression `solution` for evaluation; made when first needed */
+    fmpq x;                   /* the chosen value, if free */
+    bool turn;                /* the value is x pi */
+    bool edge;                /* the value is a closed bound of the domain */
     bool ready;
     arb_t value;
 } qdot_sample_atom;
@@ -36,17 +36,17 @@ typedef struct {
 typedef struct {
     qdot_pool *pool;
     qdot_sample_atom
-        *atom; /* free ones by dependence of bounds, then the solved, last first */
+        *atom; /* free symbols first, each after those in its bounds; then solved ones, last first */
     size_t n;
     qdot_sample_bound *bound;
     size_t n_bounds, bounds_capacity;
-    qdot_ball ball; /* the expressions, bounds, conditions, solutions */
-    qdot_expr list; /* all of them */
+    qdot_ball ball; /* evaluates all expressions, bounds, conditions and solutions */
+    qdot_expr list; /* a LIST of all these expressions */
     const qdot_facts *facts;
-    int k;             /* of the point */
-    int64_t root_work; /* done for implicit atoms, of a budget */
+    int k;             /* index of the point */
+    int64_t root_work; /* operations used for roots so far, limited by a budget */
     uint64_t seed;
-    bool possible; /* there can be points */
+    bool possible; /* points may exist: no contradiction was found */
 } qdot_sample;
 
 /* Begin to sample e[n] under facts (may be NULL). Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */

@@ -15,8 +15,8 @@ enum { MOST_OPERATIONS = 1000 };
 
 /* The kinks found in an expression. */
 typedef struct {
-    qdot_vec(qdot_expr) absolute; /* each |u| that is left */
-    size_t decided;               /* those whose u has one sign */
+    qdot_vec(qdot_expr) absolute; /* the different |u| that remain */
+    size_t decided;               /* number of |u| in which u has one sign everywhere */
     bool failed;
 } kinks;
 
@@ -50,7 +50,7 @@ sign_everywhere(qdot_pool *pool, qdot_expr u)
     w = qdot_expr_arg(pool, inner, 0);
     if (!sign_of_multiple(pool, qdot_expand(pool, qdot_subs(pool, u, 1, &inner, &w)), w, &above))
         return 0;
-    w = qdot_neg(pool, w); /* where w < 0, -w > 0 is |w| */
+    w = qdot_neg(pool, w); /* w < 0: take -w, which is |w| */
     if (!sign_of_multiple(pool, qdot_expand(pool, qdot_subs(pool, u, 1, &inner, &w)), w, &below))
         return 0;
     return above >= 0 && below >= 0 ? 1 : above <= 0 && below <= 0 ? -1 : 0;

@@ -26,8 +26,8 @@ typedef struct {
     qdot_field *f;
     const qdot_facts *facts;
     size_t n_known;
-    const qdot_expr *known; /* prepared, in the field */
-    int sign;               /* of the factors left out */
+    const qdot_expr *known; /* [n_known] expressions in the field that are known to be positive */
+    int sign;               /* sign of the product of the factors left out */
     qdot_vec(qdot_expr) rest;
 } job;
 
@@ -149,7 +149,8 @@ proved_sign(job *j, qdot_expr e)
         return 1;
     if ((sign & QDOT_NEG) == QDOT_NEG)
         return -1;
-    if (j->asked == POSITIVE_GENERIC && (sign & QDOT_GE0) != 0) /* where it is not 0, as with an even power */
+    /* e >= 0 everywhere, as an even power: positive except where e = 0 */
+    if (j->asked == POSITIVE_GENERIC && (sign & QDOT_GE0) != 0)
         return 1;
     if (j->asked == POSITIVE_GENERIC && (sign & QDOT_LE0) != 0)
         return -1;
@@ -211,7 +212,7 @@ qdot_positive_without_minus(qdot_pool *pool, qdot_expr e)
         return qdot_expr_is_negative(pool, e)
                    ? qdot_rel(pool, QDOT_LT, qdot_neg(pool, e), QDOT_ZERO)
                    : qdot_rel(pool, QDOT_LT, QDOT_ZERO, e);
-    for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) { /* c0, c1, t1, ... */
+    for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) { /* the entries c0, c1, t1, c2, t2, ...: look at coefficients */
         qdot_expr term = qdot_expr_arg(pool, e, i);
 
         if (i > 0)
@@ -267,7 +268,7 @@ positive_conclude(job *j)
 
 struct asking {
     job j;
-    qdot_expr e, result; /* nil: past the budget */
+    qdot_expr e, result; /* expression; its simplified form, nil if the budget is used up */
     qdot_status status;
 };
 

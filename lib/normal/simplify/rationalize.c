@@ -50,7 +50,7 @@ clear_roots(qdot_field *f, qdot_ratio *r)
 
 struct rationalizing {
     qdot_pool *pool;
-    qdot_expr e, result; /* nil: past the budget */
+    qdot_expr e, result; /* expression; its form without roots below, nil if the budget is used up */
 };
 
 static void

@@ -25,7 +25,7 @@ static qdot_expr integrate(const table *t, qdot_expr e, qdot_expr x, int depth);
 typedef struct {
     qdot_expr rest;
     qdot_expr base[4], exponent[4];
-    uint32_t n; /* more than 4: not for this table */
+    uint32_t n; /* number of factors with x; more than 4: not in the table */
 } factors;
 
 static factors
@@ -188,7 +188,7 @@ integrate(const table *t, qdot_expr e, qdot_expr x, int depth)
     if (e == QDOT_NIL)
         return e;
     if (qdot_expr_kind(pool, e) != QDOT_SUM) {
-        whole = integrate_term(t, e, x, depth); /* (2 x + 3)^-2 is best left alone */
+        whole = integrate_term(t, e, x, depth); /* a single term as it is: (2 x + 3)^-2 must not be expanded */
         if (whole != QDOT_NIL)
             return whole;
     }

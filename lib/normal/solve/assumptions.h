@@ -12,9 +12,9 @@
 #include "normal/field/facts.h"
 
 typedef struct {
-    qdot_facts facts;               /* without the inequalities of unknowns; borrows `others` */
-    qdot_expr domain;               /* these inequalities, a set of conditions (conditions.h); nil: none */
-    qdot_vec(qdot_expr) from, to;   /* parameters and their values, which hold none of these parameters */
+    qdot_facts facts;               /* facts without inequalities of unknowns; borrows `others` */
+    qdot_expr domain; /* inequalities of the unknowns, a set of conditions (conditions.h); nil: none */
+    qdot_vec(qdot_expr) from, to; /* replace parameters by values that contain none of these parameters */
     qdot_vec(qdot_expr) others;
 } qdot_assumptions;
 

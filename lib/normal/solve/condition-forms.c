@@ -94,7 +94,7 @@ qdot_condition_of_logarithms(qdot_pool *pool, qdot_expr gap)
 {
     const uint32_t n = gap != QDOT_NIL && qdot_expr_kind(pool, gap) == QDOT_SUM ? qdot_expr_count(pool, gap) : 0;
     qdot_expr above = QDOT_ONE, below = QDOT_ONE, c = QDOT_NIL;
-    unsigned open = 0; /* arguments that are not known to be positive */
+    unsigned open = 0; /* number of arguments not known to be positive */
 
     if (n < 5)
         return QDOT_NIL;
@@ -142,7 +142,7 @@ qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict)
     opposite = qdot_expand(pool, qdot_add(pool, rest, qdot_mul(pool, slope, v))) == QDOT_ZERO;
     if (!same && !opposite)
         return QDOT_NIL;
-    if (fmpq_sgn(k) > 0) /* k |v| + k v, k |v| - k v: never negative */
+    if (fmpq_sgn(k) > 0) /* k |v| + k v and k |v| - k v with k > 0 are never negative */
         return !strict ? QDOT_ONE : same ? v : qdot_neg(pool, v);
     return strict ? QDOT_MINUS_ONE : opposite ? v : qdot_neg(pool, v);
 }
@@ -177,7 +177,7 @@ qdot_condition_squared(qdot_pool *pool, qdot_expr gap)
         !holds_square_root(pool, gap))
         return QDOT_NIL;
     n = qdot_expr_count(pool, gap);
-    for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) { /* c0, c1, t1, ... */
+    for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) { /* entries c0, c1, t1, c2, t2, ...: look at coefficients */
         qdot_expr term = qdot_expr_arg(pool, gap, i);
         bool minus;
 

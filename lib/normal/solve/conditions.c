@@ -125,7 +125,7 @@ unfold(qdot_pool *pool, qdot_expr relation)
         u = qdot_expr_arg(pool, side, 0);
         swap ^= qdot_fun_is(h, QDOT_FUN_FALLING);
         relation = swap ? qdot_rel(pool, op, at, u) : qdot_rel(pool, op, u, at);
-        i = -1; /* once more: log(atan(u)) */
+        i = -1; /* start again, because functions may be nested: log(atan(u)) */
     }
     return relation;
 }
@@ -154,7 +154,7 @@ argument_at_zero(qdot_pool *pool, qdot_expr u)
                               : QDOT_FUNCTION_KINDS;
     qdot_expr at = inverse == QDOT_FUNCTION_KINDS ? QDOT_NIL : qdot_fun1(pool, inverse, QDOT_ZERO);
 
-    if (at == QDOT_NIL) { /* exp is never 0 */
+    if (at == QDOT_NIL) { /* the inverse has no value: exp is never 0 */
         if (qdot_pool_check(pool) != QDOT_OK && qdot_pool_check(pool) != QDOT_EDOMAIN)
             return qdot_pool_fail(pool);
         return u;
@@ -354,7 +354,7 @@ join_opposites(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_fact
     if (a == QDOT_NIL || b == QDOT_NIL || qdot_expr_kind(pool, a) != QDOT_REL || qdot_expr_kind(pool, b) != QDOT_REL)
         return false;
     sum = qdot_add(pool, qdot_positive_of(pool, a), qdot_positive_of(pool, b));
-    if (sum != QDOT_ZERO) /* not a >= 0 and a <= 0 */
+    if (sum != QDOT_ZERO) /* not a pair a >= 0, a <= 0 */
         return false;
     for (uint32_t i = 0; i < qdot_expr_count(pool, *set); i++)
         if (qdot_expr_arg(pool, *set, i) != a)
@@ -417,7 +417,8 @@ qdot_conditions_generic(qdot_pool *pool, qdot_expr set)
         qdot_expr one = qdot_expr_arg(pool, set, i);
 
         if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op == QDOT_LE &&
-            !qdot_expr_is_function(pool, qdot_positive_of(pool, one), QDOT_IF) && /* where only a part may be 0 */
+            /* not for an if(...), of which only a part may be 0 */
+            !qdot_expr_is_function(pool, qdot_positive_of(pool, one), QDOT_IF) &&
             qdot_is_taken_generic(pool, qdot_positive_of(pool, one), NULL))
             one = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0),
                            qdot_expr_arg(pool, one, 1));
@@ -578,7 +579,7 @@ conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
             rest = qdot_conditions_and(pool, rest, other);
         }
         set = rest;
-        i = UINT32_MAX; /* once more, from the first on */
+        i = UINT32_MAX; /* the set has changed: start again */
     }
     return set;
 }

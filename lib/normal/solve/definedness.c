@@ -152,7 +152,7 @@ conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
     if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
     if (w.n > 0)
-        qdot_walk_set(&w, f, true); /* it has a value only if this node has one */
+        qdot_walk_set(&w, f, true); /* f is defined only where this node is */
     for (size_t i = w.n; i-- > 0;) {
         const bool choice = qdot_expr_is_function(pool, w.at[i], QDOT_IF);
 

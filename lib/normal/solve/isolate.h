@@ -20,13 +20,13 @@
 typedef struct {
     qdot_pool *pool;
     size_t n;
-    const qdot_expr *x; /* [n] symbols; borrowed */
-    qdot_expr *f;       /* [n + n * n] f, then df_i/dx_j by rows */
+    const qdot_expr *x; /* [n] the unknowns; borrowed */
+    qdot_expr *f;       /* [n + n * n] f, then the Jacobian df_i/dx_j by rows */
     qdot_ball ball;
-    arb_ptr at;         /* [n] present values of x */
-    arb_ptr y, z;       /* [n] work */
-    double *C, *work;   /* [n * n] */
-    double *unique;     /* [n] after a proof: the zero is the only one within so far of x0 */
+    arb_ptr at;         /* [n] present values of x as balls */
+    arb_ptr y, z;       /* [n] scratch */
+    double *C, *work;   /* [n x n] approximate inverse of the Jacobian; scratch */
+    double *unique;     /* [n] after a proof: |x_i - x0_i| within which the zero is unique */
 } qdot_isolate;
 
 /* For f [n] that contain only the symbols x [n] and pi. Errors:

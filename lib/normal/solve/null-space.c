@@ -18,7 +18,7 @@ enum { WORK = 40000000 };
 
 /* The coefficient of one monomial in one column. */
 typedef struct {
-    const ulong *key; /* [gens] */
+    const ulong *key; /* [gens] exponents of the monomial */
     slong gens;
     size_t column;
     const fmpz_mpoly_struct *coefficient;
@@ -28,10 +28,10 @@ typedef struct {
     qdot_pool *pool;
     qdot_field *f;
     size_t n;
-    bool *moving;       /* [gens]: not made of parameters alone */
-    qdot_ratio *row;    /* [n]: the row at hand */
-    qdot_ratio *pivots; /* [rank * n], reduced, 1 at the pivot */
-    size_t *column;     /* [rank]: where */
+    bool *moving;       /* [gens] the generator varies: it is not made of parameters only */
+    qdot_ratio *row;    /* [n] the present row */
+    qdot_ratio *pivots; /* [rank x n] rows in reduced echelon form, 1 at the pivot */
+    size_t *column;     /* [rank] pivot column of each row */
     size_t rank;
 } elimination;
 
@@ -169,7 +169,7 @@ take_row(elimination *e, const qdot_expr *row)
         if (fmpz_mpoly_is_zero(r->n, f->ctx))
             continue;
         if (!fmpz_mpoly_divides(p, lcm, r->d,
-                                f->ctx)) { /* reduced by the rules: exactly */
+                                f->ctx)) { /* not divisible: the quotient was reduced by relations */
             qdot_ratio x, y;
 
             qdot_ratio_init(f, &x);
@@ -285,7 +285,7 @@ rows_take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
                                                    parts->roots.at[done / n]);
     }
     for (size_t j = 0; parts->roots.n == 0 && j < n && status == QDOT_OK; j++)
-        status = qdot_vec_push(&parts->entries, QDOT_ZERO); /* no condition at all */
+        status = qdot_vec_push(&parts->entries, QDOT_ZERO); /* a zero row: no condition on this column */
     qdot_free(row);
     return status;
 }

@@ -23,7 +23,7 @@ qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
 /* The values of a switching function for left > right, left < right and left = right. */
 typedef struct {
     qdot_expr left, right;
-    qdot_expr above, below, equal; /* nil: it is no function that chooses by one difference */
+    qdot_expr above, below, equal; /* value for left > right, <, =; nil: not a function of one difference */
 } chooser;
 
 static chooser
@@ -125,7 +125,7 @@ two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
     s->n = 2;
     (void)qdot_sides_put(s, 2, e);
     status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN) /* what is divided by is 0 there */
+    if (status == QDOT_EDOMAIN) /* a divisor is 0 there */
         with[0] = with[1] = false;
     else if (status == QDOT_OK && !with[0] && !with[1])
         s->jump = u;

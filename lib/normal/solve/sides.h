@@ -24,11 +24,11 @@ enum { QDOT_SIDES_MOST = 8 };
 
 typedef struct {
     qdot_pool *pool;
-    size_t n;                             /* sides; 0: the condition of an if(...) is none of a < b, a <= b */
-    qdot_expr relations[QDOT_SIDES_MOST]; /* LISTs */
-    qdot_expr jump;                       /* u, if no side has its zeros; else nil */
-    qdot_vec(qdot_expr) choice;           /* the functions of the switch */
-    qdot_vec(qdot_expr) value;            /* of each choice on each side, side by side; last where u = 0 */
+    size_t n; /* number of sides; 0: the condition of an if(...) is not a < b or a <= b */
+    qdot_expr relations[QDOT_SIDES_MOST]; /* [n] a LIST of relations that define each side */
+    qdot_expr jump;                       /* u, if no side contains the zeros of u; else nil */
+    qdot_vec(qdot_expr) choice;           /* the functions that switch at u = 0 */
+    qdot_vec(qdot_expr) value; /* [choice.n x n] value of each function on each side; u = 0 last */
 } qdot_sides;
 
 /* The innermost |u|, sign u, max, min or if(...) in e that contains x (nil: any); nil if there is none. */

@@ -228,7 +228,7 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
         QDOT_TRY(
             qdot_decide_equal(pool, qdot_expr_arg(pool, there, i), QDOT_ZERO, &facts, &d));
         *yes = d.verdict != QDOT_REFUTED;
-        if (!*yes && qdot_solve_integers(pool, there) > 0) /* perhaps for some integers */
+        if (!*yes && qdot_solve_integers(pool, there) > 0) /* possible for some integers of the family */
             s->complete = false;
     }
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
@@ -236,9 +236,9 @@ may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *co
 
 /* A solution while its periodic unknowns are replaced by members of their families. */
 typedef struct {
-    qdot_expr *symbol, *value; /* [n] */
+    qdot_expr *symbol, *value; /* [n] the periodic unknowns and their values */
     size_t n;
-    qdot_expr *equation; /* [n] symbol = member */
+    qdot_expr *equation; /* [n] the equations symbol = member of the family */
 } solution;
 
 static qdot_status

@@ -73,7 +73,7 @@ qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_so
                   there = qdot_simultaneous_put(pool, u, one->values), d;
 
         d = qdot_sub(pool, there, qdot_simultaneous_put(pool, v, one->values));
-        if (d == QDOT_NIL) { /* `all` has no member there */
+        if (d == QDOT_NIL) { /* undefined: the family `all` has no member there */
             if (qdot_pool_check(pool) != QDOT_EDOMAIN)
                 (void)qdot_pool_fail(pool);
             return false;
@@ -177,7 +177,7 @@ typedef struct {
     qdot_pool *pool;
     size_t n;
     const qdot_expr *name;
-    qdot_expr *symbol; /* [n] */
+    qdot_expr *symbol; /* [n] temporary symbols of the parameters */
 } alias;
 
 static qdot_expr
@@ -198,7 +198,7 @@ alias_symbol(qdot_pool *pool, qdot_expr u)
     symbol = qdot_symbol_get(pool, QDOT_FORMAL, name);
     qdot_symbol_domain(pool, symbol, lo, lo_open, hi, hi_open);
     if (symbol != QDOT_NIL)
-        qdot_symbol_hide(pool, symbol); /* the parameter may be declared anew */
+        qdot_symbol_hide(pool, symbol); /* cannot be found by name, so that the parameter may be declared again */
     return symbol;
 }
 

@@ -137,7 +137,7 @@ effort_to_solve(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
         return 3;
     if (slope != QDOT_ZERO && holds_others(s, factor) && has_kinks(s, factor, u)) /* after factors without kinks */
         return 2;
-    if (holds_shares(s, factor) && !holds_shares(s, u)) /* a share's bounds are those of a region of places */
+    if (holds_shares(s, factor) && !holds_shares(s, u)) /* a friction share: its bounds limit a region of equilibria */
         return 2;
     if (holds_shares(s, u) && (qdot_expr_node(s->pool, slope)->sign & QDOT_NE0) != 0)
         return 1;
@@ -173,13 +173,13 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
                              .conditions = qdot_conditions_all(pool, b->conditions, conditions),
                              .whole = b->whole};
 
-    if (qdot_solve_integers(pool, value) > 0) { /* counts members of a family */
+    if (qdot_solve_integers(pool, value) > 0) { /* the integers of a family occur in the value */
         next.equations = qdot_solve_without_turns(pool, next.equations);
         next.known = qdot_solve_without_turns(pool, next.known);
         if (next.conditions != QDOT_NIL && next.conditions != QDOT_FALSE)
             next.conditions = qdot_solve_without_turns(pool, qdot_subs(pool, next.conditions, 1, &u, &value));
     }
-    if (qdot_pool_failed(pool)) { /* a denominator is 0 there: no solution */
+    if (qdot_pool_failed(pool)) { /* a denominator is 0: no solution */
         qdot_status status = qdot_pool_check(pool);
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
@@ -219,7 +219,7 @@ count_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members
         q = turns == QDOT_NIL ? NULL : qdot_expr_rational(pool, turns);
         if (q == NULL || fmpz_cmp_si(fmpq_denref(q), MOST_MEMBERS) > 0) {
             *members = 0;
-        } else { /* the least common multiple */
+        } else { /* the least common multiple of the periods */
             long d = fmpz_get_si(fmpq_denref(q)), k = *members;
 
             while (k % d != 0)
@@ -300,7 +300,7 @@ with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e
     QDOT_TRY(with_integer(s, b, equations, u, root, &done));
     if (done)
         return QDOT_OK;
-    s->complete = false; /* other equations differ from member to member, without end */
+    s->complete = false; /* the other equations differ for every member of an infinite family */
     return with_value(s, b, equations, u, root->value,
                       qdot_conditions_all(pool, root->condition, root->members));
 }
@@ -336,7 +336,7 @@ with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr oth
         return with_family(s, b, others, u, root);
     if (root->value != u)
         return with_value(s, b, others, u, root->value, root->condition);
-    free = *b; /* every u under a condition */
+    free = *b; /* every u is a solution, under a condition */
     free.equations = others;
     free.first = QDOT_NIL;
     free.conditions = qdot_conditions_all(s->pool, b->conditions, root->condition);
@@ -358,7 +358,7 @@ order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
             !qdot_is_constant(s->pool, root->period))
             continue;
         QDOT_TRY(qdot_solve_members(s->pool, u, root, &window, &s->facts, &members));
-        if (members.root.n > 0 && qdot_is_constant(s->pool, members.root.at[0].value)) /* no family */
+        if (members.root.n > 0 && qdot_is_constant(s->pool, members.root.at[0].value)) /* a single value, not a family */
             root->value = members.root.at[0].value;
         qdot_solutions_clear(&members);
         any = true;
@@ -375,7 +375,7 @@ split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others,
     qdot_expr u;
     qdot_status status;
 
-    if (easiest_unknown(s, factor, &which) == 9) /* no unknown: generic parameters, not 0 */
+    if (easiest_unknown(s, factor, &which) == 9) /* contains no unknown: parameters are generic, so it is not 0 */
         return add_special(s, factor);
     u = s->unknowns.at[which];
     status = qdot_solve(s->pool, factor, u, &s->facts, &found);
@@ -520,9 +520,9 @@ with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qd
 
 /* The equation that is solved next, and the others. */
 typedef struct {
-    qdot_expr equation, factors; /* factors: nil where nothing is left to solve */
-    qdot_expr others;            /* equations */
-    qdot_expr dead;              /* an equation without unknowns that is not proved to be 0; nil: there is none */
+    qdot_expr equation, factors; /* the equation, and its factors; nil if nothing is left to solve */
+    qdot_expr others;            /* a LIST of the other equations */
+    qdot_expr dead; /* an equation without unknowns that is not proved to hold; nil: none */
 } next_equation;
 
 /* Factor every equation, and choose the one whose hardest factor is easiest to solve. */
@@ -602,7 +602,7 @@ with_dead(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_eq
     if (qdot_solve_integers(s->pool, next->dead) > 0) {
         if (b->first == QDOT_NIL)
             return with_integers_solved(s, b, next->dead);
-        s->complete = false; /* for which integers a divisor is 0 is not asked */
+        s->complete = false; /* integers for which a divisor is 0 are not determined */
         return QDOT_OK;
     }
     if (choice == QDOT_NIL)
@@ -645,7 +645,7 @@ step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
     QDOT_TRY(qdot_interrupt_check());
     if (b->first != QDOT_NIL)
         QDOT_TRY(choose_divisor(s, b->first, &next));
-    if (next.factors == QDOT_NIL) { /* the divisor is 0 */
+    if (next.factors == QDOT_NIL) { /* the divisor is 0: no solution on this branch */
         left.first = QDOT_NIL;
         QDOT_TRY(choose_equation(s, b->equations, &facts, &next));
     }

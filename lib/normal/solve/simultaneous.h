@@ -22,8 +22,8 @@
 #include "normal/solve/solutions.h"
 
 typedef struct {
-    qdot_expr values;     /* a LIST of equations u = value, in the order of the unknowns */
-    qdot_expr conditions; /* a LIST of relations under which it exists; nil: always */
+    qdot_expr values;     /* a LIST u = value, in the order of the unknowns */
+    qdot_expr conditions; /* a LIST of relations under which the solution exists; nil: always */
 } qdot_simultaneous_solution;
 
 /* What is left to solve: equations, LISTs of the values known so far and of conditions (conditions.h), what is to be 0
@@ -36,11 +36,11 @@ typedef struct {
 typedef struct {
     qdot_pool *pool;
     qdot_facts facts;
-    qdot_expr equations;            /* a LIST */
-    qdot_expr defined;              /* what must have a value at a solution, beside them */
-    qdot_expr domain;               /* conditions (conditions.h) under which it has one, as it is written; nil: none */
-    qdot_vec(qdot_expr) unknowns;   /* solved for from the last on, if nothing is easier */
-    size_t places;                  /* the first of them, whose periods are looked for; the others have none */
+    qdot_expr equations;            /* a LIST of the equations */
+    qdot_expr defined; /* further expressions that must be defined at a solution; nil: none */
+    qdot_expr domain; /* conditions (conditions.h) for the equations as typed to be defined; nil: none */
+    qdot_vec(qdot_expr) unknowns; /* the unknowns; solved from the last to the first, unless another is easier */
+    size_t places;                  /* how many unknowns, the first, may be periodic */
     /* Whether members of a family with this period, not a full turn, are equivalent for the caller;
      * NULL: always. */
     bool (*alike)(void *user, qdot_expr u, qdot_expr period);
@@ -48,14 +48,14 @@ typedef struct {
     /* Inserts values into the ends of the domains in which members are listed; NULL: unchanged. */
     qdot_expr (*ends)(void *user, qdot_expr end);
     void *ends_user;
-    uint64_t work;                  /* rest of the budget, in operations */
+    uint64_t work;                  /* rest of the budget of operations */
     qdot_vec(qdot_simultaneous_branch) todo;
 
     qdot_vec(qdot_simultaneous_solution) found;
-    bool complete; /* so far these are all; true at first */
-    bool recurs;   /* an angle with one declared end: solutions of one turn */
-    qdot_vec(qdot_expr) special; /* of parameters alone: where one is 0 the set may be another */
-    qdot_vec(qdot_expr) period; /* of the first unknowns: nil until asked for, QDOT_FALSE where there is none */
+    bool complete; /* no solution has been lost; true at first */
+    bool recurs;   /* an angle has one declared bound: solutions within one turn are listed */
+    qdot_vec(qdot_expr) special; /* expressions in parameters: where one is 0 the set of solutions may differ */
+    qdot_vec(qdot_expr) period; /* periods of the first unknowns; nil: not computed; QDOT_FALSE: not periodic */
 } qdot_simultaneous;
 
 /* Every solution of f [n] in the unknowns u [n] under `conditions` (nil: none), each once, ascending where all are

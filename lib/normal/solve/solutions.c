@@ -412,7 +412,7 @@ members_add_turn(const members *m, bool *few)
 
     turn = qdot_simplify(m->pool, qdot_div(m->pool, turn, m->root->period), m->facts);
     *few = as_number(m->pool, turn, &n) && n < MOST_MEMBERS + 0.5;
-    for (long k = 0; *few && k < lround(n); k++) /* 0, -1, 1, -2 ... */
+    for (long k = 0; *few && k < lround(n); k++) /* the integers 0, -1, 1, -2 ... */
         QDOT_TRY(members_add_value(m, members_value(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
     return qdot_pool_check(m->pool);
 }
@@ -480,7 +480,7 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
             return members_add_outward(&m);
         QDOT_TRY(qdot_pool_check(pool));
     }
-    if (!few || w.recurs) { /* the whole domain in place of one turn */
+    if (!few || w.recurs) { /* list families over the whole domain, not for one turn */
         w = qdot_solve_window(pool, x, false);
         w.integer = window->integer;
     }

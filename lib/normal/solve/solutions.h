@@ -9,18 +9,18 @@
 #include "normal/solve/conditions.h"
 
 typedef struct {
-    qdot_expr value;     /* x itself: every x under the condition */
-    qdot_expr condition; /* a LIST of relations under which it is one; nil: always */
-    qdot_expr period;    /* value + n period is a root for every integer n; nil: one root */
-    qdot_expr members;   /* of a family: conditions in x that each member must fulfil; nil: none */
+    qdot_expr value;     /* the root; x itself: every x that satisfies the condition */
+    qdot_expr condition; /* a LIST of relations under which it is a root; nil: always */
+    qdot_expr period;    /* value + n period is a root for every integer n; nil: a single root */
+    qdot_expr members; /* for a family: conditions in x that each member must satisfy; nil: none */
 } qdot_root;
 
 typedef struct {
     qdot_vec(qdot_root) root;
-    bool complete; /* these are all, where no divisor is 0 */
-    bool recurs;   /* of an angle with one declared end: those of one turn, the others are whole turns away */
-    qdot_vec(qdot_expr) divisor; /* without x: what was divided by; of a LIST not all are 0 */
-    qdot_vec(qdot_expr) special; /* the same, of parameters alone: where one is 0 the set may be another */
+    bool complete; /* these are all roots, where no divisor is 0 */
+    bool recurs; /* x is an angle with one declared bound: roots of one turn, others differ by full turns */
+    qdot_vec(qdot_expr) divisor; /* divisors without x, assumed non-zero; a LIST: not all of its entries are 0 */
+    qdot_vec(qdot_expr) special; /* the same in parameters only: where one is 0 the roots may differ */
 } qdot_solutions;
 
 void qdot_solutions_clear(qdot_solutions *s);
@@ -31,9 +31,9 @@ void qdot_solutions_clear(qdot_solutions *s);
 typedef struct {
     qdot_expr lo, hi;
     bool lo_open, hi_open;
-    bool turn;   /* one turn of an angle without declared ends: any other turn would do */
-    bool recurs; /* one turn of an angle with one declared end */
-    unsigned integer; /* which integer counts the members of a family, see qdot_solve_integer */
+    bool turn;   /* one turn of an unbounded angle, which represents all turns */
+    bool recurs; /* one turn of an angle with one declared bound */
+    unsigned integer; /* index of the integer that numbers members of a family (qdot_solve_integer) */
 } qdot_window;
 
 /* The declared domain of x; for an angle (f has period 2 pi in x) one turn of it. */

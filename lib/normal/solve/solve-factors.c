@@ -98,7 +98,7 @@ enum { MOST_ROOTS = 4, MOST_ORDER = 12 };
 
 struct roots {
     uint32_t n;
-    qdot_expr v[MOST_ROOTS], root[MOST_ROOTS]; /* the i-th root may hold v of those before it */
+    qdot_expr v[MOST_ROOTS], root[MOST_ROOTS]; /* symbols v for roots; a root may contain symbols of earlier roots */
 };
 
 /* A parameter in which `base` is linear with a number as slope; nil if there is none. */
@@ -230,7 +230,7 @@ list_factors(void *user)
     size_t n = 0;
     qdot_status status = qdot_pool_check(x->pool);
 
-    if (status == QDOT_EDOMAIN) { /* nowhere real as it stands */
+    if (status == QDOT_EDOMAIN) { /* nowhere real in this form */
         e = x->e;
         roots.n = 0;
         status = QDOT_OK;

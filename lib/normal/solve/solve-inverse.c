@@ -44,7 +44,7 @@ circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
     qdot_pool *pool = s->pool;
     qdot_expr angle = qdot_fun1(pool, sine ? QDOT_ASIN : QDOT_ACOS, v);
 
-    if (angle == QDOT_NIL) { /* a number beyond 1 */
+    if (angle == QDOT_NIL) { /* undefined: |v| > 1 */
         qdot_status status = qdot_pool_check(pool);
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;

@@ -50,7 +50,7 @@ typedef struct {
     qdot_written written;
     const qdot_facts *facts;
     const qdot_solutions *found;
-    qdot_expr where; /* nil: at all values */
+    qdot_expr where; /* parameter values already inserted; nil: none */
     qdot_specials *out;
 } special_search;
 
@@ -285,7 +285,7 @@ solve_at(special_search *s, qdot_expr where)
 
     next.f = qdot_subs(pool, s->f, n, from, to);
     status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN) /* the equation is not defined there */
+    if (status == QDOT_EDOMAIN) /* the equation is undefined there */
         return QDOT_OK;
     QDOT_TRY(status);
     next.written.domain = qdot_conditions_at(pool, s->written.domain, n, from, to, s->facts);
@@ -309,7 +309,7 @@ solve_at(special_search *s, qdot_expr where)
         next.where = where;
         if (!is_told(s, n, from, to, &one.set) && qdot_pool_check(pool) == QDOT_OK) {
             status = qdot_vec_push(&s->out->at, one);
-            return status == QDOT_OK ? search_specials(&next) : status; /* out owns the set */
+            return status == QDOT_OK ? search_specials(&next) : status; /* the new set is owned by `out` */
         }
         status = search_specials(&next);
     }

@@ -20,7 +20,7 @@ typedef struct {
 
 typedef struct {
     qdot_vec(qdot_special) at;
-    qdot_vec(qdot_expr) open; /* equations in parameters where the set may be another one, which is not known */
+    qdot_vec(qdot_expr) open; /* equations in parameters for which the roots may differ and are unknown */
 } qdot_specials;
 
 void qdot_specials_clear(qdot_specials *s);

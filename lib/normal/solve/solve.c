@@ -81,7 +81,7 @@ solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *writt
     if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);
-    if (status != QDOT_OK) { /* what it allocated is there no more */
+    if (status != QDOT_OK) { /* its results were freed with the failure */
         *out = (qdot_solutions){0};
         return status == QDOT_ELIMIT ? QDOT_OK : status;
     }
@@ -238,7 +238,7 @@ qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written
     qdot_status status;
 
     *out = all = (qdot_solutions){0};
-    if (w.domain != QDOT_NIL) /* what holds in all of the declared domain of x is decided before roots are put in */
+    if (w.domain != QDOT_NIL) /* decide what holds on the whole domain of x before inserting roots */
         w.domain = qdot_conditions_at(pool, w.domain, 0, NULL, NULL, facts);
     status = solve_where(pool, f, x, &w, facts, &all);
     for (size_t i = 0; i < all.root.n && !angle; i++)

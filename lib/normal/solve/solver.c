@@ -186,7 +186,7 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
     qdot_facts facts;
     bool yes, lifted = false;
 
-    if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* the value is defined nowhere */
+    if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* the value is undefined for all parameters */
         return QDOT_OK;
     QDOT_TRY(status);
     if (period != QDOT_NIL)
@@ -210,7 +210,7 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
             return qdot_pool_check(s->pool);
     if (period != QDOT_NIL && root.members == QDOT_NIL && !lifted)
         QDOT_TRY(poles_apart(s, root.value, period, &root.members));
-    if (root.members != QDOT_NIL || lifted) /* the value itself may be none; or it is proved to be one */
+    if (root.members != QDOT_NIL || lifted) /* this member may be no root; or it has been proved to be one */
         return qdot_vec_push(&s->out->root, root);
     facts = qdot_facts_and(s->pool, s->facts, root.condition, room);
     QDOT_TRY(is_root(s, root.value, &facts, &yes));
@@ -229,7 +229,7 @@ qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr wh
         return QDOT_OK;
     if (qdot_is_zero(s->pool, e, s->facts))
         return qdot_solver_add(s, value, QDOT_NIL, when);
-    choice = qdot_sides_choice(s->pool, e, QDOT_NIL); /* |a| - a is 0 in a whole region of a */
+    choice = qdot_sides_choice(s->pool, e, QDOT_NIL); /* a whole region: |a| - a = 0 for all a >= 0 */
     if (!qdot_is_generic(s->pool, e) || choice == QDOT_NIL)
         return qdot_solver_divide(s, e);
     status = qdot_sides_of(s->pool, e, choice, &sides);
@@ -324,7 +324,7 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
     qdot_pool *pool = s->pool;
     qdot_expr u = f->gen[sh->var[0]].of, A, B, c;
 
-    if (f->gen[sh->var[0]].kind == QDOT_GEN_SIN) /* var0 the cosine */
+    if (f->gen[sh->var[0]].kind == QDOT_GEN_SIN) /* exchange: var[0] must be the cosine */
         exchange(sh);
     if (sh->degree[0] == 1 && sh->degree[1] == 1 && coefficient(f, sh, 1, 1) == QDOT_ZERO)
         return qdot_solver_mixed(s, u, coefficient(f, sh, 0, 1), coefficient(f, sh, 1, 0),
@@ -334,7 +334,7 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
         return QDOT_OK;
     }
     if (sh->degree[0] == 2 && coefficient(f, sh, 0, 1) == QDOT_ZERO && coefficient(f, sh, 1, 0) == QDOT_ZERO &&
-        coefficient(f, sh, 2, 1) == QDOT_ZERO) { /* A cos^2 u + B sin u cos u + C, linear in those of 2 u */
+        coefficient(f, sh, 2, 1) == QDOT_ZERO) { /* A cos^2 u + B sin u cos u + C is linear in sin 2u, cos 2u */
         A = qdot_mul(pool, QDOT_HALF, coefficient(f, sh, 2, 0));
         B = qdot_mul(pool, QDOT_HALF, coefficient(f, sh, 1, 1));
         return qdot_solver_mixed(s, qdot_mul(pool, qdot_expr_int(pool, 2), u), B, A,
@@ -405,7 +405,7 @@ root_and_rest(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
     const qdot_gen *root;
     qdot_expr A, B;
 
-    if (at == 1) /* var1 the root */
+    if (at == 1) /* exchange: var[1] must be the root */
         exchange(sh);
     root = &f->gen[sh->var[1]];
     if (root->kind != QDOT_GEN_ROOT || sh->degree[1] != 1) {
@@ -494,7 +494,7 @@ one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr whole,
     status = shape_of(s, f, p, &sh);
     if (status != QDOT_OK)
         ;
-    else if (sh.n == 0) /* without x: where it is 0 every x is a root */
+    else if (sh.n == 0) /* a factor without x: where it is 0, every x is a root */
         status = qdot_solver_add_where(s, s->x, qdot_field_expr(f, p), when);
     else if (sh.n == 1)
         status = one_generator(s, f, &sh, when);
@@ -596,7 +596,7 @@ qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
     qdot_expr choice;
     qdot_status status = qdot_pool_check(s->pool);
 
-    if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* a value that is defined nowhere */
+    if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* the value is undefined for all parameters */
         return QDOT_OK;
     QDOT_TRY(status);
     if (s->depth >= MOST_DEPTH) {
@@ -606,7 +606,8 @@ qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
     s->depth++;
     choice = qdot_sides_choice(s->pool, e, s->x);
     factors = factors_with_x(s, e, &repeated);
-    if (repeated || (choice != QDOT_NIL && factors > 1)) /* as it stands: a power multiplied out may not come apart again */
+    /* leave a power as it is: multiplied out it may not factor again */
+    if (repeated || (choice != QDOT_NIL && factors > 1))
         status = by_product(s, e, when);
     else
         status = choice == QDOT_NIL ? by_factors(s, e, when) : qdot_solver_cases(s, e, choice, when);

@@ -9,10 +9,10 @@
 typedef struct {
     qdot_pool *pool;
     qdot_expr f, x;
-    qdot_written written; /* its domain: conditions of every root */
+    qdot_written written; /* conditions for the equation as typed to be defined, which each root must satisfy */
     const qdot_facts *facts;
     qdot_solutions *out;
-    int depth; /* of functions inverted */
+    int depth; /* number of functions inverted so far */
     qdot_status status;
 } qdot_solver;
 
@@ -38,7 +38,7 @@ qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
 
 typedef struct {
     qdot_expr value, when;
-} qdot_argument; /* a value of a function of x */
+} qdot_argument; /* an argument u at which a function takes the required value */
 
 typedef qdot_vec(qdot_argument) qdot_arguments;
 

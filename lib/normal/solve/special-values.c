@@ -17,7 +17,7 @@ typedef struct {
     qdot_pool *pool;
     const qdot_facts *facts;
     qdot_special_values *out;
-    qdot_expr where; /* the values that were given */
+    qdot_expr where; /* parameter values already inserted */
 } search;
 
 void
@@ -69,7 +69,7 @@ zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
 
     if (had + 1 > QDOT_SPECIAL_TOGETHER)
         return leave_open(s, qdot_sub(pool, p, value));
-    for (uint32_t i = 0; i < had; i++) { /* what was said of others, with this value in it */
+    for (uint32_t i = 0; i < had; i++) { /* the values found for other parameters, with this one inserted */
         qdot_expr one = qdot_expr_arg(pool, where, i);
 
         all = qdot_conditions_and(
@@ -156,7 +156,7 @@ zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
     qdot_pool *pool = s->pool;
     qdot_expr factors, first;
 
-    if (n == 0 && where == s->where) /* 0 at all values in question: none is special */
+    if (n == 0 && where == s->where) /* 0 at all these values: none is special */
         return QDOT_OK;
     if (n == 0)
         return qdot_expr_place(s->out->at.n, s->out->at.at, where) < s->out->at.n ? QDOT_OK

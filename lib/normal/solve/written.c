@@ -100,7 +100,7 @@ take_sums_apart(qdot_pool *pool, qdot_expr product, void *user)
             by = square_factors(pool, base, s->x);
         if (by != base && s->status == QDOT_OK) {
             qdot_written of_sum = {QDOT_NIL, QDOT_NIL};
-            qdot_expr whole = QDOT_NIL; /* of a power that stays one: f itself asks for that where it is solved */
+            qdot_expr whole = QDOT_NIL; /* the argument of a power that is not split: f itself requires it to be >= 0 */
 
             s->status = qdot_written_add(pool, by, exponent, &of_sum, &whole);
             of_sum.apart = qdot_conditions_less(pool, of_sum.apart, s->written->domain);

@@ -12,8 +12,8 @@
 #include "normal/solve/conditions.h"
 
 typedef struct {
-    qdot_expr domain; /* conditions that solutions fulfil; nil: none */
-    qdot_expr apart;  /* conditions 0 <= u of f that come from roots taken apart: where these are 0, not asked; nil: none */
+    qdot_expr domain; /* conditions that solutions must satisfy; nil: none */
+    qdot_expr apart; /* conditions 0 <= u from roots that were split; not required where u = 0; nil: none */
 } qdot_written;
 
 /* Add the power base^exponent as it was written, of a root that was taken apart: `domain` gets the condition of its base,

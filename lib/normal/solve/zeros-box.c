@@ -46,8 +46,8 @@ qdot_zeros_system_end(qdot_zeros_system *s)
 /* Enclosures of f over a box. */
 typedef struct {
     qdot_interval y[MOST], slope[MOST][MOST];
-    bool nowhere, zero_free; /* undefined everywhere; without a zero */
-    bool smooth;             /* continuous, with finite slopes */
+    bool nowhere, zero_free; /* f is undefined in the whole box; f has no zero in the box */
+    bool smooth;             /* f is continuous with bounded derivatives in the box */
 } image;
 
 static void
@@ -659,6 +659,6 @@ qdot_zeros_join(qdot_zeros_system *s)
             for (size_t i = 0; i < s->n; i++)
                 a[i] = qdot_interval_around(a[i], b[i]);
             s->doubt.at[l] = s->doubt.at[--s->doubt.n];
-            l = k + 1; /* the larger box may touch more */
+            l = k + 1; /* start again, as the larger box may touch more boxes */
         }
 }

@@ -15,7 +15,7 @@ static bool
 simplest(double lo, double hi, long most, long *p, long *q)
 {
     long a = 0, b = 1, c = 1,
-         d = 0; /* a/b < x < c/d in the tree of fractions of x >= 0 */
+         d = 0; /* a/b < x < c/d, neighbours in the tree of fractions (Stern-Brocot) */
     bool minus = hi < 0;
 
     *p = 0, *q = 1;
@@ -33,7 +33,7 @@ simplest(double lo, double hi, long most, long *p, long *q)
     c = a + 1, d = 1;
     if (a >= lo)
         c = a;
-    if (c <= hi) { /* an integer */
+    if (c <= hi) { /* the next integer lies in the interval */
         *p = minus ? -c : c;
         return true;
     }

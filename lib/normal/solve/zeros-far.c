@@ -22,7 +22,7 @@ typedef struct {
     size_t n;
     struct {
         long exponent;
-        qdot_expr rate; /* a constant other than 0 */
+        qdot_expr rate; /* a constant, not 0 */
         qdot_interval bounds;
     } term[TERMS];
 } far_scale;
@@ -33,15 +33,15 @@ typedef struct {
     qdot_interval bounds;
     far_scale scale;
     bool known;
-    bool nowhere; /* instead: it is defined at no x >= R */
+    bool nowhere; /* the function is defined at no x >= R */
 } far_form;
 
 typedef struct {
     qdot_pool *pool;
-    qdot_expr x; /* > 0 */
+    qdot_expr x; /* the variable, positive */
     double R;
     qdot_walk *walk;
-    far_form *form; /* [walk->n] */
+    far_form *form; /* [walk->n] growth of each node */
 } far_task;
 
 static const far_form form_unknown = {.bounds = {-INFINITY, INFINITY}};
@@ -122,7 +122,7 @@ scale_bound(const far_task *t, const far_scale *s)
     qdot_interval slope = {0, 0}, size = {0, 0}, R = qdot_interval_point(t->R), log_R;
     double rest = fmax((double)s->power, 0) + fmax((double)s->logs, 0);
 
-    log_R = qdot_interval_rising(log, R); /* > 1 */
+    log_R = qdot_interval_rising(log, R); /* log R is > 1 */
     for (size_t k = 0; k < s->n; k++) {
         double e = (double)s->term[k].exponent / UNIT;
         qdot_interval rate = s->term[k].bounds, at = power_of_R(t, s->term[k].exponent);
@@ -256,7 +256,7 @@ form_sum(const far_task *t, const far_form *f, const far_form *g)
     growth = scale_growth(&ratio);
     if (growth > 0)
         return form_sum(t, g, f);
-    if (growth < 0 && !is_bounded(g)) /* g may outgrow its scale, so the ratio too: only its sign is known */
+    if (growth < 0 && !is_bounded(g)) /* g may exceed its scale, so only the sign of the ratio is known */
         other = other.lo > 0 ? (qdot_interval){0, INFINITY} : (qdot_interval){-INFINITY, 0};
     else if (growth < 0)
         other = qdot_interval_product(other, scale_range(t, &ratio), false);
@@ -309,7 +309,7 @@ form_exp_of_fast(const far_task *t, const far_form *u)
     if (!u->known || !(least > 0) || !scale_multiply(t->pool, &slower, &x, 1, 1) ||
         !scale_multiply(t->pool, &slower, &u->scale, -1, 1) || scale_growth(&slower) > 0)
         return form_unknown;
-    most = scale_growth(&slower) == 0 ? 1 : scale_bound(t, &slower); /* of x/S */
+    most = scale_growth(&slower) == 0 ? 1 : scale_bound(t, &slower); /* bound of x/S */
     rate = least / most * (1 - 1e-9);
     if (!(rate > 0))
         return form_unknown;
@@ -400,7 +400,7 @@ bounds_of_quotient(qdot_fun_id h, double most)
 
     if (!(most < 0.5))
         return qdot_interval_whole;
-    switch (h) { /* by the next term of the series, made larger for those that follow */
+    switch (h) { /* error of the series: its next term, enlarged for the terms after it */
     case QDOT_SIN:
     case QDOT_ASINH: return (qdot_interval){1 - 0.17 * square, 1};
     case QDOT_TANH:
@@ -588,7 +588,7 @@ qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_expr x, int sign, double *R)
     f = qdot_walk_replace(pool, qdot_subs(pool, f, 1, &x, &to), QDOT_FUN, as_exponentials,
                           NULL);
     status = qdot_pool_check(pool);
-    if (status == QDOT_EDOMAIN) { /* defined for no such x */
+    if (status == QDOT_EDOMAIN) { /* undefined for all large x */
         *R = 1;
         return QDOT_OK;
     }

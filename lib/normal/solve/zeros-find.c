@@ -23,7 +23,7 @@ static const uint64_t usual[MOST + 1] = {0, 20000, 80000, 160000, 160000, 160000
 enum {
     SHORT = 50,
     FACTORING = 200
-}; /* what an equation in a chart costs before it is evaluated */
+}; /* largest number of operations of an equation that is worth factoring */
 
 /* --- ranges of the unknowns ------------------------------------------------------------------------- */
 
@@ -46,7 +46,7 @@ read_ranges(qdot_zeros_task *t)
         if (r->turn)
             t->bounds[j] = (qdot_interval){-nextafter(M_PI, 4), nextafter(M_PI, 4)};
         if (!(t->bounds[j].lo <= t->bounds[j].hi))
-            t->bounds[j].hi = t->bounds[j].lo; /* empty, or one point */
+            t->bounds[j].hi = t->bounds[j].lo; /* empty range, or a single point */
     }
     return qdot_pool_check(t->pool);
 }
@@ -69,7 +69,7 @@ read_held(qdot_zeros_task *t)
                       right = qdot_expr_arg(t->pool, one, 1);
 
             if ((left == t->range[0].lo && right == t->x[0]) ||
-                (left == t->x[0] && right == t->range[0].hi)) /* boxes lie between the ends */
+                (left == t->x[0] && right == t->range[0].hi)) /* the whole range, of which boxes are parts */
                 continue;
             gap[m++] = qdot_sub(t->pool, right, left);
         }
@@ -95,7 +95,7 @@ split(qdot_zeros_task *t)
     for (size_t i = 0; i < t->n; i++) {
         QDOT_TRY(qdot_zeros_factors(t->pool, t->F[i], t->n, t->x, &lists[i]));
         all *= qdot_expr_count(t->pool, lists[i]);
-        if (all > QDOT_ZEROS_SYSTEMS) { /* too many: equations as they stand */
+        if (all > QDOT_ZEROS_SYSTEMS) { /* too many combinations: do not split into factors */
             all /= qdot_expr_count(t->pool, lists[i]);
             lists[i] = qdot_list(t->pool, 1, &t->F[i]);
         }
@@ -350,7 +350,7 @@ search_system(qdot_zeros_task *t, size_t k)
     if (status == QDOT_OK && !wild && beyond && t->n == 1)
         status = search_to_growth(t, k, &core, &chart.box.at[0], &beyond);
     if (status == QDOT_OK && beyond &&
-        t->n > 1) { /* zeros at infinity of one form may be none of the other */
+        t->n > 1) { /* zeros at infinity of one form may not be zeros of another */
         for (size_t j = 0; j < t->n; j++) {
             apart[j] = t->range[j];
             apart[j].group = (unsigned)j;
@@ -437,7 +437,7 @@ find_single(qdot_zeros_task *t)
     if (!t->nowhere)
         return QDOT_OK;
     QDOT_TRY(qdot_holds_choice(t->pool, t->n, t->F, &chosen));
-    t->nowhere = !chosen; /* if(...) may not choose the power */
+    t->nowhere = !chosen; /* unless an if(...) chooses another value there */
     return QDOT_OK;
 }
 

@@ -195,7 +195,7 @@ decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
             if (!only)
                 continue;
             only = is_monotone_aside(s, at, wide);
-            if (!only && ends && i < n) { /* the range lies on one side of an end */
+            if (!only && ends && i < n) { /* the range ends at this zero: one side suffices */
                 int side = X.hi - at.hi > at.lo - X.lo ? 1 : -1;
 
                 QDOT_TRY(is_only_zero_at_end(
@@ -218,7 +218,7 @@ decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
 
 typedef struct {
     qdot_zeros_system *s;
-    qdot_expr e[2]; /* f, f' */
+    qdot_expr e[2]; /* f and f' for evaluation in balls */
     qdot_ball ball;
     arb_t at;
     int steps;
@@ -313,7 +313,7 @@ refine(fine *d, const arf_t lo, const arf_t hi, int depth)
     } else {
         arf_t m;
 
-        arf_init(m); /* not halved: zeros like to be in the middle */
+        arf_init(m); /* do not cut in the middle, where zeros often lie */
         arf_sub(m, hi, lo, BITS, ARF_RND_NEAR);
         arf_mul_si(m, m, 31, BITS, ARF_RND_NEAR);
         arf_mul_2exp_si(m, m, -6);
@@ -388,7 +388,8 @@ exclude_by_growth(const qdot_zeros_system *s, qdot_interval X, bool *excluded)
         return qdot_pool_check(pool);
     at = qdot_zeros_constant(pool, c);
     to = qdot_add(pool, c, qdot_pow_int(pool, s->x[0], -1));
-    g = qdot_simplify(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), NULL); /* terms that cancel do not grow */
+    /* simplified first, so that growing terms that cancel do not count */
+    g = qdot_simplify(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), NULL);
     if (g == QDOT_NIL)
         return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_last_error()->status;
     QDOT_TRY(is_no_zero(s, c, excluded));

@@ -102,7 +102,7 @@ look_around(qdot_pool *pool, const qdot_expr *F, const qdot_expr *x, double gues
 
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_zeros_find(pool, 1, F, x, &range, 0, out));
-    out->complete = out->exhausted = false; /* of a small box only */
+    out->complete = out->exhausted = false; /* only a small box was searched */
     for (size_t k = 1; k < out->count; k++)
         if (fabs(out->at[k] - z) < fabs(out->at[best] - z))
             best = k;

@@ -7,13 +7,13 @@
 #include "normal/solve/isolate.h"
 #include "normal/solve/zeros.h"
 
-enum { QDOT_ZEROS_DOUBTS = 4000 }; /* boxes not decided; more: the search ends */
+enum { QDOT_ZEROS_DOUBTS = 4000 }; /* largest number of undecided boxes, beyond which the search ends */
 
 /* A zero that was proved in one system. */
 typedef struct {
     double at[QDOT_ZEROS_MOST_UNKNOWNS], radius[QDOT_ZEROS_MOST_UNKNOWNS];
     qdot_interval
-        alone[QDOT_ZEROS_MOST_UNKNOWNS]; /* the only zero of its system in there */
+        alone[QDOT_ZEROS_MOST_UNKNOWNS]; /* [n] box in which this is the only zero of its system */
     bool simple;
 } qdot_zero_place;
 
@@ -25,19 +25,19 @@ typedef struct {
 typedef struct {
     qdot_pool *pool;
     size_t n;
-    const qdot_expr *f, *x; /* [n] borrowed */
-    qdot_enclosure *bounds; /* of f */
+    const qdot_expr *f, *x; /* [n] the equations' left sides and the unknowns; borrowed */
+    qdot_enclosure *bounds; /* enclosures of f over boxes */
     qdot_enclosure
-        *also; /* of `others` more expressions that vanish at each zero; NULL: none */
+        *also; /* `others` more expressions that vanish at each zero; NULL: none */
     size_t others;
-    qdot_enclosure **held; /* [ranges] known ranges of zeros: where all expressions of one are positive; borrowed */
+    qdot_enclosure **held; /* [ranges] regions of zeros, where all expressions of one enclosure are positive; borrowed */
     size_t ranges;
-    double least; /* a box is not halved where all its widths are smaller */
+    double least; /* smallest width: a smaller box is not halved */
     qdot_isolate isolate;
     uint64_t evaluations, budget;
-    qdot_vec(qdot_zero_box) todo, small, doubt; /* small: of todo, for later */
-    bool late;                                  /* these are being searched */
-    size_t next;                                /* one unknown: the next of todo */
+    qdot_vec(qdot_zero_box) todo, small, doubt; /* boxes to be searched; small ones for later; undecided ones */
+    bool late;                                  /* the boxes `small` are being searched */
+    size_t next; /* with one unknown: index of the next box in `todo` */
     qdot_vec(qdot_zero_place) found;
     bool exhausted;
 } qdot_zeros_system;
@@ -45,7 +45,7 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_zeros_system_begin(qdot_zeros_system *s, qdot_pool *pool,
                                                     size_t n, const qdot_expr *f,
                                                     const qdot_expr *x);
-void qdot_zeros_system_end(qdot_zeros_system *s); /* in any case */
+void qdot_zeros_system_end(qdot_zeros_system *s); /* to be called in any case */
 
 /* Search the boxes of s->todo; zeros go to s->found, undecided boxes to s->doubt. (zeros-box.c) */
 QDOT_MUST_CHECK qdot_status qdot_zeros_search(qdot_zeros_system *s);
@@ -88,12 +88,12 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_factors(qdot_pool *pool, qdot_expr f, siz
 typedef struct {
     size_t n;
     int8_t sign
-        [QDOT_ZEROS_MOST_UNKNOWNS]; /* x_j = sign/s: of the one that is largest in its group; 0: none */
+        [QDOT_ZEROS_MOST_UNKNOWNS]; /* x_j = sign/s if x_j is the largest of its group; 0: it is not */
     int8_t inverse
-        [QDOT_ZEROS_MOST_UNKNOWNS]; /* x_i = y_i/s, s that of unknown inverse[i]; -1: x_i itself */
-    bool near; /* instead: x_j = centre_j + sign s, x_i = centre_i + s y_i */
+        [QDOT_ZEROS_MOST_UNKNOWNS]; /* x_i = y_i/s, where s belongs to unknown inverse[i]; -1: x_i is not transformed */
+    bool near; /* chart near a point: x_j = centre_j + sign s, x_i = centre_i + s y_i */
     qdot_expr centre[QDOT_ZEROS_MOST_UNKNOWNS];
-    qdot_expr y[QDOT_ZEROS_MOST_UNKNOWNS]; /* the chart's unknowns */
+    qdot_expr y[QDOT_ZEROS_MOST_UNKNOWNS]; /* [n] unknowns of the chart */
     qdot_zero_box box;
 } qdot_zeros_chart;
 

@@ -247,7 +247,7 @@ place_in_ranges(qdot_zeros_task *t, const qdot_expr *f, qdot_zero_place *p, side
     bool unknown = false;
 
     for (size_t j = 0; j < t->n; j++) {
-        if (t->range[j].turn) { /* -pi < x <= pi */
+        if (t->range[j].turn) { /* move x into -pi < x <= pi */
             double turns = ceil((p->at[j] - p->radius[j] - M_PI) / (2 * M_PI) - 1e-15);
 
             p->at[j] -= 2 * M_PI * turns;

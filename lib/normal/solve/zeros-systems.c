@@ -112,7 +112,7 @@ qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *x,
     }
     if (count == 1 && is_multiple(pool, f, kept[0], n, x))
         kept[0] =
-            f; /* as it was written: its bounds are closer than those of what is expanded */
+            f; /* f as typed: its enclosures are tighter than those of the expanded form */
     *list = qdot_list(pool, count, kept);
     return qdot_pool_check(pool);
 }
@@ -183,7 +183,7 @@ qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
     bool seen[MOST] = {false};
 
     memset(out, 0, sizeof *out);
-    for (size_t j = 0; j < n; j++) { /* k in the mixed base of the groups' choices */
+    for (size_t j = 0; j < n; j++) { /* digits of k: the choice in each group */
         size_t choices = 0, mine;
 
         if (seen[j] || !is_unbounded(bounds[j]))

@@ -17,18 +17,18 @@ typedef struct {
     size_t n;
     const qdot_expr *F, *x;
     const qdot_zeros_range *range;
-    qdot_interval bounds[QDOT_ZEROS_MOST_UNKNOWNS]; /* of the ranges, outward */
+    qdot_interval bounds[QDOT_ZEROS_MOST_UNKNOWNS]; /* [n] bounds of the search, rounded outward */
     qdot_interval lo[QDOT_ZEROS_MOST_UNKNOWNS],
-        hi[QDOT_ZEROS_MOST_UNKNOWNS];                          /* bounds of their ends */
-    qdot_expr ends[QDOT_ZEROS_MOST_UNKNOWNS];                  /* LISTs of exact ends */
-    qdot_expr f[QDOT_ZEROS_SYSTEMS][QDOT_ZEROS_MOST_UNKNOWNS]; /* the systems */
+        hi[QDOT_ZEROS_MOST_UNKNOWNS]; /* [n] lo, hi: enclosures of the exact ends of the search */
+    qdot_expr ends[QDOT_ZEROS_MOST_UNKNOWNS];                  /* [n] a LIST of the exact ends */
+    qdot_expr f[QDOT_ZEROS_SYSTEMS][QDOT_ZEROS_MOST_UNKNOWNS]; /* systems of equations whose zeros together are those of F */
     size_t systems;
-    qdot_vec(qdot_enclosure *) held; /* of one unknown: known ranges of zeros, by expressions that are positive there */
+    qdot_vec(qdot_enclosure *) held; /* with one unknown: regions of zeros, where these expressions are positive */
     qdot_vec(qdot_zeros_member) found;
     qdot_vec(qdot_zero_box) doubt;
     uint64_t budget, spent, evaluations;
     bool exhausted, beyond;
-    bool single, nowhere; /* a power of F may be real at single places, which no box shows; and is so in all of the box */
+    bool single, nowhere; /* a power in F may be real at isolated points only; F may be undefined elsewhere */
 } qdot_zeros_task;
 
 /* (zeros-places.c) */

@@ -39,25 +39,25 @@ enum { QDOT_ZEROS_MOST_UNKNOWNS = 6 };
 /* The range in which an unknown is searched. */
 typedef struct {
     qdot_expr lo, hi;      /* constants; nil: unbounded */
-    bool lo_open, hi_open; /* the end does not belong to it */
-    bool turn;             /* F repeats after 2 pi (proved): -pi < x <= pi */
+    bool lo_open, hi_open; /* the bound itself is excluded */
+    bool turn;             /* proved: F has period 2 pi in it; searched in -pi < x <= pi */
     unsigned group;        /* unbounded unknowns of one group grow together */
     qdot_expr held;        /* of one unknown: known ranges of zeros, which are not searched: LISTs of relations
                               that hold there, in a LIST; nil: none */
 } qdot_zeros_range;
 
 typedef struct {
-    size_t n; /* unknowns */
+    size_t n; /* number of unknowns */
     double *at,
-        *radius; /* [count * n] proved zeros, ascending by the first unknown, then the next */
-    bool *simple; /* [count] F' is regular there; else multiple, or not known */
+        *radius; /* [count x n] proved zeros and error bounds, ascending by the first unknown, then the next */
+    bool *simple; /* [count] the Jacobian is regular; false: multiple zero, or unknown */
     size_t count;
-    double *doubt, *reach; /* [doubts * n] middle and half width of places not decided */
+    double *doubt, *reach; /* [doubts x n] centre and half width of undecided boxes */
     size_t doubts;
-    bool beyond;    /* far away, where x is unbounded, zeros are not excluded */
-    bool complete;  /* proved: there are no others in the box */
-    bool exhausted; /* the budget was spent */
-    bool single;    /* a power is real at single places of the box, which are not searched */
+    bool beyond;    /* zeros at large |x|, where x is unbounded, are not excluded */
+    bool complete;  /* proved: there are no other zeros in the search box */
+    bool exhausted; /* the budget of operations was used up */
+    bool single;    /* a power is real at isolated points of the box, which are not searched */
     uint64_t evaluations;
 } qdot_zeros;
 
