@@ -30,13 +30,13 @@ block_slope(const qdot_bind *b, size_t k, size_t row, size_t column)
     const qdot_plan_block *block = b->plan->blocks + k;
     const size_t columns = 2 * b->plan->n + 1;
     const double *slope = b->slopes + row * columns + column;
-    const double *a = b->in + columns; /* q'' */
+    const double *a = b->in + columns; /* the accelerations q'' */
     double *x = b->blocks.at[k].x;
 
     for (size_t i = 0; i < block->n; i++, slope += columns)
         x[i] = *slope;
     if (block->n == 1)
-        return; /* the tape gives q'' itself */
+        return; /* with one coordinate the tape's output is q'' itself */
     for (size_t i = 0; i < block->n && !block->constant; i++)
         for (size_t j = 0; j <= i; j++, slope += columns) {
             x[i] -= *slope * a[block->index[j]];
@@ -71,7 +71,7 @@ qdot_bind_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *
 
         for (size_t j = 0; j < columns; j++) {
             block_slope(b, k, row, j);
-            if (!is_solved(block)) /* M dq''/dz = that */
+            if (!is_solved(block)) /* solve M dq''/dz = column */
                 qdot_blocks_solve(&b->blocks, k, b->blocks.at[k].x);
             for (size_t i = 0; i < block->n; i++) {
                 size_t at = n + block->index[i];

@@ -19,42 +19,42 @@ typedef struct qdot_bind qdot_bind;
 
 struct qdot_bind {
     const qdot_plan *plan;
-    qdot_tape *tape; /* a shaken copy; else NULL */
+    qdot_tape *tape; /* copy of the plan's tape with shaken constants; NULL: use the plan's own */
     qdot_blocks blocks;
-    qdot_constrained *held;     /* solves for accelerations and multipliers under constraints; NULL: the blocks do */
-    qdot_motion_series *direct; /* if the equations are smooth: their Taylor series, */
+    qdot_constrained *held; /* solves for q'' and multipliers under constraints; NULL: no constraints */
+    qdot_motion_series *direct; /* Taylor series of smooth equations without constraints; NULL: none */
     qdot_tree_series *tree;
-    qdot_motion_series *tied;      /* or those under constraints */
+    qdot_motion_series *tied;      /* Taylor series of equations with constraints; NULL: none */
     /* other series, in turns with `tied`, for nearly dependent constraints; NULL: none */
     qdot_guarded *guarded;
-    const qdot_ode_series *series; /* the callbacks of the series in use; NULL: there is none */
-    qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
-    qdot_ode_bonds bonds;  /* the momenta of the system, for geometric methods that need them */
-    qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
+    const qdot_ode_series *series; /* callbacks of the series in use; NULL: no series */
+    qdot_phase *phase;     /* canonical momenta, for geometric methods that need them; else NULL */
+    qdot_ode_bonds bonds;  /* callbacks of holonomic constraints, for geometric methods */
+    qdot_leading *leading; /* first orders of the series in two doubles; NULL: not requested */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
     qdot_tree_series *elsewhere;
     bool shaken;
-    double *in;         /* [3n + 1] q, q', t, q'' */
-    double *out, *work; /* of the tape */
-    double *slopes;     /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
+    double *in;         /* [3n + 1] inputs of the tape: q, q', t, q'' */
+    double *out, *work; /* outputs and scratch of the tape */
+    double *slopes; /* [outputs x (2n + 1)] derivatives of the tape by q, q', t; NULL: not needed */
     double *slopes_work;
-    qdot_ode_mass_form mass_form; /* how M enters the Jacobian of implicit methods */
+    qdot_ode_mass_form mass_form; /* the equations as M y' = f for implicit methods */
 
     /* The reduced plan of a plan with ignorable coordinates; the reduced plan is the one that is integrated. */
-    qdot_tape *reduced; /* a shaken copy; else NULL */
+    qdot_tape *reduced; /* copy of the reduced plan's tape with shaken constants; NULL: its own */
     qdot_blocks reduced_blocks;
     qdot_momenta *momenta;
 
     /* For a plan of decoupled parts: the bind and the equations of each part. */
-    qdot_bind **parts;        /* [plan->n_parts] */
-    qdot_ode_system *systems; /* [n_parts] */
-    qdot_ode_part *listed;    /* [n_parts] */
-    size_t *index;            /* [2n] what `listed` has */
-    double *part_scales;      /* [2n] the scales of the parts, one after another; NULL: all 1 */
+    qdot_bind **parts;        /* [n_parts] the bind of each part */
+    qdot_ode_system *systems; /* [n_parts] the equations of each part */
+    qdot_ode_part *listed;    /* [n_parts] the parts in the form that the integrator takes */
+    size_t *index;            /* [2n] component indices to which `listed` points */
+    double *part_scales;      /* [2n] scales of the parts, one part after another; NULL: all 1 */
     const double *scales;
 
-    qdot_pulses pulses; /* what looks at steps of methods without series; made when first asked for */
+    qdot_pulses pulses; /* searches steps of methods without series for short forces; made at first use */
 };
 
 /* The tape that computes M and f. */

@@ -335,7 +335,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
 
     if (b->held) {
         status = qdot_constrained_start(b->held, t, y, low);
-        return status == QDOT_EDOMAIN ? QDOT_OK : status; /* as below */
+        return status == QDOT_EDOMAIN ? QDOT_OK : status; /* where f is undefined the run itself will report it */
     }
     qdot_bind_load(b, t, y);
     for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
@@ -356,7 +356,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
     }
     if (status == QDOT_OK) {
         status = qdot_bind_accelerate(b, b->in + 2 * p->n + 1);
-        if (status == QDOT_EDOMAIN) /* the run will report the failure, with its time */
+        if (status == QDOT_EDOMAIN) /* undefined: the run will report the failure with its time */
             status = QDOT_OK;
     }
     return status;

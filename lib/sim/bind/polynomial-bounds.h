@@ -28,18 +28,18 @@
 #include "tape/interval.h"
 
 typedef struct {
-    const qdot_tape *tape; /* borrowed */
+    const qdot_tape *tape; /* the functions whose bounds are sought; borrowed */
     size_t n_used, *used;  /* [n_used] inputs that the tape reads, except t */
     size_t time;           /* index of the input t */
     bool reads_time;       /* whether the tape reads t */
     bool resting;          /* no input that is read changes by more than rounding on the stretch
                                */
-    double *values;        /* [n_used x QDOT_CHEBYSHEV_MOST] by node */
+    double *values;        /* [n_used x QDOT_CHEBYSHEV_MOST] values of the inputs at the nodes */
     double *fits;          /* [as values] Chebyshev coefficients of the inputs */
-    double *scale;         /* [n_used] the largest value in this step */
-    double *centre, *radius;   /* [inputs] */
+    double *scale;         /* [n_used] largest value of each input in this step */
+    double *centre, *radius;   /* [inputs] discs that contain each input */
     double *out, *out_radius;  /* [outputs] of the last evaluation */
-    double *miss;              /* [outputs] bounds found by _look */
+    double *miss; /* [outputs] bounds of the distance from the polynomial, set by _look */
     double *work;
     qdot_interval *span, *box; /* [inputs] on the stretch; [outputs] intervals found by _enclose
                                    */

@@ -449,7 +449,7 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
     if (s->missed) {
         find_begin(p, worst, s);
         p->most = MOST_PARTS;
-    } else if (!all) { /* no number of parts may be enough */
+    } else if (!all) { /* even the largest number of parts might not be enough */
         p->most = p->most > 2 * LEAST_PARTS ? p->most / 2 : LEAST_PARTS;
     }
     return QDOT_OK;

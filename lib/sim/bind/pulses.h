@@ -26,38 +26,38 @@
 
 /* Data recorded to find pulses: forces that act for a shorter time than a step. Initialise with {0}. */
 typedef struct {
-    const qdot_tape *tape; /* of M and f; NULL: none yet */
-    size_t n, m;           /* coordinates; outputs that are inspected */
+    const qdot_tape *tape; /* outputs: M and f; NULL: not made yet */
+    size_t n, m;           /* number of coordinates; of outputs that are examined */
     qdot_disc_hiding hiding;
-    int nodes; /* 16; 64 of methods that look at a step within */
+    int nodes; /* Chebyshev nodes of a part: 16, or 64 for methods that evaluate within steps */
     qdot_polynomial_bounds bounds;
-    double *in;      /* [2n + 1] q, q', t */
-    double *out;     /* [outputs] */
-    double *work;    /* of the tape */
-    double *largest; /* [m] the largest |output| so far */
-    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] of a part */
-    double *whole;   /* [as values] coefficients of the step */
-    double *beyond;  /* [m] the integral of |value - polynomial of the step|, by samples, */
-    double *all;     /* [m] and that of |value| */
-    double *allowed; /* [m] what may be missed in the step, */
-    double *left;    /* [m] and on parts that are not known yet */
+    double *in;      /* [2n + 1] inputs of the tape: q, q', t */
+    double *out;     /* [outputs] outputs of the tape */
+    double *work;    /* scratch of the tape */
+    double *largest; /* [m] largest magnitude of each output so far */
+    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] outputs at the nodes of a part */
+    double *whole;   /* [m x QDOT_CHEBYSHEV_MOST] coefficients of the polynomial over the step */
+    double *beyond;  /* [m] integral of |output - polynomial of the step|, from samples */
+    double *all;     /* [m] integral of |output| */
+    double *allowed; /* [m] how large `beyond` may be in this step */
+    double *left;    /* [m] the share of `allowed` left for parts not examined yet */
     double *ends;    /* [4n] the states at both ends of a part */
     double *
-        parts; /* [n_parts x (1 + m)] where each begins; how much its values change, by its length */
+        parts; /* [n_parts x (1 + m)] start of each part; change of the outputs over its length */
     size_t n_parts;
-    int most; /* parts that a step gets; fewer after some for which these did not suffice */
+    int most; /* largest number of parts; reduced after steps for which it did not suffice */
 } qdot_pulses;
 
 /* A step, and the result of its inspection. */
 typedef struct {
     double a, b, tol;
-    const double *from, *to; /* [2n] the states at a, b */
+    const double *from, *to; /* [2n] states at the times a and b */
     /* Read the state at t into y [2n]; NULL: by a cubic through positions and velocities of both ends. */
     qdot_status (*read)(double t, double *y, void *user);
     void *user;
     bool missed;
-    double t;            /* about where the most of it is missed, */
-    double begins, part; /* the begin of that part; the longest step that resolves it */
+    double t;            /* time near which most of the force is missed */
+    double begins, part; /* start of that part; longest step that resolves the force */
     uint64_t evaluations;
 } qdot_pulses_step;
 

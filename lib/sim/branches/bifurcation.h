@@ -20,12 +20,12 @@ typedef enum {
     QDOT_PITCHFORK,
     QDOT_TRANSCRITICAL,
     QDOT_HOPF,
-    QDOT_COLLISION,   /* of frequencies */
-    QDOT_DOUBLING,    /* of orbits: a multiplier passes -1 */
-    QDOT_HALVING,     /* of orbits of twice a period: they end there at one of that period */
-    QDOT_TORUS,       /* of orbits: a pair of multipliers passes the unit circle */
-    QDOT_KREIN,       /* of orbits: two pairs on the unit circle meet and leave it */
-    QDOT_NOT_SIMPLE   /* something else: located between two points, not followed */
+    QDOT_COLLISION,   /* two frequencies become equal */
+    QDOT_DOUBLING,    /* period doubling of an orbit: a multiplier passes -1 */
+    QDOT_HALVING,     /* period halving: an orbit of twice the period ends at one of the period */
+    QDOT_TORUS,       /* orbit: a pair of multipliers crosses the unit circle */
+    QDOT_KREIN,       /* orbit: two pairs of multipliers meet on the unit circle and leave it */
+    QDOT_NOT_SIMPLE /* another bifurcation: located between two points, its branches not followed */
 } qdot_bifurcation_kind;
 
 /* "fold", "pitchfork", "transcritical", "hopf", "hamiltonian hopf", "period doubling", "period doubling",
@@ -34,10 +34,10 @@ const char *qdot_bifurcation_name(qdot_bifurcation_kind kind);
 
 typedef struct {
     qdot_bifurcation_kind kind;
-    double *y, *error;                 /* [width] in one block, owned */
-    double frequency, frequency_error; /* of Hopf points; of a torus, the angle of its multipliers */
-    bool reached; /* of a period doubling: a branch of orbits of twice the period begins or ends there; */
-    char reason[QDOT_PATH_REASON]; /* why none was followed from there; "": it was, or that was not tried */
+    double *y, *error;                 /* [width] place and its error, one block, owned */
+    double frequency, frequency_error; /* Hopf: angular frequency; torus: angle of the multipliers */
+    bool reached; /* period doubling: a branch of twice the period begins or ends there */
+    char reason[QDOT_PATH_REASON]; /* why no such branch was followed; "": it was, or it was not tried */
 } qdot_bifurcation;
 
 /* The bracket of a bifurcation: it lies between arclengths `from` and `to` from the point a, along
@@ -45,15 +45,15 @@ typedef struct {
 typedef struct {
     const qdot_path_point *a;
     double from, to;
-    bool changes; /* the test function clearly has different signs at both ends */
-    bool stays;   /* the test function clearly has the same sign at both ends */
-    bool jumps;   /* it jumps from one to the other: the points lie on two curves */
+    bool changes; /* the test function has clearly different signs at both ends */
+    bool stays;   /* the test function has clearly the same sign at both ends */
+    bool jumps;   /* the test function jumps: the points lie on two curves */
 } qdot_bifurcation_bracket;
 
 typedef enum {
     QDOT_BIFURCATION_NONE,  /* no regular bifurcation was found */
     QDOT_BIFURCATION_FOUND,
-    QDOT_BIFURCATION_APART, /* two curves come near each other there, and do not cross */
+    QDOT_BIFURCATION_APART, /* two curves come close to each other without crossing */
     QDOT_BIFURCATION_REST   /* an orbit shrinks to an equilibrium at out->y, and comes back as its mirror image */
 } qdot_bifurcation_answer;
 

@@ -122,7 +122,7 @@ qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_brack
     same = status == QDOT_OK && found == QDOT_BIFURCATION_FOUND;
     for (size_t i = 0; i <= x->n && same; i++)
         same = fabs(b.y[i] - fold->y[i]) <= fold->error[i] + b.error[i];
-    for (size_t i = 0; i < x->n && same; i++) /* on the end of an open domain: no place of the branch */
+    for (size_t i = 0; i < x->n && same; i++) /* a point at the end of an open domain does not belong to the branch */
         *outside = *outside || b.y[i] - b.error[i] <= qdot_path_end_of(x, i, false, b.y[x->n]) ||
                    b.y[i] + b.error[i] >= qdot_path_end_of(x, i, true, b.y[x->n]);
     if (same) {

@@ -119,7 +119,7 @@ bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_pa
             out->error[i] = fmax(out->error[i], sign[side] != 0 ? fabs(here->y[i] - out->y[i])
                                                                 : beyond / sqrt(x->weight[i]));
     }
-    if (out->kind == QDOT_FOLD) /* p has its extremum between these slopes, not at one of the places */
+    if (out->kind == QDOT_FOLD) /* a fold: p is extremal between the two slopes, not at one of the points */
         out->error[x->n] = fmax(out->error[x->n], fmax(fabs(sign[0]), fabs(sign[1])) * (in->to - in->from) /
                                                       sqrt(x->weight[x->n]));
     in->changes = sign[0] * sign[1] < 0;
@@ -224,7 +224,7 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
     qdot_bifurcation_bracket in = {.a = a, .to = length};
     double *guess = qdot_calloc(w, sizeof *guess), *other = qdot_calloc(x->n + 1, sizeof *other);
     qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
-    bool nothing = false, other_curve; /* the points ahead are of one that does not cross this one */
+    bool nothing = false, other_curve; /* the points ahead lie on another curve, which does not cross this one */
     qdot_status status = b.y && guess && other ? QDOT_OK : QDOT_ENOMEM;
 
     b.error = b.y + w;
@@ -253,7 +253,7 @@ branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qd
     if (other_curve && !s->leapt)
         s->over = QDOT_END_LOST;
     if (kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && in.stays)
-        nothing = true; /* rounding turned the tangent of a curve that is upright there and goes on */
+        nothing = true; /* the curve is vertical in p there; rounding turned its tangent */
     if (status == QDOT_OK && kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && !nothing && x->dips)
         status = qdot_branch_fold_is_crossing(s, &in, &b, other, &answer, &nothing);
     if (status == QDOT_OK && x->dips && kind == QDOT_FOLD && b.kind != QDOT_FOLD && answer == QDOT_BIFURCATION_FOUND)
@@ -296,7 +296,7 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     }
     if (a->flip * b->flip < 0 && length > together &&
         (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
-        s->leapt = true; /* over two at once */
+        s->leapt = true; /* the step passed two bifurcations */
         return QDOT_OK;
     }
     if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
@@ -324,7 +324,8 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     if (a->flip * b->flip < 0)
         return branch_locate(s, a, length, QDOT_DOUBLING, NULL, branch);
     if (known && s->x->dips && (a->growing - b->growing) % 2 != 0)
-        return QDOT_OK; /* a real root passes 0: of a fold or crossing near by, by rounding told here */
+        /* a real eigenvalue passes 0 at a nearby fold or crossing, already reported */
+        return QDOT_OK;
     if (known && labs(a->growing - b->growing) >= s->x->least_jump)
         return branch_locate(s, a, length, QDOT_HOPF, NULL, branch);
     return QDOT_OK;
@@ -404,7 +405,7 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
         if (!qdot_path_go(x, a, *step, b, &steps) ||
             qdot_path_product(x, a->t, b->t) < straight ||
             qdot_path_distance(x, a->y, b->y) > longer * *step) {
-            if (steps > 1) /* there was a value where the curve would go on */
+            if (steps > 1) /* F had values at the next points of the curve */
                 x->reason[0] = '\0';
             continue;
         }

@@ -123,7 +123,7 @@ turn_round(const qdot_path *x, qdot_branch *branch)
 
     while (first < last && branch->mark[first] == 0)
         first++;
-    for (size_t k = 0; k <= last && status == QDOT_OK; k++) { /* the last point is the first again */
+    for (size_t k = 0; k <= last && status == QDOT_OK; k++) { /* closed curve: the last point is the first one again */
         const size_t from = first + k < last ? first + k : first + k - last;
 
         for (size_t i = 0; i < m; i++)
@@ -271,7 +271,7 @@ add_fold_beside(qdot_branch_search *s, const qdot_path_point *start, const qdot_
         b.error = b.y + w;
         memcpy(b.y, start->y, w * sizeof *b.y);
         qdot_path_point_copy(x, a, &here);
-        for (size_t i = 0; i <= n; i++) /* back to the crossing */
+        for (size_t i = 0; i <= n; i++) /* direction back to the crossing */
             here.t[i] = -here.t[i];
         status = qdot_branch_fold_beside(s, &in, &b);
     }

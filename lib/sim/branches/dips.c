@@ -50,7 +50,7 @@ qdot_dips_add(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, double
             d->gone[k - 1] = d->gone[k];
             d->count[k - 1] = d->count[k];
         }
-        d->at[QDOT_DIPS_KEPT - 1] = first; /* its room */
+        d->at[QDOT_DIPS_KEPT - 1] = first; /* reuse the memory of the oldest point */
         d->n--;
     }
     last = d->n++;

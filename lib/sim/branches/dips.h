@@ -19,17 +19,17 @@
 enum { QDOT_DIPS_KEPT = 3 };
 
 typedef struct {
-    size_t n;                              /* points kept, the oldest first */
+    size_t n;                              /* number of points stored, oldest first */
     qdot_path_point at[QDOT_DIPS_KEPT];
-    double gone[QDOT_DIPS_KEPT];           /* the length of the curve up to each */
-    size_t count[QDOT_DIPS_KEPT];          /* points of the branch up to each */
-    double most[2];                        /* the largest |f| so far */
-    double careful, until, calm;           /* the longest step up to there; no dip is looked for up to there */
+    double gone[QDOT_DIPS_KEPT];           /* arclength of the curve up to each point */
+    size_t count[QDOT_DIPS_KEPT];          /* number of points of the branch up to each point */
+    double most[2];                        /* largest |f| of each test function so far */
+    double careful, until, calm; /* largest step, valid up to arclength `until`; no search for dips up to `calm` */
 } qdot_dips;
 
 typedef enum {
     QDOT_DIPS_NONE,
-    QDOT_DIPS_AGAIN, /* go on from at[0] once more, steps at most `careful` */
+    QDOT_DIPS_AGAIN, /* repeat from at[0] with steps of at most `careful` */
     QDOT_DIPS_ZERO   /* f vanishes within rounding next to at[*place] */
 } qdot_dips_answer;
 

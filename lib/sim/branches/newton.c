@@ -13,7 +13,7 @@ static const double blurred = 1e-5;
 
 enum {
     STEPS = 30,
-    MOST_PROVED = 40 /* unknowns: the proof needs n^2 expressions */
+    MOST_PROVED = 40 /* largest number of unknowns for a proof, which needs n^2 expressions */
 };
 
 qdot_status
@@ -114,7 +114,7 @@ iterate(qdot_newton *s, double *x, double *error, bool *found)
     }
     if (*found || length > blurred || s->n > MOST_PROVED)
         return *found ? prove(s, x, error) : QDOT_OK;
-    QDOT_TRY(prove(s, x, error)); /* two zeros near each other: doubles leave it vague, balls may not */
+    QDOT_TRY(prove(s, x, error)); /* two close zeros: doubles cannot separate them, ball arithmetic may */
     *found = s->regular;
     return QDOT_OK;
 }

@@ -17,11 +17,11 @@
 typedef struct {
     qdot_pool *pool;
     size_t n;
-    qdot_expr *x, *f; /* [n] owned */
+    qdot_expr *x, *f; /* [n] unknowns and equations, owned */
     qdot_tape *tape;
-    double *f_value, *J, *step, *work; /* [n], [n * n], [n] */
+    double *f_value, *J, *step, *work; /* values [n], Jacobian [n x n], step and scratch [n] */
     qdot_lu_row *rows;
-    bool regular; /* the latest zero is proved to be one, or has too many unknowns for that */
+    bool regular; /* the latest zero is proved regular, or n is too large for a proof */
 } qdot_newton;
 
 /* Room for n equations; then x and f are filled, then they are lowered. From {0}; ended in any

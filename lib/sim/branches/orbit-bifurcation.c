@@ -25,14 +25,14 @@ enum { STEPS = 60, HALVINGS = 36, PLACES = 6, SHIFTS = 4, NARROWINGS = 6 };
 
 typedef struct {
     qdot_orbit_path *x;
-    const qdot_path_point *a; /* from where s is counted; */
-    qdot_path_point point;    /* the latest point; */
+    const qdot_path_point *a; /* point from which the arclength s is counted */
+    qdot_path_point point;    /* the latest point computed */
     qdot_bifurcation_kind kind;
     bool krein;
-    bool apart, rests;      /* no crossing: two curves come near each other; the orbit is none */
-    double *re, *im, *off; /* [c] multipliers */
-    double *none;          /* [K x c x c] zero errors */
-    double angle, beside;   /* of the pair nearest to the unit circle, and how far it is from it */
+    bool apart, rests; /* no crossing: two curves come close; the orbit has shrunk to an equilibrium */
+    double *re, *im, *off; /* [c] multipliers re + i im, and their errors */
+    double *none;          /* [K x c x c] zeros: no errors of the segments' matrices */
+    double angle, beside; /* of the pair nearest to the unit circle: its angle, its distance from the circle */
 } search;
 
 /* --- test functions of bifurcations -------------------------------------------------------------- */
@@ -52,7 +52,7 @@ of_pairs(search *f, size_t z)
             f->angle = atan2(f->im[i], f->re[i]);
         }
     }
-    for (size_t k = 0; k < trivial; k++) { /* nearest to 1: not counted */
+    for (size_t k = 0; k < trivial; k++) { /* multipliers nearest to 1 are trivial and not counted */
         size_t best = 0;
 
         for (size_t i = 1; i < z; i++)
@@ -70,7 +70,7 @@ of_pairs(search *f, size_t z)
             if (f->im[i] == -f->im[j] || (f->im[i] == 0 && f->im[j] == 0))
                 product *= re;
             else
-                product *= hypot(re, im); /* with its conjugate it is positive */
+                product *= hypot(re, im); /* a complex multiplier times its conjugate */
         }
     return product;
 }
@@ -86,7 +86,7 @@ test(search *f)
         return f->point.t[f->x->path.n];
     if (f->kind == QDOT_PITCHFORK)
         return f->point.det;
-    if (f->kind == QDOT_HALVING) /* on the other curve it is 0 throughout */
+    if (f->kind == QDOT_HALVING) /* the other test function is 0 along the other curve */
         return qdot_path_halves(&f->x->path, f->point.y, f->point.y) > half * half
                    ? qdot_path_halves(&f->x->path, f->a->y, f->point.y)
                    : NAN;
@@ -119,7 +119,7 @@ close_in(search *f, double *lo, double *hi, double fine)
 {
     double *const end[2] = {lo, hi};
     double value[2] = {test_at(f, *lo), test_at(f, *hi)};
-    size_t last = 2; /* the end that the last step moved; 2: none yet */
+    size_t last = 2; /* the end moved by the last step; 2: none yet */
 
     if (!(value[0] * value[1] <= 0))
         return false;
@@ -127,7 +127,7 @@ close_in(search *f, double *lo, double *hi, double fine)
         const double guess = (*lo * value[1] - *hi * value[0]) / (value[1] - value[0]);
         const double s = guess > *lo && guess < *hi ? guess : (*lo + *hi) / 2;
         const double here = test_at(f, s);
-        const size_t k = here * value[0] > 0 ? 0 : 1; /* the end that moves */
+        const size_t k = here * value[0] > 0 ? 0 : 1; /* the end of the interval that moves */
 
         if (isnan(here))
             return false;
@@ -135,7 +135,7 @@ close_in(search *f, double *lo, double *hi, double fine)
             *lo = *hi = s;
             return true;
         }
-        if (fabs(s - *end[k]) < fine / 4) { /* it stays on one side: step over it */
+        if (fabs(s - *end[k]) < fine / 4) { /* always the same end: step past the zero */
             const double over = k == 0 ? fmin(s + fine / 2, *hi) : fmax(s - fine / 2, *lo);
             const double there = test_at(f, over);
 
@@ -195,7 +195,7 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
     double at[PLACES], value[PLACES], *all = qdot_malloc(PLACES * m * sizeof *all), zero = NAN;
     bool good = all != NULL;
 
-    for (size_t k = 0; k < PLACES && good; k++) { /* -5, -3, -1, 1, 3, 5 steps */
+    for (size_t k = 0; k < PLACES && good; k++) { /* at -5, -3, -1, 1, 3, 5 steps from the crossing */
         at[k] = *s + step * ((double)(2 * k) - (PLACES - 1));
         value[k] = test_at(f, at[k]);
         good = isfinite(value[k]);
@@ -251,7 +251,7 @@ find_crossing(search *f, double lo, double hi, double *off)
         memcpy(best, y, m * sizeof *y);
         *off = now;
     }
-    *off = fmax(*off, least_off); /* two polynomials may agree by chance */
+    *off = fmax(*off, least_off); /* a lower bound, as two polynomials may agree by chance */
     if (found)
         memcpy(f->point.y, best, m * sizeof *best);
     qdot_free(best);
@@ -371,7 +371,7 @@ find_form(qdot_path *x, const double *y, const double *v, const double *psi, dou
 
             if (k == 0)
                 c[0] += second * v[j];
-            c[k + 1] += second * v[m + j]; /* c12, then c22 */
+            c[k + 1] += second * v[m + j]; /* coefficients c12, then c22 */
         }
     }
     return true;

@@ -88,7 +88,7 @@ open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation 
 static void
 rows_shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
 {
-    memmove(out, y, to->n * sizeof *out); /* merge() shortens in place */
+    memmove(out, y, to->n * sizeof *out); /* memmove, because merge() shortens rows in place */
     memmove(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
 }
 
@@ -134,7 +134,7 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
         qdot_free(y);
         return QDOT_OK;
     }
-    if (b.kind == QDOT_HALVING) { /* of an orbit that no branch has */
+    if (b.kind == QDOT_HALVING) { /* the period-halved orbit is on no branch */
         b.kind = QDOT_DOUBLING;
         b.reached = true;
         y[T] /= 2;
@@ -164,7 +164,8 @@ merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t
 
         number[0] = at + 1;
         for (size_t k = 0; k < b->n; k++) {
-            rows_shorten(x, to, b->y + k * from->width, b->y + k * to->width); /* forwards: rows are not longer */
+            /* in this order, as new rows are not longer than old ones */
+            rows_shorten(x, to, b->y + k * from->width, b->y + k * to->width);
             b->mark[k] = b->mark[k] > 0 ? number[b->mark[k] - 1] : 0;
         }
         status = qdot_vec_push(&to->branches, *b);
@@ -275,7 +276,7 @@ qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
     if (status == QDOT_OK)
         status = qdot_continuation_follow(&s, y, 1);
     status = qdot_continuation_finish(&s, status);
-    if (status == QDOT_OK && !x.driven) /* the drive makes the period */
+    if (status == QDOT_OK && !x.driven) /* not if a drive determines the period */
         name_ends(&x.path, out);
     if (status == QDOT_OK)
         status = double_all(of, &x, 1, 0, out);

@@ -263,7 +263,7 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
 
     a->growing = 0;
     a->phase = a->growth = 0;
-    a->blurred = f->trivial < trivial_of(x); /* one that is 1 was found elsewhere */
+    a->blurred = f->trivial < trivial_of(x); /* fewer trivial multipliers than expected: one has a large error */
     for (size_t k = 0; k < f->n; k++) {
         const double size = hypot(f->re[k], f->im[k]);
 
@@ -386,7 +386,7 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
     double best = 0;
 
     x->phase = z;
-    for (size_t i = 0; i < x->n; i++) { /* a velocity that is 0 */
+    for (size_t i = 0; i < x->n; i++) { /* hold a velocity that is 0 */
         const double rate = fabs(segment_value(x, 0, 0, z + i)) / change[x->n + i];
 
         if (x->flow[0].unknowns[x->n + i] != x->of.parameter && change[i] > 0 && rate > best &&
@@ -469,11 +469,11 @@ make_first(qdot_orbit_path *x, double *size, double *y)
     y[n] = x->of.p;
     QDOT_TRY(follow_states(x, y));
     QDOT_TRY(integrate_segments(x, y));
-    QDOT_TRY(fill_factors(x, y)); /* finds how many multipliers there are */
+    QDOT_TRY(fill_factors(x, y)); /* determines the number of multipliers */
     QDOT_TRY(orbit_find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));
-    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the start was moved */
+    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the start point has been moved */
         QDOT_TRY(follow_states(x, y));
         QDOT_TRY(integrate_segments(x, y));
         x->rate = segment_value(x, 0, 0, x->n + x->phase);

@@ -40,33 +40,33 @@ typedef struct {
      * start values are not used. */
     const qdot_run_request *request;
     qdot_orbit_family family;
-    qdot_expr parameter; /* of the scene, or a q, q' of the start; energy: nil */
-    double p, T;         /* of the first orbit; the energy is found */
-    const double *z;     /* [2n] the start of the first orbit */
+    qdot_expr parameter; /* a parameter of the scene, or q, q' of the start; nil: the energy */
+    double p, T;         /* parameter and period of the first orbit; an energy is computed */
+    const double *z;     /* [2n] start state of the first orbit */
     double least, most;
-    size_t segments;     /* of an orbit of twice a period; 0: it is none, as many as it needs */
+    size_t segments;     /* segments of an orbit of doubled period; 0: choose, for other orbits */
 } qdot_orbit_of;
 
 typedef struct {
-    qdot_path path; /* first: a pointer to it is one to this */
+    qdot_path path; /* first member, so a pointer to it can be cast to this type */
     qdot_orbit_of of;
-    size_t n, K, c; /* coordinates; segments; multipliers: 2n, less what constraints fix */
+    size_t n, K, c; /* number of coordinates; of segments; of multipliers, 2n minus those fixed by constraints */
     bool driven, conserved, asymptotic;
-    size_t phase;   /* the number of z that is held; 2n: none */
-    double held, rate; /* the value at which z_phase is held; its rate of change along the first orbit */
-    double energy;     /* of the first orbit */
-    double size;       /* of the first orbit's largest change of a coordinate */
+    size_t phase;   /* index of the component of z that is held fixed; 2n: none */
+    double held, rate; /* value of the held component; its time derivative along the first orbit */
+    double energy;     /* energy of the first orbit */
+    double size;       /* largest change of a coordinate along the first orbit */
     double t0;
-    qdot_tape *period; /* T from p, of a drive; */
+    qdot_tape *period; /* the period T as a function of p, for a driven system; NULL: not driven */
     double *period_work;
-    qdot_flow flow[2];          /* fine, coarse; the further expression is h */
-    size_t by;                  /* the index of the flow in use */
-    double *values, *slopes;    /* of the latest evaluation: [K x 2 x m], [K x 2 x m x (2n + p)] */
-    double *y;                  /* [n + 1] the place of the latest evaluation; */
+    qdot_flow flow[2]; /* fine and coarse integration; the additional expression is the energy h */
+    size_t by;                  /* index of the flow in use: 0 fine, 1 coarse */
+    double *values, *slopes; /* latest evaluation: values [K x 2 x m], derivatives [K x 2 x m x (2n + p)] */
+    double *y;                  /* [n + 1] point of the latest evaluation */
     bool known;                 /* the latest evaluation succeeded */
-    double *B, *E;              /* [K x c x c] */
-    double *sizes;              /* [2n] of the states of the first orbit */
-    double *domain;             /* [2 path.n] of the unknowns: least, largest */
+    double *B, *E; /* [K x c x c] transfer matrices of the segments, and their errors */
+    double *sizes;              /* [2n] size of each component along the first orbit */
+    double *domain;             /* [2 path.n] lower and upper bound of each unknown */
     bool *angle;                /* [path.n] all false: no unknown is an angle */
 } qdot_orbit_path;
 

@@ -150,12 +150,13 @@ ask_times(const qdot_tape *tape, size_t n, size_t m, double T, double *in, doubl
 static bool
 come_back(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
 {
-    static const double sizes[] = {1, -0.1, 0.01, -1e-3}; /* some lie in the domains of functions */
+    /* of several sizes, so that some lie in the domains of functions */
+    static const double sizes[] = {1, -0.1, 0.01, -1e-3};
     double *const value = in + 2 * n + 2, *const known = value + 5 * m;
     const double *const first = value + 2 * m, *const change = first + m, *const off = change + m;
 
     for (size_t k = 0; k < ASKED; k++) {
-        for (size_t i = 0; i < 2 * n; i++) /* no places of symmetry */
+        for (size_t i = 0; i < 2 * n; i++) /* irregular values, to avoid points of symmetry */
             in[i] = sizes[k % 4] * (0.3 + 0.17 * (double)((5 * i + 3 * k) % 7));
         ask_times(tape, n, m, T, in, value);
         for (size_t i = 0; i < m; i++) {

@@ -11,9 +11,9 @@ enum { PLACES = 257, HALVINGS = 60 };
 
 typedef struct {
     qdot_orbit_read *r;
-    size_t n, m; /* coordinates, expressions */
-    double *values; /* [PLACES x m] the expressions at equal times over a period */
-    double *one;    /* [m] at one time */
+    size_t n, m; /* number of coordinates, of expressions */
+    double *values; /* [PLACES x m] values at equally spaced times over a period */
+    double *one;    /* [m] values at one time */
 } shape;
 
 static double

@@ -10,7 +10,7 @@
 typedef struct {
     qdot_flow *flow;
     const qdot_flow_orbit *orbit;
-    size_t at; /* the segment of the flow's latest motion; SIZE_MAX: of none */
+    size_t at; /* index of the segment integrated last by `flow`; SIZE_MAX: none */
 } qdot_orbit_read;
 
 /* The largest value of each coordinate [n]: q' = 0 within the largest of a few hundred places; *size: the largest half

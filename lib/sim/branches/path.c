@@ -117,7 +117,8 @@ qdot_path_halves(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;
 
-    for (size_t i = 0; i + 1 < x->coordinates && x->half > 0; i++) /* the last coordinate is the period */
+    /* all but the last coordinate, which is the period */
+    for (size_t i = 0; i + 1 < x->coordinates && x->half > 0; i++)
         sum += x->weight[i] * (a[x->half + i] - a[i]) * (b[x->half + i] - b[i]);
     return x->half > 0 ? sum : 1;
 }

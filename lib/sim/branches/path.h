@@ -22,33 +22,34 @@ enum { QDOT_PATH_REASON = 160 };
 
 /* A point of a curve, with the tangent in the direction in which the curve is followed. */
 typedef struct {
-    double *y, *t;     /* [width], [n + 1] in one block, owned */
-    double det;        /* the determinant of F' bordered by the tangent of the point before */
-    long growing;      /* the number of directions in which neighbouring motions depart; -1: unknown */
-    int flip;          /* of orbits: its sign changes where a multiplier passes -1; 0: unknown */
-    bool rests;        /* of orbits: it is as small as a place at rest; nothing lies behind it; */
-    double phase, growth; /* of orbits: the sum of the angles of multipliers, of the logarithms of those that grow */
-    bool blurred;      /* what is judged drowns in errors: it is no point */
+    double *y, *t;     /* y [width] and tangent t [n + 1], one block, owned */
+    double det;        /* determinant of F' bordered by the tangent of the previous point */
+    long growing;      /* dimension of the unstable directions; -1: unknown */
+    int flip;          /* orbits: changes sign where a multiplier passes -1; 0: unknown */
+    bool rests;        /* orbits: has shrunk to an equilibrium, where the curve ends */
+    double phase, growth; /* orbits: sum of the angles of multipliers; of the logarithms of growing ones */
+    bool blurred;      /* errors are too large to judge the point: it is not used */
     qdot_stability stability;
 } qdot_path_point;
 
 typedef struct qdot_path qdot_path;
 struct qdot_path {
-    size_t n, coordinates;   /* unknowns; those that are told come first */
-    size_t width;            /* n + 1, and what is told beside u and p at each point */
-    const bool *angle;       /* [n] a full turn changes nothing; borrowed, as all that describes F */
-    const double *lo, *hi;   /* [n] domains of the unknowns */
-    double (*end)(const qdot_path *x, size_t i, bool upper, double p); /* one that moves with p; NULL: none does */
-    double least, most;      /* of p */
-    double *weight;          /* [n + 1] */
-    double exact;            /* Newton corrections smaller than this are rounding errors */
-    double most_det;         /* the largest determinant so far */
-    double gauge;            /* what the determinant is divided by, as `at` found it */
-    double shortest, longest; /* steps along the curve */
+    size_t n, coordinates; /* number of unknowns; how many, the first, are reported as coordinates */
+    size_t width;            /* numbers at each point: n + 1, then further reported quantities */
+    const bool *angle;       /* [n] an angle with period 2 pi; borrowed, as all that describes F */
+    const double *lo, *hi;   /* [n] bounds of the unknowns */
+    /* bound of unknown i that depends on p; NULL: no bound does */
+    double (*end)(const qdot_path *x, size_t i, bool upper, double p);
+    double least, most;      /* range of the parameter p */
+    double *weight;          /* [n + 1] weights of the unknowns and p in lengths along the curve */
+    double exact;            /* smaller Newton corrections are rounding errors */
+    double most_det;         /* largest determinant so far */
+    double gauge;            /* scale factor divided out of the determinant by `at` */
+    double shortest, longest; /* shortest and longest step along the curve */
     double upright;          /* below this, the component along p of a unit direction is rounding */
-    bool dips;               /* test functions are accurate: their dips tell of pairs (dips.h) */
-    int least_jump;          /* of `growing`, which says that an oscillation begins */
-    int halvings;            /* of the way to a bifurcation, before it is located */
+    bool dips; /* test functions are accurate enough to detect pairs of zeros by dips (dips.h) */
+    int least_jump;          /* least change of `growing` that means the onset of an oscillation */
+    int halvings;            /* number of bisections towards a bifurcation before it is located */
     /* for orbits of doubled period: index in y of the state after half a period; 0 for other orbits */
     size_t half;
     /* Compute F [n], F' [n * (n + 1)] at y; not finite if undefined. Serious failures go to x->failure. */
@@ -56,10 +57,10 @@ struct qdot_path {
     /* Judge the point: set a->stability, growing, flip, and the entries of y after the first n + 1. */
     qdot_status (*judge)(qdot_path *x, qdot_path_point *a);
     double *F, *J;
-    double *A, *b;           /* [(n + 1)^2], [n + 1] room */
+    double *A, *b;           /* scratch: [(n + 1)^2], [n + 1] */
     qdot_lu_row *rows;
-    char reason[QDOT_PATH_REASON]; /* why F had no value, the latest time; "": none is known */
-    qdot_status failure;     /* of the latest evaluation: not QDOT_OK ends the search */
+    char reason[QDOT_PATH_REASON]; /* why F was undefined the last time; "": unknown */
+    qdot_status failure; /* failure of the latest evaluation: other than QDOT_OK it ends the search */
 };
 
 /* Allocate room for n unknowns. From {0}; ended in any case. The rest is filled by the caller. */

@@ -32,7 +32,7 @@ static const double narrow = 1e-12;
 typedef struct {
     double *at;
     size_t count, m;
-    size_t plain; /* the first of them, at the parts of the range */
+    size_t plain; /* number of the first points, found at fixed fractions of the range of p */
 } starts;
 
 static qdot_status
@@ -154,9 +154,9 @@ leave_out_member(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t 
 
 /* The limit y of exact solution k as p approaches an end of its interval. */
 typedef struct {
-    double *y;     /* [n + 1] */
-    bool finite;   /* else it grows beyond bounds, as far as is known */
-    double error;  /* of each unknown, about */
+    double *y;     /* [n + 1] the limit */
+    bool finite;   /* finite limit; false: it grows without bound, as far as known */
+    double error;  /* estimated error of each unknown */
 } limit;
 
 /* The limit of exact solution k at end w of interval i, from values at p ever closer to it, whose
@@ -186,7 +186,7 @@ limit_find(qdot_branch_search *s, const qdot_equilibrium_set *set, size_t k, siz
     to->finite = finite && (change[1] < fmin(0.6 * change[0], 0.05) || change[1] < 1e-9);
     to->error = 4 * change[1] + 1e-9;
     if (status == QDOT_OK) {
-        to->y[n] = p; /* its value there, if that is the limit, too */
+        to->y[n] = p; /* the value at p itself, if it equals the limit */
         status = qdot_equilibrium_set_place(set, k, to->y, &exists);
         for (size_t q = 0; q < n; q++)
             if (!(fabs(to->y[q] - near[q]) <= to->error * s->all->size[q]))

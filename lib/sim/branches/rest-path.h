@@ -10,10 +10,10 @@
 #include "tape/tape.h"
 
 typedef struct {
-    qdot_path path; /* first: a pointer to it is one to this */
-    qdot_equilibrium_curve *c; /* borrowed */
-    qdot_tape *tape;           /* F */
-    qdot_tape *energy;         /* without a value of it there is no rest; NULL: it depends on more than u and p */
+    qdot_path path; /* first member, so a pointer to it can be cast to this type */
+    qdot_equilibrium_curve *c; /* equations of the equilibria; borrowed */
+    qdot_tape *tape;           /* outputs: F */
+    qdot_tape *energy; /* energy: no equilibrium where it is undefined; NULL: depends on more than u, p */
     double *work;
 } qdot_rest_path;
 

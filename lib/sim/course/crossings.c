@@ -8,17 +8,17 @@
 
 typedef struct {
     const qdot_course *c;
-    qdot_repeated zeros; /* of g */
+    qdot_repeated zeros; /* smooth functions with the zeros of g (repeated-zeros.h) */
     const double *limits;
     double direction;
     qdot_trajectory_cursor *cursor;
-    qdot_watch **watches; /* [modes] made when met */
+    qdot_watch **watches; /* [modes] root finders, made when a mode is met */
     size_t piece;
-    int sign;   /* the sign of g since the last root */
+    int sign;   /* sign of g since the last root */
     int before; /* that at the end of the piece before, which tells whether a zero at the start of the
                    next is a root; 0: unknown, or the state jumped */
     qdot_crossings *out;
-    double lost; /* since then they are not known; NaN: they are */
+    double lost; /* time from which roots are unknown because of rounding; NaN: all are known */
 } search;
 
 static qdot_status

@@ -11,10 +11,10 @@
 #include "sim/course/course.h"
 
 typedef struct {
-    double t; /* the first double at which the function has changed its sign; */
-    double low; /* the root itself is at t + low */
+    double t; /* first double at which the function has the new sign */
+    double low; /* the root is at t + low */
     size_t piece;
-    int way;  /* 1, -1: it rises, falls as t grows; 0: it touches 0 */
+    int way;  /* as t grows: 1 rises, -1 falls, 0 touches 0 */
 } qdot_crossing;
 
 typedef qdot_vec(qdot_crossing) qdot_crossings;

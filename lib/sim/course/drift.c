@@ -128,7 +128,7 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qd
         change = fabs(change - start);
         if (fabs(start) > 1)
             change /= fabs(start);
-        if (!(change <= drift->drift)) /* a NaN stays */
+        if (!(change <= drift->drift)) /* also true for a NaN, which then stays */
             drift->drift = change;
     }
     qdot_free(in);
@@ -144,7 +144,7 @@ note(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, 
     qdot_drift x = {.quantity = quantity};
 
     QDOT_TRY(drift_follow_quantity(tape, tr, stage, &x));
-    if (!isfinite(x.start)) /* beyond a double, or undefined: there is nothing to follow */
+    if (!isfinite(x.start)) /* infinite or undefined at the start: no drift can be measured */
         return QDOT_OK;
     if (!(x.name = qdot_strdup(name)))
         return QDOT_ENOMEM;
@@ -263,7 +263,7 @@ measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
 static double
 spread_at(const qdot_tape *tape, const qdot_trajectory *tr, size_t k, double tol, double *in, double *work)
 {
-    const size_t n = tr->n, moved = QDOT_LANES - 1; /* components a group; in the last lane none is */
+    const size_t n = tr->n, moved = QDOT_LANES - 1; /* lanes: one component is changed in each lane, none in the last */
     const double *y = tr->y + k * n;
     double c[QDOT_LANES], sum = 0;
 
@@ -340,7 +340,7 @@ qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
                     const qdot_stage *stage, qdot_drifts *d)
 {
-    bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* [n] coordinates that may be cyclic */
+    bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* [n] whether coordinate i may be cyclic */
     qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
 
     d->at = qdot_calloc(p->n + 1, sizeof *d->at);

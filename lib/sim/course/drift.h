@@ -11,7 +11,7 @@
 /* The drifts of a run. Start from {0}. */
 typedef struct {
     size_t n;
-    qdot_drift *at; /* energy first; names owned */
+    qdot_drift *at; /* [n] the drifts, energy first; names owned */
     bool energy;    /* at[0] is the energy */
 } qdot_drifts;
 

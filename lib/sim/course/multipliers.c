@@ -18,7 +18,7 @@ qdot_multipliers_clear(qdot_multipliers *b)
 static void
 widen(double *most, size_t row, double x)
 {
-    if (row != SIZE_MAX && !(x <= *most)) /* a NaN is replaced, and stays */
+    if (row != SIZE_MAX && !(x <= *most)) /* also true if x is a NaN, which then stays */
         *most = x;
 }
 

@@ -12,9 +12,9 @@
 typedef struct {
     double position, velocity; /* the largest residuals at stored points; NaN: no such constraints
                                    */
-    double *lambda;            /* [m] at the end */
-    double *error;             /* [m] of these, absolute; NaN: unknown */
-    size_t independent;        /* rank of the constraints */
+    double *lambda;            /* [m] multipliers at the end of the run */
+    double *error;             /* [m] their absolute errors; NaN: unknown */
+    size_t independent;        /* rank of the constraint Jacobian */
 } qdot_multipliers;
 
 /* Measure a finished run; binds by mode. Does nothing without constraints. After Ctrl-C only the

@@ -20,9 +20,9 @@ static const double alike = 1e-9;
 typedef enum {
     PASSES, /* the event did not occur, and the motion continues */
     UNDONE,
-    LOST,  /* it may have: what was before cannot be known */
-    RESTS, /* the motion may have been at rest there, for any time */
-    NEVER  /* no motion comes here: the event would have changed it */
+    LOST,  /* the event may have occurred, but the state before it cannot be determined */
+    RESTS, /* the motion may have been at rest there for an unknown time */
+    NEVER  /* no forward motion arrives here: the event would have changed it */
 } verdict;
 
 /* The rates g' and g'' of the event's function at a state [n], and the rounding errors of g' and g. */
@@ -143,7 +143,7 @@ qdot_piece_is_undone(qdot_piece *x, const qdot_root *root, int *way)
     if (status == QDOT_OK)
         status = judge(x, e, root->t, y, plain_way(x, root), way, &is);
     qdot_free(y);
-    return status != QDOT_OK || is != PASSES; /* what fails here does so where the event is carried out */
+    return status != QDOT_OK || is != PASSES; /* a failure here is reported when the event is carried out */
 }
 
 qdot_status
@@ -179,7 +179,7 @@ qdot_piece_check_undone(qdot_piece *x, const qdot_root *root)
     if (is != LOST && is != RESTS && is != NEVER)
         return QDOT_OK;
     while (x->c->occurrences.n > 0 && x->c->occurrences.at[x->c->occurrences.n - 1].t == x->t_act)
-        x->c->occurrences.n--; /* nor is it known to be one */
+        x->c->occurrences.n--; /* remove occurrences at this time: it is not known whether they were ones */
     at = snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: ", x->t_act);
     snprintf(x->c->reason + at, sizeof x->c->reason - (size_t)at, words[is], e->name,
              is != LOST         ? ""

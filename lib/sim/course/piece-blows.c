@@ -29,21 +29,21 @@ static const double hidden = 4;
 /* A contact whose bodies touch at this instant. */
 typedef struct {
     size_t event, surface;
-    int way;   /* the sign of du/dt with which it is met, in the direction of the run */
-    bool lasted; /* in the mode of the piece that ended */
-    bool held;   /* it lasts: it is met first, and alone */
+    int way;   /* sign of du/dt when the bodies meet, in the direction of the run */
+    bool lasted; /* the contact lasted in the mode of the piece that ended */
+    bool held;   /* the contact lasts: its blow comes first, and alone */
     bool due;
-    double rate, noise; /* du/dt by the velocities now, times `way`; its rounding */
+    double rate, noise; /* present du/dt times `way`; its rounding error */
 } touch;
 
 typedef struct {
     qdot_piece *x;
     qdot_vec(touch) at;
-    double *y, *low;         /* [2n] the state and its low part */
-    double *old, *old_low;   /* [2n] the same before a blow */
-    double *rates, *fast, *slopes; /* [2n] */
+    double *y, *low;         /* [2n] the state y + low */
+    double *old, *old_low;   /* [2n] the state before a blow */
+    double *rates, *fast, *slopes; /* [2n] scratch */
     size_t blows;
-    double last;   /* the speed that the last one turned back, over its rounding */
+    double last;   /* approach speed at the last blow, divided by its rounding error */
 } blows;
 
 /* The sign of du/dt with which event i is reached. */
@@ -145,7 +145,7 @@ try_next(blows *b, bool *any)
         touch *c = &b->at.at[k];
 
         c->due = touch_approaches(c) && (c->held || !pushed);
-        c->held = c->held && fabs(c->rate) <= c->noise; /* else it is left */
+        c->held = c->held && fabs(c->rate) <= c->noise; /* otherwise the contact separates */
     }
     for (size_t k = 0; k < b->at.n; k++) {
         touch *c = &b->at.at[k];

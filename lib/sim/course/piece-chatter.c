@@ -24,13 +24,13 @@ static const double most_growth = 10;
 /* The motion held on surface i, where u = 0, at the start of a piece of the run. */
 typedef struct {
     qdot_piece *x;
-    size_t i, n, mode[3]; /* of the sides -1, 0 (it slides), 1 */
-    double *y;            /* [2n] on the surface */
-    double *slopes;       /* [n] du/dq */
-    double *along;        /* [n] the direction in which both sides push, du/dq along = 1 */
-    double *rates, *moved; /* [4n], [2n] room */
-    double u, v;           /* u and du/dt before the surface was held */
-    double square;         /* |du/dq|^2 */
+    size_t i, n, mode[3]; /* index of the surface; number of coordinates; modes for sides -1, 0 (sliding), 1 */
+    double *y;            /* [2n] the state, moved onto the surface */
+    double *slopes;       /* [n] slopes du/dq */
+    double *along; /* [n] direction in which the forces of both sides push, scaled to du/dq . along = 1 */
+    double *rates, *moved; /* [4n], [2n] scratch */
+    double u, v;           /* u and du/dt before the state was moved onto the surface */
+    double square;         /* the squared length |du/dq|^2 */
 } held_motion;
 
 /* How fast the motion on the side `way` is pulled back, at y + by rates and a speed `more`: *a; its acceleration less
@@ -245,7 +245,7 @@ qdot_piece_stop_chatter(qdot_piece *x, bool anew)
         for (size_t k = 0; k < x->crossed.n && !crossed; k++)
             crossed = x->crossed.at[k] == i;
         if (!crossed || (x->side[i] != 1 && x->side[i] != -1) || !qdot_piece_is_of_places(x, i)
-            || qdot_piece_holds_massless(x, i)) /* the surface holds a massless coordinate: there is no oscillation */
+            || qdot_piece_holds_massless(x, i)) /* the surface contains a massless coordinate: it cannot oscillate */
             continue;
         QDOT_TRY(slide(x, i, &may));
     }

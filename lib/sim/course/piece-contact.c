@@ -73,11 +73,11 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
 /* The bounces left out when a lasting contact begins, and how the start is moved onto the contact. */
 typedef struct {
     double off[2]; /* u and u' of the original start */
-    double pull;   /* u'' without the contact, against u'; 0: nothing presses it */
-    double share;  /* the part of |u'| that an impact leaves */
-    double size;   /* of the terms of u */
-    double moved;  /* by how much the start changes, relative to max(1, |component|) */
-    double *along; /* [n] M^-1 du/dq of u = 1, then the slopes of u [n] */
+    double pull;   /* u'' without contact force, towards the wall; 0: nothing presses against it */
+    double share;  /* ratio of |du/dt| after an impact to before */
+    double size;   /* size of the terms of u */
+    double moved;  /* change of the start state, relative to max(1, |component|) */
+    double *along; /* [n] M^-1 du/dq scaled to du = 1, then du/dq [n] */
 } skipped;
 
 /* The change of u if each coordinate changed by its largest value so far; it gives the size of u's terms. */
@@ -195,7 +195,8 @@ enter_contact(qdot_piece *x, size_t surface, skipped *s, bool *can)
     if (status == QDOT_OK)
         status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y, &rest);
     s->moved = fmax(s->moved, rest);
-    if (status == QDOT_OK && isfinite(s->moved) && rest <= fastest) /* beside it other contacts are kept */
+    /* other contacts are still satisfied after the move */
+    if (status == QDOT_OK && isfinite(s->moved) && rest <= fastest)
         status = qdot_piece_is_smooth_wall(x, surface, &s->share, can);
     x->mode = mode;
     qdot_free(d);
@@ -249,10 +250,10 @@ may_rest(const qdot_piece *x, size_t surface, double left, const skipped *s)
     const bool by_points = !x->reader.read_two && !x->c->leader;
     const double place = size_of_place(x, s);
 
-    if (s->pull == 0) /* it would fly on with that speed; and the reaction, 0 all along, is seen as that by series alone */
+    if (s->pull == 0) /* nothing presses: the body would move on; only a series shows that the reaction stays 0 */
         return x->reader.read_two && s->moved <= rounded;
     if (s->moved <= fastest
-        && (by_points && left == 0 ? height(s) <= least_height * place /* the motion does not leave it */
+        && (by_points && left == 0 ? height(s) <= least_height * place /* the motion does not leave the surface */
                                    : isfinite(left) && s->moved * left <= lowest(x, surface) * place))
         return true;
     return (x->c->leader || by_points) && isfinite(duration(s))

@@ -299,7 +299,7 @@ come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *f
     QDOT_TRY(qdot_piece_rest(x, w->index, way, left, &lasts, &soon));
     if (r && *fast)
         r->soon = soon;
-    if (r && lasts) /* bounces may come again */
+    if (r && lasts) /* further bounces may follow later */
         *r = x->repeats.at[--x->repeats.n];
     *fast = *fast && !lasts && !soon;
     return QDOT_OK;
@@ -350,7 +350,7 @@ look_before(qdot_piece *x, double t, double *g)
     QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), t, x->start.y, x->y, x->signs, g, x->touching));
     for (size_t i = 0; i < m->m; i++) {
         x->untouched[i] = true;
-        if (instant && x->turned[i]) /* what was turned back has gone nowhere since */
+        if (instant && x->turned[i]) /* this contact's rebound has not moved yet */
             continue;
         x->left[i] = first[i];
         x->turned[i] = false;
@@ -359,7 +359,7 @@ look_before(qdot_piece *x, double t, double *g)
         qdot_root *root = &x->fired.at[i];
 
         x->untouched[root->function] = false;
-        if (instant) /* counted where the piece starts, so its zero there is no further occurrence */
+        if (instant) /* the event is counted at the start of the next piece: its zero there is not a new one */
             root->residual = fmax(root->residual, counted * fabs(g[root->function]));
     }
     return QDOT_OK;
@@ -465,7 +465,7 @@ follow_blows(qdot_piece *x)
         x->pushed.n = 0;
     if (!known)
         say_accumulated(x, &qdot_piece_mode(x)->watched[x->roots.at[0].function], x->t_act, 0);
-    for (size_t i = x->repeats.n; i-- > 0 && endless;) /* they may come again */
+    for (size_t i = x->repeats.n; i-- > 0 && endless;) /* similar blows may follow later: reset the counters */
         if (x->repeats.at[i].kind == QDOT_WATCH_EVENT && x->repeats.at[i].last == x->t_act)
             x->repeats.at[i] = x->repeats.at[--x->repeats.n];
     return QDOT_OK;
@@ -483,7 +483,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
 
     x->fired.n = 0;
     x->crossed.n = x->pushed.n = 0;
-    for (size_t i = 0; i < x->roots.n / 2 && x->c->stage->back; i++) { /* undone in the opposite order */
+    /* backwards in time: undo the events in opposite order */
+    for (size_t i = 0; i < x->roots.n / 2 && x->c->stage->back; i++) {
         const qdot_root swapped = x->roots.at[i];
 
         x->roots.at[i] = x->roots.at[x->roots.n - 1 - i];
@@ -514,7 +515,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
             qdot_piece_stop(x, true);
             break;
         }
-        if (w->kind == QDOT_WATCH_SURFACE && root->way == 0) /* side-search.c compares both sides */
+        if (w->kind == QDOT_WATCH_SURFACE && root->way == 0) /* u only touches 0: side-search.c compares both sides */
             continue;
         if (w->kind == QDOT_WATCH_SURFACE) {
             x->side[w->index] = w->inside == 0 ? root->way : w->beyond;

@@ -111,7 +111,7 @@ qdot_piece_carry(qdot_piece *x)
                            : x->signs[i];
         x->residual[i] = -1;
     }
-    for (size_t i = 0; i < next->m; i++) { /* u was held at 0 */
+    for (size_t i = 0; i < next->m; i++) { /* while sliding, u was held at 0 */
         const qdot_watched *w = &next->watched[i];
 
         if (w->kind == QDOT_WATCH_SURFACE && x->c->stage->switches.surfaces.at[w->index].puck > 0) {
@@ -129,11 +129,13 @@ qdot_piece_carry(qdot_piece *x)
             x->put_aside = true;
         }
     }
-    for (size_t i = 0; i < next->m && x->start.slipped; i++) /* and then sticks: its share begins at an end */
+    /* it slips, then sticks: the friction share begins at its limit */
+    for (size_t i = 0; i < next->m && x->start.slipped; i++)
         if (next->watched[i].kind == QDOT_WATCH_SURFACE && slides(next, next->watched[i].index))
             x->residual[i] = 0;
     for (size_t i = 0; i < x->c->stage->switches.surfaces.n; i++)
-        if (x->c->stage->switches.surfaces.at[i].contact && slides(old, i)) /* no occurrence */
+        /* the end of a lasting contact is not an occurrence of the event */
+        if (x->c->stage->switches.surfaces.at[i].contact && slides(old, i))
             x->before[x->c->stage->switches.surfaces.at[i].event] = 0;
     for (size_t k = 0; k < x->fired.n; k++) {
         const qdot_root *root = &x->fired.at[k];
@@ -146,7 +148,8 @@ qdot_piece_carry(qdot_piece *x)
         }
         for (size_t i = 0; i < next->m && qdot_piece_has_massless(x); i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE && next->watched[i].index == w->index
-                && slides(next, w->index) && !slides(old, w->index)) /* its share begins at an end */
+                /* it begins to slide: the friction share begins at its limit */
+                && slides(next, w->index) && !slides(old, w->index))
                 x->residual[i] = 0;
         for (size_t i = 0; i < next->m; i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE &&
@@ -514,7 +517,8 @@ qdot_piece_cross(qdot_piece *x)
     QDOT_TRY(turns_a_corner(x, &corners));
     if (corners)
         return QDOT_OK;
-    if (!x->start.jumped && !(qdot_piece_has_massless(x) && x->start.t == x->c->tr.t[0])) /* the start may be on no side */
+    /* at the start of the run the state may be on no definite side */
+    if (!x->start.jumped && !(qdot_piece_has_massless(x) && x->start.t == x->c->tr.t[0]))
         QDOT_TRY(check_level(x));
     if (x->c->reason[0] != '\0')
         return QDOT_OK;

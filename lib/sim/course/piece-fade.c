@@ -10,7 +10,8 @@ qdot_piece_let_fade(qdot_piece *x)
 {
     const qdot_stage *s = x->c->stage;
     const qdot_mode *m = qdot_piece_mode(x);
-    const bool held = qdot_sliding_is(&s->switches, x->side); /* constraints and contacts keep u = 0: that is no decay */
+    /* while sliding, u = 0 is held by constraints: it does not decay */
+    const bool held = qdot_sliding_is(&s->switches, x->side);
 
     for (size_t i = 0; i < m->m; i++) {
         const qdot_watched *w = &m->watched[i];
@@ -65,7 +66,7 @@ qdot_piece_pass_touch(qdot_piece *x, const qdot_root *root)
 
     if (root->way != 0 || root->pole || w->kind != QDOT_WATCH_EVENT)
         return QDOT_OK;
-    if (root->within > 0) { /* less tolerance may show two crossings, or none */
+    if (root->within > 0) { /* with a tighter tolerance there may be two crossings, or none */
         x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY, root->within);
         return QDOT_OK;
     }

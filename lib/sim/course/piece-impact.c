@@ -75,8 +75,8 @@ qdot_piece_reaction(qdot_piece *x, size_t surface, double *d, double *size)
 /* A trial impact: the `then` of a contact applied with a velocity reduced by `speed` along `aside`
  * [n], and the change of velocities. */
 typedef struct {
-    const double *slopes; /* [n] of u */
-    double *old, *y;      /* [2n] the states before and after the impact */
+    const double *slopes; /* [n] slopes du/dq */
+    double *old, *y;      /* [2n] states before and after the impact */
     double rate;          /* du/dt before the impact */
 } blow;
 
@@ -176,7 +176,7 @@ is_along_slopes(qdot_piece *x, const double *along, const double *slopes, bool *
         memcpy(room, x->start.y, x->n * sizeof *room);
         room[2 * n] = x->start.t;
         qdot_tape_eval(masses, room, M, M + n * n);
-        for (size_t i = 0; i < n; i++) /* slopes along = 1 */
+        for (size_t i = 0; i < n; i++) /* scale so that slopes . along = 1 */
             part += dot(n, M + i * n, along) * along[i];
         for (size_t i = 0; i < n; i++) {
             most = fmax(most, fabs(part * slopes[i]));
@@ -237,7 +237,7 @@ qdot_piece_is_smooth_wall(qdot_piece *x, size_t surface, double *share, bool *ye
     *yes = false;
     if (status == QDOT_OK)
         status = find_impulse_in_mode(x, surface, d, &size, slopes, along, share, yes);
-    if (status == QDOT_OK && *yes && size == 0) { /* no force presses against the wall */
+    if (status == QDOT_OK && *yes && size == 0) { /* no force presses the body against the wall */
         status = is_along_slopes(x, along, slopes, yes);
         qdot_free(room);
         return qdot_grave(status);

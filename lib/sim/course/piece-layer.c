@@ -163,7 +163,7 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     }
     qdot_free(inside);
     x->entered = !leaves;
-    if (leaves && !is_in_time(x, i) && !was_held(x, i)) /* friction makes that good as soon as it is left */
+    if (leaves && !is_in_time(x, i) && !was_held(x, i)) /* friction corrects this error itself on leaving the layer */
         c->left_out += most * fabs(time);
     if (status == QDOT_OK && c->left_out > fmax(x->options->tol, least_left_out))
         qdot_piece_stop_at(x, i, 0, "a power of what passes 0 so slowly cannot be followed at", "");

@@ -119,7 +119,7 @@ check_ways(qdot_piece *x, const double *old, double *fast, double *g, int *signs
         *can = *can && fits;
     }
     if (*can && decided) {
-        x->tried.n = x->start.slipped ? x->tried.n : 0; /* what did not fit before may fit now */
+        x->tried.n = x->start.slipped ? x->tried.n : 0; /* sides that were rejected may fit the new state */
         x->start.slipped = true;
         memcpy(x->bare, x->start.y, x->n * sizeof *x->bare);
     }
@@ -164,7 +164,7 @@ massless_move(qdot_piece *x, bool begins, const bool *kept, bool positions, doub
     qdot_status status;
 
     qdot_piece_low(x, low);
-    if (!begins && !x->has_root && from->project) /* what a step of a method leaves of other constraints */
+    if (!begins && !x->has_root && from->project) /* remove the constraint error that a step of the method leaves */
         QDOT_TRY(from->project(x->start.t, x->start.y, low, &by, from->user));
     status = qdot_constrained_put(held, x->start.t, x->start.t_low, x->start.y, low, positions ? kept : NULL, kept + n,
                                   "a switch");
@@ -181,7 +181,7 @@ qdot_piece_follow_massless(qdot_piece *x, bool *can)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     const size_t n = x->n;
-    const bool begins = x->start.t == x->c->tr.t[0]; /* from values that a person may have named */
+    const bool begins = x->start.t == x->c->tr.t[0]; /* at the start of the run, whose values the user may have given */
     double *old;
     int *signs;
     bool *kept, positions;

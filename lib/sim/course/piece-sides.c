@@ -18,7 +18,7 @@ keeps(const qdot_piece *x, const qdot_watched *w, int first)
     const bool slides = qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES;
 
     if (s->puck > 0 && qdot_piece_mode(x)->side[w->index] == 1)
-        return true; /* the motion may start from rest */
+        return true; /* a sliding disc may start from rest */
     return first == w->inside
            || (first == 0 && ((w->inside == 1 && is_step(x, w->index)) || slides));
 }

@@ -375,7 +375,7 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
         QDOT_TRY(judge_sides(x));
         if (x->intent == QDOT_PIECE_RETRIED)
             return QDOT_OK;
-        if (stays_on_event(x)) { /* side-search.c decides */
+        if (stays_on_event(x)) { /* side-search.c decides how the motion continues */
             x->intent = QDOT_PIECE_RETRIED;
             return QDOT_OK;
         }
@@ -397,7 +397,7 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
             x->t_act = end_of(x, roots, n, i);
             for (; x->c->occurrences.n > x->noted &&
                    x->c->occurrences.at[x->c->occurrences.n - 1].t == x->t_act;
-                 x->c->occurrences.n--) /* they are noted again, in order */
+                 x->c->occurrences.n--) /* removed here, they are recorded again in order */
                 ;
             for (size_t k = 0; k < i; k++)
                 if (roots[k].t == x->t_act && is_occurrence(x, &roots[k])) {
@@ -448,7 +448,7 @@ count_parts(qdot_piece *x, double t, size_t parts)
         return QDOT_OK;
     x->searched.parts = 0;
     x->searched.since = t;
-    if (to_come <= most_to_come) /* false if the time does not advance */
+    if (to_come <= most_to_come) /* false if time does not advance */
         return QDOT_OK;
     return qdot_fail(QDOT_ELIMIT,
                      "stopped at t = %.15g: an event or switch changes so fast that %d parts of "
@@ -512,7 +512,7 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     x->far = !x->first_step &&
              qdot_watch_is_far(qdot_piece_watch(x), step);
     if (x->far) {
-        x->intent = QDOT_PIECE_GOES_ON; /* of a longer step that was not taken */
+        x->intent = QDOT_PIECE_GOES_ON; /* discard what was found in a longer step that was not taken */
         forget_step(x);
         return QDOT_OK;
     }
@@ -588,7 +588,7 @@ accepted(double t, const double *y, bool *stop, void *user)
             memcpy(x->end_low, x->beyond, x->n * sizeof *x->end_low);
         return QDOT_OK;
     }
-    if (!x->method->series) { /* the next step is from here */
+    if (!x->method->series) { /* the next step starts from this state */
         x->step.t[0] = t;
         memcpy(x->step.y, y, x->n * sizeof *y);
     }
@@ -669,7 +669,7 @@ qdot_piece_integrate(qdot_piece *x)
     x->beyond = NULL;
     x->has_root = false;
     memset(x->end_low, 0, x->n * sizeof *x->end_low);
-    if (x->reader.read_two) /* it may end where it starts */
+    if (x->reader.read_two) /* the piece may end at its start */
         qdot_piece_low(x, x->end_low);
     x->intent = QDOT_PIECE_GOES_ON;
     x->resting = SIZE_MAX;

@@ -16,26 +16,26 @@
 
 typedef enum {
     QDOT_PIECE_GOES_ON,
-    QDOT_PIECE_RETRIED, /* stopped after its first step: x->well says why */
-    QDOT_PIECE_ENDS     /* the piece ends at t_act */
+    QDOT_PIECE_RETRIED, /* stopped after the first step; x->well tells why */
+    QDOT_PIECE_ENDS     /* the piece ends at time t_act */
 } qdot_piece_intent;
 
 /* How often an event, bound or surface was met: used to detect accumulation. */
 typedef struct {
     qdot_watched_kind kind;
-    size_t index, n; /* n: times since `since` */
+    size_t index, n; /* index of the event, bound or surface; n: times met since `since` */
     double since;
     double last, interval, ratio; /* time of the last one; the interval before it; that over the
                                      interval before */
-    size_t steady;                /* how often in a row the ratio was the same */
-    bool soon;                    /* its contact was about to last (qdot_piece_rest) */
-    size_t at_once;               /* times at the same t */
+    size_t steady;                /* how many times in a row the ratio was the same */
+    bool soon;                    /* the contact was about to last (qdot_piece_rest) */
+    size_t at_once;               /* how many times it was met at the same t */
 } qdot_piece_repeat;
 
 /* A surface for which another side must be tried. */
 typedef struct {
     size_t surface, n;
-    long sides[4]; /* [n] candidates, the present side first */
+    long sides[4]; /* [n] candidate sides, the present one first */
 } qdot_piece_doubt;
 
 /* State of the integration of one piece; course.c owns the arrays and the cursor. */
@@ -45,78 +45,78 @@ typedef struct {
     const qdot_ode_method *method;
     const qdot_ode_method *now; /* the method of the present step if the run changes methods; else NULL */
     double t1, direction;
-    size_t n;           /* components of y */
-    size_t mode;        /* of this piece */
+    size_t n;           /* number of components of y */
+    size_t mode;        /* index of the mode of this piece */
     struct {
-        double t, *y; /* [n] */
+        double t, *y; /* time and state [n] at the start */
         /* The low part of the state (exact minus y) of components that still equal low_of; other
          * components are exact. */
-        double *low, *low_of; /* [n] each */
-        double t_low; /* the time of y less t, where y is at a root */
-        bool on_root; /* y was moved to the root that ended the piece before, */
-        double late;  /* and then on by this */
-        size_t from;  /* the mode of the piece before */
+        double *low, *low_of; /* [n] each: low part of a component; the value for which it is valid */
+        double t_low; /* time of the state minus t, if the start is at a root */
+        bool on_root; /* y is the state at the root that ended the previous piece */
+        double late;  /* and was then advanced by this time */
+        size_t from;  /* index of the mode of the previous piece */
         bool jumped;  /* an event has changed the state */
-        bool followed; /* coordinates without mass have jumped with their equations, */
-        bool slipped;  /* positions of them against dry friction: `bare` is behind that */
+        bool followed; /* massless coordinates jumped, because their equations changed */
+        bool slipped; /* their positions jumped against dry friction: `bare` is the state after the jump */
     } start;
-    long *side;         /* [surfaces] */
-    bool *functions_on; /* [functions] the piece starts on a zero of it */
+    long *side;         /* [surfaces] side of each surface in this piece */
+    bool *functions_on; /* [functions] the function is 0 at the start */
     int *before;        /* [functions] sign just before the start; 0: unknown */
-    int *signs;         /* [functions] of the mode before, where its piece ended */
-    int *left;          /* [functions] the sign just behind the start of the step that ended the piece before */
-    bool *touching;     /* [functions] the value was 0, within rounding, where the piece before ended */
+    int *signs;         /* [functions] of the previous mode: sign where its piece ended */
+    int *left; /* [functions] sign just after the start of the step that ended the previous piece */
+    bool *touching; /* [functions] the value was 0 within rounding where the previous piece ended */
     bool *untouched;    /* [functions] what ended that piece left its value as it was; it did not end it, or an event
                            behind it changed the state once more */
-    bool *jumps;        /* [functions] the jump of coordinates without mass at the start changes its value */
-    bool *turned;       /* [functions] an event on it ended that piece, and its own `then` turned it back */
-    bool put_aside;     /* the start may be off its surfaces by rounding */
-    double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
+    bool *jumps; /* [functions] a jump of massless coordinates at the start changes its value */
+    bool *turned; /* [functions] its event ended the previous piece, and `then` reversed its motion */
+    bool put_aside;     /* by rounding the start may lie slightly off the surfaces */
+    double *residual;   /* [functions] a smaller |g| counts as 0 at the start */
     double *bare;  /* [n] the start before an attempt moved it; then its low parts, start.low and start.low_of */
-    double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
-    bool entered;  /* `rim` is of this piece; else it began within the layer */
+    double *rim;   /* [n] part of dy/dt that the layer entered last leaves out at its boundary */
+    bool entered;  /* the layer of `rim` was entered in this piece; false: the piece began inside */
     bool first_step;
     /* Stages of the search for sides of switches: one set is tried, then alternatives; then they are known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
-    char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "" */
-    bool well;          /* RETRIED: the motion leaves to its sides, but others may fit as well */
-    bool far; /* no watched bound is near this step: no roots were looked for */
+    char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "": it can */
+    bool well; /* RETRIED: the sides agree with the first step, but others may do so, too */
+    bool far; /* no watched bound is near this step, so no roots were searched */
 
     /* Results of the present step. */
     qdot_piece_intent intent;
     double t_act;
-    double late, blur; /* the end is at t_act - late, uncertain by `blur` */
-    double *y_act;             /* [n] the state at t_act, for methods without series */
-    const double *beyond;      /* while a step is accepted: the state less y; NULL: not known */
-    double *end_low;           /* [n] that at the end of the piece */
-    qdot_two *root;            /* [n] the state at the root that ends the piece; with constraints at t_act */
-    bool has_root;             /* `root` is known, from a series */
-    bool broken_off;           /* the integration was stopped on purpose: no failure */
-    qdot_vec(qdot_root) roots; /* the roots at t_act */
-    qdot_vec(qdot_root) fired; /* the roots that ended the piece before */
-    qdot_vec(size_t) pushed;   /* surfaces of contacts that lasted, into which what ended it has pushed the motion */
-    qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
+    double late, blur; /* the piece ends at t_act - late; uncertainty of this time */
+    double *y_act;             /* [n] state at t_act, for methods without series */
+    const double *beyond;      /* [n] exact state minus y while a step is accepted; NULL: unknown */
+    double *end_low;           /* [n] exact state minus y at the end of the piece */
+    qdot_two *root; /* [n] state at the root that ends the piece; with constraints at t_act */
+    bool has_root;             /* `root` has been computed, from a series */
+    bool broken_off;           /* the integration was stopped on purpose, not by a failure */
+    qdot_vec(qdot_root) roots; /* the roots of watched functions at t_act */
+    qdot_vec(qdot_root) fired; /* the roots that ended the previous piece */
+    qdot_vec(size_t) pushed; /* lasting contacts into which the event at the start has pushed the motion */
+    qdot_vec(size_t) crossed;  /* surfaces among `fired`, if no event changed the state */
     /* number of occurrences, and of spans in which events are lost in rounding, before this step */
     size_t noted, noted_faded;
     struct {
-        double since; /* start of the piece, or of a step */
+        double since; /* time of the start of the piece, or of a later step */
         size_t parts; /* parts of steps that were searched since then */
     } searched;
 
     /* Data with which the state within the step is read. */
     qdot_watch_reader reader;
     const qdot_ode_expanded *expanded;
-    qdot_trajectory step; /* the two ends of the step */
+    qdot_trajectory step; /* the stored ends of the present step */
     qdot_trajectory_cursor *cursor;
     double *y;      /* [n] scratch */
-    size_t resting; /* the event of a persistent contact; SIZE_MAX: none was found in this piece */
-    int resting_way; /* the sign to which the motion would leave it */
+    size_t resting; /* index of the event whose contact persists; SIZE_MAX: none in this piece */
+    int resting_way; /* sign of u on the side to which the motion would leave that contact */
 
     /* the sets of sides tried from one start, [tries x surfaces]; the surfaces with other possible sides */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
-    qdot_tape_two **thens; /* [events] `then` in two doubles; NULL until it is needed */
-    double *largest;       /* [n] of |y|, at the ends of steps so far */
+    qdot_tape_two **thens; /* [events] assignments `then` in two doubles; NULL: not needed yet */
+    double *largest;       /* [n] largest |y| at the ends of steps so far */
     /* How often each event, bound or surface was met recently. */
     qdot_vec(qdot_piece_repeat) repeats;
 } qdot_piece;

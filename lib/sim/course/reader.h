@@ -11,14 +11,14 @@
 
 /* Expressions along a run, compiled to a tape. */
 typedef struct {
-    const qdot_plan *plan; /* of the first course; borrowed, as everything except the tape */
+    const qdot_plan *plan; /* plan of the first course; borrowed, as all except `tape` */
     size_t m;
-    const qdot_expr *exprs; /* [m] as given */
-    qdot_tape *tape;        /* of these, along one course with its parameter values */
-    bool accelerations;     /* it reads accelerations or multipliers of some course */
-    size_t n_more;          /* of several courses: how many come after the first, */
-    const qdot_plan *const *more; /* [n_more] the plans of these, */
-    const qdot_expr *inputs;      /* and the inputs of the tape over all courses */
+    const qdot_expr *exprs; /* [m] the expressions as given */
+    qdot_tape *tape; /* outputs: the expressions along one course with its parameter values */
+    bool accelerations;     /* `tape` reads q'' or multipliers of some course */
+    size_t n_more;          /* number of further courses */
+    const qdot_plan *const *more; /* [n_more] plans of the further courses */
+    const qdot_expr *inputs;      /* inputs of the tape over all courses */
 } qdot_reading;
 
 /* Whether e holds q'' or a multiplier. */
@@ -28,17 +28,17 @@ bool qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e);
 typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
-    size_t n;   /* coordinates */
-    double *in; /* q, q', t, q'', lambda, sides, within those of the reader */
+    size_t n;   /* number of coordinates */
+    double *in; /* its part of the reader's inputs: q, q', t, q'', lambda, sides */
 } qdot_reader_course;
 
 /* Evaluates the expressions of a reading at times of its courses. */
 typedef struct {
     qdot_reading of;
     size_t n_courses;
-    qdot_reader_course *courses; /* [n_courses] */
-    int moved;  /* 1, 2: states are moved by one double, as the start of companion 0, 1; 0: not */
-    double *in; /* [inputs of the tape] */
+    qdot_reader_course *courses; /* [n_courses] the courses */
+    int moved; /* k = 1, 2: change states by one double, like the start of companion k - 1; 0: do not */
+    double *in; /* [inputs] inputs of the tape */
     double *work;
 } qdot_reader;
 

@@ -16,7 +16,7 @@ typedef struct {
 
 /* A group of coordinates that was integrated separately because it is decoupled. */
 typedef struct {
-    const char *coordinates; /* "x, y" */
+    const char *coordinates; /* names of the coordinates: "x, y" */
     size_t steps, rejected;
 } qdot_run_part;
 
@@ -24,47 +24,47 @@ typedef struct qdot_run qdot_run;
 
 typedef struct {
     const char *method;
-    double tol, t0, t1;            /* t1: where the run ended */
+    double tol, t0, t1;            /* tolerance; start time; time at which the run ended */
     size_t steps, rejected, evals, jacobians, factorizations;
-    double cpu;                    /* s, the integration itself */
-    double cpu_total;              /* s, with derivation, lowering, error estimate */
+    double cpu;                    /* CPU seconds of the integration itself */
+    double cpu_total; /* CPU seconds including derivation, compilation and error estimate */
     double work, estimate_work;    /* counted (ode/meter.h), of the integration, and of all that tells
                                       its error */
     double error;                  /* estimate of the end state's error, max over components relative
                                       to max(1, |value|); NaN: unknown */
-    double scaled_error;           /* the same relative to max(scale, |value|) */
-    const double *scales;          /* [2n] of q, then q' (ode/scale.h); NULL: all are 1 */
-    double horizon;                /* time beyond which no digit is left (sim/error/horizon.h); NaN: none */
+    double scaled_error;           /* error relative to max(scale, |value|) */
+    const double *scales;          /* [2n] scales of q, then q' (ode/scale.h); NULL: all are 1 */
+    double horizon; /* time after which no digit is reliable (sim/error/horizon.h); NaN: none */
     double standstill;             /* time about which the motion nearly came to rest, on a horizon
                                       that is there because of that; NaN */
-    double energy_drift;           /* NaN unless h is proved conserved */
+    double energy_drift; /* max |h - h0| / max(1, |h0|); NaN: h is not proved to be conserved */
     size_t n_drifts;
-    const qdot_drift *drifts;      /* every conserved quantity known, energy first */
+    const qdot_drift *drifts; /* [n_drifts] drift of each known conserved quantity, energy first */
     qdot_run_status status;
-    const char *reason;            /* NULL when done */
-    bool interrupted;              /* by Ctrl-C: only the states are known */
-    size_t n;                      /* coordinates, including at the end */
-    size_t n_states;               /* parameters that events set, whose v is 0 */
-    const qdot_expr *coordinates;  /* [n] symbols */
-    const double *q, *v;           /* [n] state at t1 */
-    size_t operations;             /* of the tape, one evaluation of M and f */
-    int digits;                    /* as requested; 0: a run in doubles */
+    const char *reason;            /* why the run ended early; NULL when done */
+    bool interrupted;              /* interrupted by Ctrl-C: only the states are known */
+    size_t n;                      /* number of coordinates, including parameters at the end */
+    size_t n_states;               /* number of parameters that events set; their velocity is 0 */
+    const qdot_expr *coordinates;  /* [n] symbols of the coordinates */
+    const double *q, *v;           /* [n] coordinates and velocities at t1 */
+    size_t operations;             /* operations of the tape for one evaluation of M and f */
+    int digits;                    /* requested number of digits; 0: a run in doubles */
     const qdot_expr *exact;        /* [2n + m] with `digits`: q, v, multipliers (nil: unknown) at
                                       t1 as rational numbers; else NULL */
-    const char *notice;            /* notices about the start, a line each; NULL: none */
+    const char *notice;            /* notices about the start, one a line; NULL: none */
     /* Fields for scenes with constraints: */
-    size_t m;                      /* multipliers; 0: no constraints */
-    const qdot_expr *multipliers;  /* [m] symbols */
-    const double *lambda;          /* [m] at t1; NaN where there are none */
-    const double *lambda_error;    /* [m] estimates of their errors, absolute; NaN: unknown */
+    size_t m;                      /* number of multipliers; 0: no constraints */
+    const qdot_expr *multipliers;  /* [m] symbols of the multipliers */
+    const double *lambda;          /* [m] multipliers at t1; NaN: undefined */
+    const double *lambda_error;    /* [m] estimated absolute errors of lambda; NaN: unknown */
     double constraint_drift;       /* the largest |f| of holonomic constraints, or of velocity
                                       constraints if there are no others; NaN: neither */
-    double velocity_drift;         /* the largest |df/dt|, |f| of velocity constraints; NaN */
-    size_t independent;            /* rank of the constraints */
-    size_t projections;            /* steps after which the state was moved */
+    double velocity_drift; /* largest |df/dt| of holonomic and |f| of velocity constraints; NaN: none */
+    size_t independent;            /* rank of the constraint Jacobian */
+    size_t projections;            /* number of steps after which the state was projected */
     qdot_run_treatment treatment;
-    size_t pieces, modes;          /* of a run divided by events or switches; else 1 */
-    size_t n_parts;                /* decoupled groups; 0: integrated together */
+    size_t pieces, modes; /* numbers of pieces and modes, 1 if events and switches do not divide the run */
+    size_t n_parts;                /* number of decoupled groups; 0: integrated together */
     const qdot_run_part *parts;
     const char *doubt;             /* why the error is unknown; NULL: it is known, or no reason is
                                        */
@@ -75,7 +75,7 @@ typedef struct {
 static inline bool
 qdot_run_report_is_beyond(const qdot_run_report *r, double t)
 {
-    return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* of a NaN: false */
+    return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* false if horizon is NaN */
 }
 
 /* A stretch of time in which the function of an event, having decayed, is not known to differ from 0: whether the event
@@ -89,9 +89,9 @@ typedef struct {
 /* An event that occurred. */
 typedef struct {
     const char *event;
-    double t, error; /* NaN: unknown */
-    int way;         /* 1: rising, -1: falling, 0: it touched 0 */
-    qdot_expr exact; /* with `digits`: the time as a rational; else nil */
+    double t, error; /* time of the event and its error; NaN: unknown */
+    int way;         /* 1: rising, -1: falling, 0: only touched 0 */
+    qdot_expr exact; /* with `digits`: the time as a rational number; else nil */
 } qdot_run_occurrence;
 
 #endif

@@ -9,56 +9,56 @@
 
 struct qdot_run {
     qdot_stage stage;
-    qdot_plan *plan;      /* of the first mode; owned by the stage */
-    qdot_course course;   /* the run, and what its states are read with */
+    qdot_plan *plan;      /* plan of the first mode; owned by `stage` */
+    qdot_course course;   /* the stored run, and the equations from which its states are read */
     qdot_drifts drifts;
     qdot_multipliers multipliers;
-    double *start;        /* [2n] y at t0 */
-    double *start_low;    /* [2n] the exact start less y */
-    double *units;        /* [2n] by which companions are moved (sim/model/still.h) */
-    double *apart;        /* [2 x 2n] that of the request, with states; NULL: the start is exact */
-    double *difference;   /* [2n] estimates of the errors of the end state; NaN: unknown */
-    size_t factored;      /* number of matrices factored by the integration */
-    double t0, t1;        /* as requested */
-    double t0_low, t1_low; /* the exact limits less t0, t1 */
+    double *start;        /* [2n] start state y at t0 */
+    double *start_low;    /* [2n] exact start state minus y */
+    double *units; /* [2n] units in which companions' starts are shifted (sim/model/still.h) */
+    double *apart; /* [2 x 2n] two shifted starts from the request; NULL: the start is exact */
+    double *difference;   /* [2n] estimated errors of the end state; NaN: unknown */
+    size_t factored;      /* number of matrices factored during the integration */
+    double t0, t1;        /* requested start and end time */
+    double t0_low, t1_low; /* exact requested times minus t0, t1 */
     /* For a run far from t = 0 (sim/course/run-time.h): the times here are t - origin; otherwise
      * origin is 0. */
     double origin;
-    double *times;            /* [points] t at the points of the course */
-    qdot_run_report *told;    /* the report with times in t, not in s = t - origin */
-    bool turns;           /* of the request */
-    bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
-    int t0_side, t1_side; /* sign of the exact limit less t0, t1 */
+    double *times;            /* [points] times t at the stored points */
+    qdot_run_report *told;    /* the report with times t instead of s = t - origin */
+    bool turns;           /* the method may change to series and back, as requested */
+    bool leading;         /* first orders of series are sums of two doubles (ode/leading.h) */
+    int t0_side, t1_side; /* signs of (exact requested time - t0), (... - t1) */
     char *reason;
     qdot_text notice;     /* notices of the run, a line each; the report takes them over */
-    qdot_text part_names;               /* for report.parts, each ended by a 0 */
+    qdot_text part_names;               /* names for report.parts, each ended by NUL */
     qdot_vec(qdot_run_part) parts;
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     qdot_vec(qdot_run_faded) faded;
-    bool occurrence_errors; /* `occurrences` and `faded` have their errors */
-    bool by_clock, no_drifts; /* of the request */
-    bool hidden;            /* the run has passed over something: no error is known */
-    bool singular;          /* no step was small enough at its end, for a singularity there */
-    char *doubt;            /* why the error is unknown; NULL */
+    bool occurrence_errors; /* `occurrences` and `faded` contain error estimates */
+    bool by_clock, no_drifts; /* as in the request */
+    bool hidden;            /* the run may have missed something: its error is unknown */
+    bool singular;          /* failed at a singularity: no step was small enough */
+    char *doubt;            /* why the error is unknown; NULL: it is known */
 
-    qdot_ode_meter meter;   /* of the run's work, which that of companions is compared with */
-    double of_point;        /* the work of reading both companions at one time */
-    qdot_companion_way way; /* by which a companion has arrived before */
+    qdot_ode_meter meter;   /* counts the run's work, with which that of companions is compared */
+    double of_point;        /* work of reading both companions at one time */
+    qdot_companion_way way; /* method by which a companion has succeeded before */
 
     /* The run whose distance from this one is the error along the way: made together with it if
      * the run has pieces, else when errors are first needed. */
     bool has_companion;
     qdot_course companion;
-    bool has_twin; /* a second companion, for times at which the first is near by chance */
+    bool has_twin; /* there is a second companion, used where the first is close by chance */
     qdot_course twin;
 
-    struct qdot_run_chart *chart; /* of a run made in other coordinates (sim/run/chart-run.h) */
-    bool limited;     /* companions are compared between the times `within` alone: angles of the */
-    double within[2]; /* chart jump beyond them */
+    struct qdot_run_chart *chart; /* data of a run in other coordinates (sim/run/chart-run.h); NULL: none */
+    bool limited;     /* compare companions only between the times `within` */
+    double within[2]; /* outside of these times angles of the chart jump */
     struct qdot_precise_pair *precise; /* with `digits`: the run itself; course.tr holds its
                                           points as doubles */
-    qdot_expr *exact;                  /* [2n] the exact end state of a run with digits */
+    qdot_expr *exact;                  /* [2n] exact end state of a run with `digits` */
 };
 
 /* The text run->notice, with a line break if another line is to follow. */

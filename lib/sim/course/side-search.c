@@ -385,7 +385,7 @@ qdot_piece_search(qdot_piece *x)
             return QDOT_OK;
         if (surfaces > 0)
             memcpy(x->side, qdot_piece_mode(x)->side, surfaces * sizeof *x->side);
-        if (!qdot_piece_has_massless(x)) /* not what the piece that was tried has made up for */
+        if (!qdot_piece_has_massless(x)) /* restore the start: remove what the rejected piece added */
             put_start(x, x->bare);
         QDOT_TRY(qdot_piece_rest(x, x->resting, x->resting_way, 0, &lasts, &soon));
         if (!lasts)

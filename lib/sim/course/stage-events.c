@@ -41,7 +41,8 @@ find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_e
         if (qdot_expr_contains(p->pool, f, p->inputs[k]))
             e->positions = e->velocities = true;
     }
-    for (size_t i = 0; parameter && p->massless && i < p->n - p->n_states; i++) /* the equations of massless coordinates are kept as constraints are */
+    /* equations of massless coordinates are treated like constraints */
+    for (size_t i = 0; parameter && p->massless && i < p->n - p->n_states; i++)
         if (p->massless[i] && qdot_expr_contains(p->pool, p->f[i], p->inputs[k])) {
             e->velocities = true;
             e->positions = e->positions || qdot_massless_kind(p, i) == QDOT_HOLONOMIC;
@@ -67,7 +68,7 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_
         QDOT_TRY(find_broken(scene, p, e->targets[i], e));
         changes |= values[i] != targets[i];
     }
-    if (!changes) { /* x' = x': the event is only seen */
+    if (!changes) { /* no change, as in x' = x': the event is only recorded */
         e->changes = 0;
         e->positions = e->velocities = false;
         return QDOT_OK;

@@ -124,7 +124,7 @@ friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
     qdot_free(out);
     qdot_tape_free(tape);
     qdot_free(e);
-    return qdot_grave(status); /* what cannot be held is told where it is met */
+    return qdot_grave(status); /* other failures are reported where the value is needed */
 }
 
 static qdot_status
@@ -188,10 +188,10 @@ qdot_stage_pucks(qdot_stage *s, double t, const double *y, double latest)
                  (fast > 0 ? fmin(fast, 1) : 1);
         if (!series)
             radius = fmax(radius, stop_without_series * friction * latest);
-        if (friction > 0) /* what is left out of the way is well below tol */
+        if (friction > 0) /* so that the path omitted at the end is well below tol */
             radius = fmin(radius, sqrt(2 * friction * way_left_out * s->request->tol));
         radius = fmax(stop * friction * latest, radius);
-        if (isnormal(radius * radius)) /* a power of two: it is exact */
+        if (isnormal(radius * radius)) /* round to a power of two, which is exact */
             puck->radius = exp2(ilogb(radius));
     }
     qdot_free(in);

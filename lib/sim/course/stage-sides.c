@@ -28,13 +28,13 @@ static const double most_steps = 0x1p53;
 /* The values u of all surfaces with their rounding errors, for the present sides. */
 typedef struct {
     const qdot_stage *s;
-    size_t m, n; /* surfaces; components of the state */
+    size_t m, n; /* number of surfaces; of components of the state */
     double t;
     const double *y;
-    double *u, *noise; /* [m] what rounding of the state and of u makes of u */
-    bool *flat;        /* [m] u is the same, but for rounding, wherever the state is moved */
-    double *before;    /* [m] u with the sides of the pass before */
-    uint8_t *open;     /* of the gates, then of surfaces [m] (sim/model/gates.h) */
+    double *u, *noise; /* [m] values u; their change by rounding of the state and of u */
+    bool *flat;        /* [m] small changes of the state change u only by rounding */
+    double *before;    /* [m] u with the sides of the previous pass */
+    uint8_t *open; /* whether each gate, then each surface [m], is evaluated (sim/model/gates.h) */
     double *out, *in, *work;
 } decision;
 
@@ -287,7 +287,8 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
 qdot_status
 qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old, long *side)
 {
-    const size_t m = qdot_switches_own(&s->switches); /* contacts stay */
+    /* surfaces without contacts, which keep their side */
+    const size_t m = qdot_switches_own(&s->switches);
     long *kept;
     decision d;
     bool changed = true;

@@ -184,7 +184,7 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
                                            : m->plan->share[i],
                               ends, x->layer > 0 ? layer : ends);
             w.inside = 1;
-            if (x->contact) /* a reaction only pushes */
+            if (x->contact) /* a contact reaction can only push */
                 watch_function(m, m->plan->share[i], w);
             continue;
         }
@@ -395,7 +395,7 @@ start_numbers(const qdot_stage *s, double *t, double *y)
 static double
 tol_of_series(const qdot_run_request *r)
 {
-    const qdot_ode_method *method = qdot_ode_method_find(r->method); /* NULL: auto */
+    const qdot_ode_method *method = qdot_ode_method_find(r->method); /* NULL for "auto" */
 
     return r->digits == 0 && (!method || method->series) ? r->tol : 0;
 }
@@ -490,12 +490,12 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(take_scales(s, scene->coordinates.n));
     QDOT_TRY(qdot_plan_check(scene));
     s->kept = qdot_kept_find(scene, request);
-    if (s->kept) /* nothing switches, then */
+    if (s->kept) /* such plans have no switches */
         s->switches.pool = scene->pool;
     else
         QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
     QDOT_TRY(runs_back(s, &s->back));
-    if (!s->back) /* what rests where time goes back has no one past */
+    if (!s->back) /* backwards in time, a motion at rest has no unique past */
         QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
     if (!s->kept)
         QDOT_TRY(qdot_pucks_find(scene, request, &s->switches));

@@ -16,29 +16,29 @@
 /* For a run backwards in time (sim/course/piece-back.c): the inverse of the event's `then`
  * (sim/model/undone.h). */
 typedef struct {
-    const char *why;  /* not NULL: there is no such thing, and why; nor then a `then` */
-    bool nowhere;     /* nor is it known where the event would have occurred */
-    bool keeps_speed; /* it changes nothing on which the speed of its function depends */
-    bool moved;       /* its function is not that of the event, which a change of places or parameters has moved */
-    qdot_tape *rates; /* from q, q', t, q'': g' of the function g of the event, g'' (0 if g holds q'), dg/dq [n] */
+    const char *why;  /* why the event cannot be undone; NULL: it can */
+    bool nowhere;     /* not even the place where the event occurred can be determined */
+    bool keeps_speed; /* `then` does not change the rate of the event's function */
+    bool moved; /* the function differs from the event's, because `then` changes positions or parameters */
+    qdot_tape *rates; /* from q, q', t, q'': g', g'' (0 if g contains q'), dg/dq [n] of the event's function g */
     /* the event as declared, with the targets of its inverse */
     struct qdot_staged_event *forward;
 } qdot_staged_undoing;
 
 typedef struct qdot_staged_event {
     char *name;
-    qdot_expr function; /* left - right, with parameter values; u of |u| = 0 and u^2 = 0 */
+    qdot_expr function; /* left - right, with parameter values; u for conditions |u| = 0 and u^2 = 0 */
     bool touches;       /* the function is u: where u changes sign, |u| or u^2 only touches 0 */
-    qdot_expr turn;     /* left - right goes as the function times this (sim/model/repeated-zeros.h); NIL: as it */
-    bool half;          /* and is not 0 where that is negative */
-    int way;            /* 1 rising, -1 falling as t grows, 0 either */
+    qdot_expr turn; /* left - right changes as function * turn (sim/model/repeated-zeros.h); nil: as function */
+    bool half;          /* a zero of the function counts as the event only if turn > 0 there */
+    int way;            /* as t grows: 1 rising, -1 falling, 0 either */
     bool stop;
-    size_t changes;  /* number of assignments of `then`, to q, q' and parameters */
-    size_t *targets; /* [changes] indices in y */
-    qdot_tape *then; /* the new values from q, q', t, q''; NULL: no assignments */
+    size_t changes;  /* number of assignments in `then`, to q, q' and parameters */
+    size_t *targets; /* [changes] index in y of each assigned value */
+    qdot_tape *then; /* new values from q, q', t, q''; NULL: no assignments */
     bool accelerations; /* `then` reads q'' */
-    bool positions, velocities; /* `then` may break constraints on positions, on velocities */
-    qdot_staged_undoing *undoing; /* NULL: time goes on, or the event changes nothing */
+    bool positions, velocities; /* `then` may violate constraints on positions; on velocities */
+    qdot_staged_undoing *undoing; /* for runs backwards in time; NULL: forwards, or `then` changes nothing */
 } qdot_staged_event;
 
 /* Whether the event changes or stops the motion, or may do so. */
@@ -53,36 +53,36 @@ typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_wa
 /* A function whose roots are watched for in a mode. */
 typedef struct {
     qdot_watched_kind kind;
-    size_t index;   /* of the event, domain or surface */
+    size_t index;   /* index of the event, domain or surface */
     int inside;     /* its sign in this mode; 0: an event, or a surface whose u stays 0. A surface along
                        which the motion slides has s + 1 and s - 1, s its share */
-    long beyond;    /* surface: the side after a crossing; unused if u stays 0 */
-    bool velocity;  /* surface: u contains velocities, so that du/dt depends on the mode */
-    size_t coordinate; /* of a domain */
+    long beyond;    /* for a surface: side after a crossing; unused if u stays 0 */
+    bool velocity;  /* for a surface: u contains velocities, so du/dt depends on the mode */
+    size_t coordinate; /* for a domain: index of the coordinate */
     double bound;
 } qdot_watched;
 
 typedef struct {
     qdot_plan *plan;
-    long *side; /* [surfaces] */
+    long *side; /* [surfaces] the side of each surface in this mode */
     size_t m;
     qdot_tape *level; /* from q, q', t: the terms of T - V that switch (sim/model/switch.h); NULL:
                          none */
-    qdot_expr *functions;  /* [m] events, then domains, then surfaces */
-    qdot_watched *watched; /* [m] */
-    qdot_tape *shares; /* from q, q', t: the shares [surfaces], 0 of others; NULL: it does not slide */
-    qdot_sliding_rows held; /* what the motion keeps where it slides along surfaces; else no rows */
+    qdot_expr *functions;  /* [m] watched functions: events, then domains, then surfaces */
+    qdot_watched *watched; /* [m] what each function belongs to */
+    qdot_tape *shares; /* from q, q', t: sliding shares [surfaces], 0 if not sliding; NULL: none slides */
+    qdot_sliding_rows held; /* conditions kept while sliding along surfaces; no rows: not sliding */
 } qdot_mode;
 
 /* The scene of a run, compiled for each of its modes. Start from {0}. */
 typedef struct {
-    qdot_scene *scene;               /* borrowed while modes are made */
-    const qdot_run_request *request; /* likewise */
-    qdot_plan *kept; /* the plan of an earlier run, for the first mode; else NULL */
+    qdot_scene *scene;               /* the scene; borrowed while modes are made */
+    const qdot_run_request *request; /* the request; borrowed while modes are made */
+    qdot_plan *kept; /* plan of an earlier run, reused for the first mode; else NULL */
     qdot_switches switches;
     qdot_domains domains;
     qdot_parameter_conditions conditions;
-    double *scales; /* [2n] of the state (ode/scale.h); NULL: all are 1 */
+    double *scales; /* [2n] scales of the state (ode/scale.h); NULL: all are 1 */
     size_t n, n_states; /* coordinates of the run; how many of these are parameters that events
                            set */
     bool back;          /* the run goes backwards in time */
@@ -90,7 +90,7 @@ typedef struct {
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;
                          NULL: no surface */
-    qdot_tape *pucks; /* from q, q', t: qdot_stage_puck of one after another; NULL: there is none */
+    qdot_tape *pucks; /* from q, q', t: qdot_stage_puck of each puck; NULL: no pucks */
 } qdot_stage;
 
 /* Make the stage and its first mode, that of the start. A surface that the start lies on gets its
@@ -142,10 +142,10 @@ QDOT_MUST_CHECK qdot_status qdot_stage_pucks(qdot_stage *stage, double t, const 
 /* Quantities of sliding disc i at a state, from the tape stage->pucks. */
 typedef struct {
     size_t k;
-    double speed;                                         /* |w| */
-    double d[QDOT_PUCK_MOST], rate[QDOT_PUCK_MOST]; /* the rate of d but for q'' */
-    double G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];      /* [k x k] */
-    double *slopes; /* [k x n] dd/dq', room of the caller; NULL: not wanted */
+    double speed;                                         /* speed |w| of the disc */
+    double d[QDOT_PUCK_MOST], rate[QDOT_PUCK_MOST]; /* [k] velocities d; their time derivatives without the terms of q'' */
+    double G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];      /* [k x k] the matrix G of |w|^2 = d.G d */
+    double *slopes; /* [k x n] slopes dd/dq', memory of the caller; NULL: not needed */
 } qdot_puck_state;
 QDOT_MUST_CHECK qdot_status qdot_stage_puck(const qdot_stage *stage, size_t i, double t,
                                             const double *y, qdot_puck_state *of);

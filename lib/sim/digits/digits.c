@@ -56,7 +56,8 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
 
     for (size_t k = 0; k < c->m; k++) {
         /* if the equations switch do not use the row's own f, which holds for one side only */
-        const bool massless = c->rows[k].multiplier == QDOT_NIL; /* with such nothing switches */
+        /* an equation of a massless coordinate; such equations have no switches */
+        const bool massless = c->rows[k].multiplier == QDOT_NIL;
         qdot_drift f = {
             .quantity = massless ? c->rows[k].f : qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
         qdot_drifts one = {.n = 1, .at = &f};
@@ -64,7 +65,7 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
         if (c->rows[k].kind != kind)
             continue;
         QDOT_TRY(qdot_precise_pair_drifts(run->precise, &one));
-        *most = fmax(*most, f.drift); /* of a NaN the drift */
+        *most = fmax(*most, f.drift); /* also replaced by a NaN */
     }
     return QDOT_OK;
 }
@@ -113,9 +114,9 @@ keep_end(qdot_run *run)
     status = qdot_precise_pair_values(run->precise, m, p->multipliers, QDOT_NIL,
                                       run->exact + n, run->multipliers.error);
     for (size_t k = 0; k < m; k++)
-        if (!isfinite(run->multipliers.lambda[k])) /* no direction in doubles: no digits */
+        if (!isfinite(run->multipliers.lambda[k])) /* not finite in doubles: no digits are given */
             run->exact[n + k] = QDOT_NIL;
-    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* undefined: the exact end state stays nil */
 }
 
 static size_t

@@ -272,7 +272,7 @@ end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end 
     if (!found)
         return qdot_precise_beyond_doubles(ends[0].t);
     mpfr_set(t, at[X], RN);
-    for (size_t k = 1; k < n; k++) { /* what happens with it happens in all digits */
+    for (size_t k = 1; k < n; k++) { /* further events at the same time are carried out at this root, too */
         const qdot_precise_formula *f = formula_find(s, mode, ends[k].function, SIZE_MAX);
 
         QDOT_TRY(qdot_precise_formula_at(s, segment, f, t, at[F_X]));
@@ -320,7 +320,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
         mpfr_add(goal, goal, s->course->at[W], RN);
     } else if (piece->first == last) {
         mpfr_set(goal, t, RN);
-    } else if (s->guide->failed) { /* what happens behind it is not known */
+    } else if (s->guide->failed) { /* what follows the failure is not known */
         mpfr_set_d(goal, tr->t[last], RN);
     } else {
         mpfr_set(goal, s->start.at[1], RN);
@@ -427,7 +427,8 @@ piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
             break;
         mpfr_div(at[W], at[SPEED], at[SPEED_BEFORE], RN);
         mpfr_abs(at[W], at[W], RN);
-        mpfr_mul(at[FLIGHT], at[FLIGHT], at[W], RN); /* as long as the impact is hard */
+        /* duration of the last flights: proportional to the impact speed W */
+        mpfr_mul(at[FLIGHT], at[FLIGHT], at[W], RN);
         if (is_low(s))
             break;
         if (count == MOST_BOUNCES || mpfr_cmp_d(at[W], 1) >= 0)

@@ -39,7 +39,7 @@ end_of_companion(const qdot_precise_side *a, qdot_precise_side *b, mpfr_srcptr t
     const bool there = a->guide && a->guide->reason[0] == '\0'
                        && a->guide->stopped_by == SIZE_MAX;
 
-    if (a->guide && !there) { /* an event or a failure ended both: compare their ends, whatever the times */
+    if (a->guide && !there) { /* an event or a failure ended both runs: compare their end states, at different times */
         for (size_t i = 0; i < a->guide->tr.n; i++)
             mpfr_set(y[i], end[1 + i], RN);
         return QDOT_OK;

@@ -10,7 +10,7 @@
 
 /* An expression evaluated in MPFR. */
 typedef struct {
-    size_t mode, function; /* of a surface, domain or event; SIZE_MAX: `then` of event */
+    size_t mode, function; /* index of the mode and its watched function; SIZE_MAX: the `then` of an event */
     size_t event;
     bool accelerations;
     qdot_precise *program;
@@ -18,10 +18,10 @@ typedef struct {
 
 struct qdot_precise_course {
     qdot_vec(qdot_precise_formula) formulas;
-    qdot_vec(qdot_precise_hold *) holds; /* [modes] with constraints and changes; else NULL */
-    bool *set;                           /* [2n] what an event has set */
-    size_t *segment_of;                  /* [pieces of the guide] */
-    qdot_reals numbers; /* t, y [2n], old [2n], and the locator's */
+    qdot_vec(qdot_precise_hold *) holds; /* [modes] projections, for modes with constraints and changes; else NULL */
+    bool *set;                           /* [2n] values that an event has set */
+    size_t *segment_of; /* [pieces of the run in doubles] the segment of each piece */
+    qdot_reals numbers; /* memory for t, y [2n], old state [2n], and the root search */
     mpfr_t *y, *old, *at;
 };
 

@@ -17,21 +17,21 @@ enum { MOST_ITERATIONS = 60, SCRATCH = 4 };
 struct qdot_precise_hold {
     const qdot_plan *plan;
     mpfr_prec_t bits;
-    qdot_precise *metric, *rows[2]; /* M and A; F of positions, of velocities */
-    size_t count[2];                /* of such F */
+    qdot_precise *metric, *rows[2]; /* programs for M and A; for F of position and of velocity constraints */
+    size_t count[2];                /* number of these F */
     /* Fields of the level (positions or velocities) and the equations in use: */
     bool velocities;
-    size_t m, kept; /* its equations; those that hold a free value */
-    size_t *free;   /* [f] the unknowns that are free */
+    size_t m, kept; /* number of equations of the level; of those that contain a free value */
+    size_t *free;   /* [f] indices of the free unknowns */
     size_t f;
-    size_t *row;   /* [kept] */
-    size_t *order; /* [n + m] of the factors */
-    double *scale; /* [n + m] */
+    size_t *row;   /* [kept] indices of these equations */
+    size_t *order; /* [n + m] pivot order of the factors */
+    double *scale; /* [n + m] scale factors of the rows */
     qdot_reals numbers;
     mpfr_t *x0;                 /* [n] the values as given */
-    mpfr_t *W, *A, *A_moved;    /* [n x n], [m x n] twice */
-    mpfr_t *K, *b, *y, *lambda; /* the linear system [(n + m)^2], [n + m] twice, [m] */
-    mpfr_t *w;                  /* [SCRATCH] */
+    mpfr_t *W, *A, *A_moved;    /* weights W [n x n]; A and A at the moved point [m x n] */
+    mpfr_t *K, *b, *y, *lambda; /* linear system K [(n + m)^2]; b, y [n + m]; lambda [m] */
+    mpfr_t *w;                  /* [SCRATCH] numbers for intermediate results */
 };
 
 void
@@ -138,7 +138,8 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
 
         mpfr_set(W[i * n + j], value[0], RN);
         mpfr_set(W[j * n + i], value[0], RN);
-        if (i == j && h->plan->massless && h->plan->massless[i]) /* it alone moves, in all digits */
+        /* massless coordinates alone are moved, in all digits */
+        if (i == j && h->plan->massless && h->plan->massless[i])
             mpfr_set_ui_2exp(W[i * n + i], 1, -2 * (mpfr_exp_t)h->bits, RN);
     }
     for (size_t i = 0; i < h->m * n; i++)

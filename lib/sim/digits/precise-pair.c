@@ -92,7 +92,7 @@ qdot_precise_evaluate(qdot_precise_side *s, size_t mode, const qdot_plan *plan,
 double
 qdot_precise_power(double x)
 {
-    mpfr_t power; /* rounded alike by every C library */
+    mpfr_t power; /* computed by MPFR, so that every C library gives the same digits */
     double r;
 
     if (isnan(x))

@@ -20,29 +20,29 @@ typedef struct {
     qdot_precise_bind **binds; /* [modes]; NULL for modes that do not occur */
     size_t n_binds;
     qdot_vec(qdot_precise_segment) segments;
-    const qdot_course *guide; /* NULL: nothing divides the run */
-    struct qdot_precise_course *course; /* with a guide */
-    qdot_reals times;         /* of the guide's occurrences */
-    qdot_ode_result result;   /* of all segments */
-    qdot_reals start; /* t0, t1, y0 [2n] */
+    const qdot_course *guide; /* the run in doubles, which has the events; NULL: no events or switches */
+    struct qdot_precise_course *course; /* data of the course, if there is a `guide` */
+    qdot_reals times;         /* times of the events of `guide` */
+    qdot_ode_result result;   /* integration result, summed over all segments */
+    qdot_reals start; /* t0, t1, y0 [2n] in all digits */
     double digits, log2_tol;
     int order;
-    size_t near, near_segment; /* point expanded last (qdot_precise_at), and its segment */
+    size_t near, near_segment; /* index of the point expanded last (qdot_precise_at); of its segment */
     qdot_status status;
-    qdot_domains *domains; /* checked along the run; NULL for the companion */
-    double *y;             /* [2n] scratch for the check of domains */
+    qdot_domains *domains; /* domains, checked along the run; NULL for the companion */
+    double *y;             /* [2n] state in doubles for this check */
 } qdot_precise_side;
 
 typedef struct qdot_precise_pair qdot_precise_pair;
 struct qdot_precise_pair {
     const qdot_plan *plan;
-    const qdot_run_request *request; /* while the pair is made */
-    const double *settled;    /* [2 plan->n] the start in doubles; likewise */
+    const qdot_run_request *request; /* the request; used while the pair is made */
+    const double *settled;    /* [2 plan->n] the start in doubles; used while the pair is made */
     const qdot_course *guide; /* the run in doubles that finds events and switches; NULL: none */
-    size_t n;                        /* 2 plan->n */
+    size_t n;                        /* length of a state, 2 plan->n */
     int digits;
     qdot_precise_side run, companion;
-    double log10_error; /* NaN: unknown */
+    double log10_error; /* log10 of the error; NaN: unknown */
 };
 
 /* log10 of the distance beyond which two runs count as unrelated. */
@@ -54,8 +54,8 @@ QDOT_MUST_CHECK qdot_status qdot_precise_compare(qdot_precise_pair *pair);
 
 /* Results of the earlier passes of a pair, in which the digits increase; start from {.t = NaN}. */
 typedef struct {
-    double t;                   /* when run and companion parted the last time; NaN */
-    double digits, log10_error; /* of the first pass in which they agreed at the end */
+    double t; /* time at which run and companion differed in the last pass; NaN: did not */
+    double digits, log10_error; /* digits and error of the first pass in which both agreed at the end */
 } qdot_precise_progress;
 
 /* Detect a singularity. In a chaotic scene twice the digits last twice the time; if run and

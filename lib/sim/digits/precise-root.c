@@ -160,7 +160,7 @@ find_noise(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f)
 qdot_status
 qdot_precise_find_root(qdot_precise_side *s, size_t segment, const qdot_precise_formula *f, bool *found)
 {
-    enum { LEAST = 12 }; /* of a few roundings the digits beyond those shown are enough */
+    enum { LEAST = 12 }; /* number of extra digits that suffices for a few roundings */
     mpfr_t *at = s->course->at;
     long by = LEAST - (long)s->start.bits;
 

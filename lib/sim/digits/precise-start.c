@@ -18,14 +18,14 @@ static const double dependent = 1e-9;
 /* The equations of positions or of velocities. */
 typedef struct {
     const qdot_plan *plan;
-    const double *y;   /* [2n] */
-    const bool *named; /* [n]; NULL: all */
+    const double *y;   /* [2n] the start in doubles */
+    const bool *named; /* [n] the user gave this value; NULL: all were given */
     bool velocities;
-    mpfr_t *start;  /* [2 + 2n] */
-    mpfr_t *x;      /* [n] the part of `start` that is solved for: positions or velocities */
-    size_t m;       /* equations */
+    mpfr_t *start;  /* [2 + 2n] t0, t1 and the start in all digits */
+    mpfr_t *x;      /* [n] the part of `start` that is changed: positions or velocities */
+    size_t m;       /* number of equations */
     qdot_precise *program;
-    double *A, *b, *dx, *work; /* [m x n], [m], [n] */
+    double *A, *b, *dx, *work; /* scratch: A [m x n], b [m], dx [n] */
     qdot_row_space space;
 } level;
 
@@ -90,7 +90,7 @@ iterate(level *l, mpfr_prec_t bits)
     double before = INFINITY;
 
     for (double now = start_evaluate(l); now < before - 4 && now > -(double)bits; now = start_evaluate(l)) {
-        const long scale = (long)floor(now); /* doubles end at 2^-1074 */
+        const long scale = (long)floor(now); /* scaled by 2^-now, because doubles end at 2^-1074 */
 
         QDOT_TRY(qdot_interrupt_check());
         for (size_t k = 0; k < l->m; k++) {
@@ -103,7 +103,7 @@ iterate(level *l, mpfr_prec_t bits)
         for (size_t i = 0; i < l->plan->n; i++) {
             mpfr_t step;
 
-            if (l->named[i]) /* its part of dx is rounding */
+            if (l->named[i]) /* given by the user: its part of dx is only rounding */
                 continue;
             mpfr_init2(step, 64);
             mpfr_set_d(step, l->dx[i], RN);

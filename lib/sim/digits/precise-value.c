@@ -18,7 +18,7 @@ typedef struct {
     qdot_precise_side *side;
     qdot_precise *program;
     size_t segment;     /* the segment of the side that is read */
-    qdot_reals numbers; /* t, y [2n] */
+    qdot_reals numbers; /* memory for t and y [2n] */
 } reader;
 
 static void
@@ -161,7 +161,7 @@ read_both(readers *r, place at, double *errors)
         return status;
     for (size_t j = 0; j < r->of.m; j++) {
         mpfr_srcptr x = qdot_precise_output(r->run.program, j)[0];
-        mpfr_ptr w = r->companion.numbers.at[0]; /* read already */
+        mpfr_ptr w = r->companion.numbers.at[0]; /* numbers of the companion, which has been read already */
         double size = fmax(0, qdot_real_log2(x));
 
         errors[j] = NAN;
@@ -276,7 +276,7 @@ follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
             mpfr_set(w[0], c, RN);
         mpfr_sub(w[1], c, w[0], RN);
         change = exp2(qdot_real_log2(w[1]) - fmax(0, qdot_real_log2(w[0])));
-        if (!(change <= drift->drift)) /* a NaN stays */
+        if (!(change <= drift->drift)) /* also true for a NaN, which then stays */
             drift->drift = change;
     }
     return QDOT_OK;

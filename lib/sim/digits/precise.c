@@ -21,9 +21,9 @@
 static const double moved_by = 1e-13;
 
 enum {
-    first_digits = 19,    /* of the pair that measures the amplification */
+    first_digits = 19,    /* digits of the first pass, which measures how errors grow */
     guard_digits = 3,
-    companion_digits = 3, /* by which the companion has more digits */
+    companion_digits = 3, /* how many more digits the companion has */
     companion_orders = 5,
     guard_bits = 32,
     most_passes = 8
@@ -140,7 +140,7 @@ find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_pre
         status = qdot_precise_hold_nearest(hold, s->start.at[0], s->start.at + 2, velocities,
                                            free, true, near);
     qdot_free(free);
-    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* the caller looks at the constraints */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* undefined: the caller checks the constraints */
 }
 
 /* Bring the start onto the constraints in all digits. Values that these determine are solved for;
@@ -352,13 +352,14 @@ digits_wanted(const qdot_precise_pair *pair)
     const double wanted = -pair->digits - log10(2);
     double digits = pair->run.digits, more;
 
-    if (isnan(pair->log10_error)) /* it failed before its end: nothing to go by */
+    if (isnan(pair->log10_error)) /* it failed before the end: no estimate of the digits needed */
         return digits >= pair->digits + 2 * guard_digits
                    ? 0
                    : pair->digits + 2 * guard_digits;
     if (pair->log10_error <= wanted)
         return 0;
-    if (pair->log10_error > qdot_precise_parted) /* not even the amplification is known */
+    /* run and companion differ entirely: even the error growth is unknown */
+    if (pair->log10_error > qdot_precise_parted)
         return fmax(2 * digits, pair->digits + guard_digits);
     more = pair->digits + guard_digits + (pair->log10_error + digits);
     return fmax(more, digits + guard_digits);
@@ -411,7 +412,7 @@ qdot_precise_pair_new(const qdot_plan *plan, const qdot_run_request *request,
     pair->request = NULL;
     pair->settled = NULL;
     if (status == QDOT_EINTR && is_there(&pair->run))
-        pair->log10_error = NAN; /* it may not have had its digits yet */
+        pair->log10_error = NAN; /* may have been interrupted before it had enough digits */
     else if (status != QDOT_OK) {
         qdot_precise_pair_free(pair);
         return status;

@@ -60,7 +60,7 @@ void qdot_precise_pair_free(qdot_precise_pair *pair);
 
 /* The result, error, tolerance and number of factorisations of the run itself. */
 const qdot_ode_result *qdot_precise_pair_result(const qdot_precise_pair *pair);
-double qdot_precise_pair_error(const qdot_precise_pair *pair); /* NaN: unknown */
+double qdot_precise_pair_error(const qdot_precise_pair *pair); /* estimated log10 of the error; NaN: unknown */
 double qdot_precise_pair_tol(const qdot_precise_pair *pair);
 size_t qdot_precise_pair_factored(const qdot_precise_pair *pair);
 

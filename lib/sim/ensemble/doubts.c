@@ -11,9 +11,9 @@ static const double left_of_row = 1e-2;
 
 struct qdot_ensemble_doubts {
     const qdot_plan *plan;
-    bool hides;             /* the equations may hide forces */
-    qdot_pulses pulses;     /* of the member */
-    qdot_constrained *held; /* likewise; NULL: no constraints */
+    bool hides;             /* the equations may contain forces too short for a step to notice */
+    qdot_pulses pulses;     /* search for short forces along the member's steps */
+    qdot_constrained *held; /* constraints of the member; NULL: none */
 };
 
 static bool

@@ -18,16 +18,16 @@
 #include "sim/run/run.h"
 #include "sim/ensemble/steps.h"
 
-enum { QDOT_ENSEMBLE_PASSES = 3 }; /* the runs, and their companions */
+enum { QDOT_ENSEMBLE_PASSES = 3 }; /* largest number of passes: the runs, and two companions of each */
 
 typedef struct qdot_ensemble qdot_ensemble;
 
 typedef struct {
     qdot_run_status status; /* QDOT_RUN_DONE or QDOT_RUN_FAILED */
-    const char *reason;     /* NULL when done; valid until the next _run or _free */
+    const char *reason;     /* why it failed; NULL when done; valid until the next _run or _free */
     double t;               /* the time at which the member ended */
     size_t steps, rejected;
-    double error; /* of the end state, over max(1, |value|); NaN: unknown or not requested */
+    double error; /* error of the end state, relative to max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;
 
 /* The error of a number x of a member, theirs [companions] those of its companions. An only companion was

@@ -10,7 +10,7 @@
 
 #include "sim/model/equations.h"
 
-typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* one a thread */
+typedef struct qdot_ensemble_momenta qdot_ensemble_momenta; /* must not be shared between threads */
 
 /* Make the conversion between velocities and conserved momenta for a reduced plan, borrowed.
  * Errors: QDOT_ENOMEM. */

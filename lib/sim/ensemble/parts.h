@@ -10,28 +10,28 @@
 
 /* One pass over all members of an ensemble: the runs themselves, or their companions. */
 typedef struct {
-    qdot_ensemble_series *series; /* of companions: made when first asked for */
-    qdot_ensemble_steps *steps;   /* NULL: nobody looks */
+    qdot_ensemble_series *series; /* Taylor series of the members; for companions made at first use */
+    qdot_ensemble_steps *steps;   /* inspects each step for events; NULL: nothing is watched */
     size_t number;                /* 0: the runs; 1, 2: their companions */
     qdot_batch_run run;
     double *memory;
-    double *t1;       /* [members] as run.t1 */
-    double *momenta;  /* [n_kept] */
-    double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
+    double *t1;       /* [members] end times */
+    double *momenta;  /* [n_kept] momenta of one member */
+    double *replaced; /* [members x n_kept] velocities replaced in the state by momenta */
     qdot_status status;
-    qdot_error error; /* of a pass on another thread */
+    qdot_error error; /* failure of a pass that runs on another thread */
 } qdot_ensemble_pass;
 
 struct qdot_ensemble {
-    qdot_plan *plan;                /* parameters that vary are further coordinates of it */
-    qdot_ensemble_momenta *momenta; /* of a plan that is reduced */
-    size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
-    char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
+    qdot_plan *plan;                /* plan in which parameters that vary are further coordinates */
+    qdot_ensemble_momenta *momenta; /* conversion to kept momenta, if the plan is reduced; NULL: none */
+    size_t n, varied; /* number of coordinates, of varied parameters: a state is q [n], q' [n], parameters */
+    char **reasons;                 /* [n_reasons] why a member cannot start; NULL: it can */
     size_t n_reasons;
-    size_t companions; /* 1 or 2 */
+    size_t companions; /* number of companions for each run: 1 or 2 */
     qdot_ensemble_pass passes[QDOT_ENSEMBLE_PASSES];
-    const qdot_ensemble_watching *watching; /* NULL: nobody looks */
-    double *times; /* [n_times] at which states are kept */
+    const qdot_ensemble_watching *watching; /* events and times to watch; NULL: none */
+    double *times; /* [n_times] times at which states are stored */
     size_t n_times;
     uint64_t most_steps;
     double t0, t1, t1_low, tol;

@@ -39,7 +39,7 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
     e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
     if (!e->times)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < e->n_times; k++) /* half of them */
+    for (size_t k = 0; k < e->n_times; k++) /* only every second requested time is stored here */
         e->times[k] = e->t0 + part[2 * k] * (e->t1 - e->t0);
     return QDOT_OK;
 }
@@ -126,7 +126,7 @@ qdot_ensemble_point(const qdot_ensemble *e, size_t k, size_t m, size_t i, double
         write_whole(e, *t, at + 1, true, whole);
         return;
     }
-    *t = e->t1; /* also for a companion, whose end differs by rounding at most */
+    *t = e->t1; /* for a companion, too, whose end time differs only by rounding */
     write_whole(e, *t, p->run.y + m * qdot_ensemble_width(e), false, whole);
 }
 

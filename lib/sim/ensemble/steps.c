@@ -15,36 +15,36 @@ enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
 /* A vector lane: its member, the results observed so far, and its present step as a system of equations. */
 typedef struct {
     size_t member;
-    bool begun; /* the watch stands at the start of its member */
-    size_t passed, next;       /* times behind it; and with the step that is tried */
-    bool doubtful;             /* in that step */
-    qdot_vec(qdot_root) roots; /* of that step */
-    double *end;               /* [2N] the state at the end of the step */
-    double *x;                 /* [2N x STRIDE] its series, for the watch */
-    double *y;                 /* [2N] the state at the start of the step */
+    bool begun; /* `watch` has been started for this member */
+    size_t passed, next;       /* number of requested times before the step; and up to its end */
+    bool doubtful;             /* the step shows something that lanes cannot treat */
+    qdot_vec(qdot_root) roots; /* roots of event functions in the step */
+    double *end;               /* [2N] state at the end of the step */
+    double *x;                 /* [2N x STRIDE] Taylor coefficients of the step */
+    double *y;                 /* [2N] state at the start of the step */
     qdot_ode_series series;
     qdot_ode_system system;
     qdot_ode_expanded step;
-    qdot_watch *watch;         /* NULL: no events */
-    qdot_ensemble_doubts *doubts; /* NULL: nothing else to look at */
+    qdot_watch *watch;         /* finds events; NULL: no events */
+    qdot_ensemble_doubts *doubts; /* further checks of each step; NULL: none */
 } lane;
 
 struct qdot_ensemble_steps {
     qdot_ensemble_steps_of of;
-    size_t n, varied, N;  /* coordinates; parameters; both */
-    size_t stride;        /* of the series of the system, in groups */
-    size_t asked;         /* occurrences of all events that are told */
-    qdot_repeated *zeros; /* [events] the functions whose zeros are the events */
-    size_t *first;        /* [events] where those of an event begin */
+    size_t n, varied, N;  /* number of coordinates; of varied parameters; their sum */
+    size_t stride;        /* distance of two rows of the system's series, in groups */
+    size_t asked;         /* number of occurrences stored for a member, over all events */
+    qdot_repeated *zeros; /* [events] smooth functions with the same zeros as the events' */
+    size_t *first;        /* [events] index of the first stored occurrence of each event */
     lane lanes[L];
     size_t members;
-    double *seen;         /* [members x times x (2n + varied)] */
-    double *occurred;     /* [members x asked] */
-    size_t *count;        /* [members x events] */
-    double *sizes;        /* [members x 2n] */
-    size_t *passed;       /* [members] */
-    bool *doubtful;       /* [members] */
-    qdot_ensemble_starts *starts; /* [members]; NULL: they are not kept */
+    double *seen;         /* [members x times x (2n + varied)] states at the requested times */
+    double *occurred;     /* [members x asked] times of the occurrences */
+    size_t *count;        /* [members x events] number of occurrences so far */
+    double *sizes;        /* [members x 2n] largest magnitudes of the state */
+    size_t *passed;       /* [members] number of requested times already reached */
+    bool *doubtful;       /* [members] must be repeated as a single run */
+    qdot_ensemble_starts *starts; /* [members] starts of all steps; NULL: not stored */
 };
 
 /* --- making the lanes ----------------------------------------------------------------- */
@@ -98,7 +98,7 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
     a->member = SIZE_MAX;
     a->series = (qdot_ode_series){.most = QDOT_SERIES_MOST, .x = a->x, .stride = STRIDE};
     a->system = (qdot_ode_system){.n = n, .series = &a->series};
-    if (!s->of.moved) /* of the run */
+    if (!s->of.moved) /* only for the runs: companions start from moved states */
         QDOT_TRY(qdot_ensemble_doubts_new(s->of.plan, &a->doubts));
     if (events)
         QDOT_TRY(qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch));
@@ -189,7 +189,7 @@ read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, 
     enum { SIDE_BY_SIDE = 4 };
     const double at = (t - step->t) / step->unit, square = at * at;
     const size_t n = 2 * s->n, row = s->stride * L;
-    const int odd = (step->order - 1) | 1; /* the highest */
+    const int odd = (step->order - 1) | 1; /* the highest odd order below p: start of the sum */
 
     for (size_t i = 0; i < n + s->varied; i++)
         to[i] = step->y[i * L];
@@ -416,7 +416,7 @@ taken(size_t l, void *user)
     a->passed = s->passed[a->member] = a->next;
     s->doubtful[a->member] = s->doubtful[a->member] || a->doubtful;
     if (s->doubtful[a->member])
-        return true; /* the member will be run alone */
+        return true; /* stop here: the member will be repeated as a single run */
     if (!a->watch)
         return false;
     qdot_watch_take(a->watch);

@@ -31,11 +31,11 @@ typedef struct {
     size_t n_events, n_bounds;
     const qdot_ensemble_event *events;
     const qdot_ensemble_bound *bounds;
-    bool leave; /* members end as soon as all that is asked of events has been found */
-    bool keep;  /* the starts of all steps are kept (sim/ensemble/path.h) */
+    bool leave; /* a member ends as soon as all requested event occurrences are found */
+    bool keep;  /* store the start of every step (sim/ensemble/path.h) */
 } qdot_ensemble_watching;
 
-typedef struct qdot_ensemble_steps qdot_ensemble_steps; /* one a pass */
+typedef struct qdot_ensemble_steps qdot_ensemble_steps; /* one object for each pass */
 
 /* For members of that plan, parameters that vary being its states; all borrowed. times [n_times]: in
  * the direction of the run. Errors: as qdot_watch_new. */
@@ -45,7 +45,7 @@ typedef struct {
     size_t n_times;
     const double *times;
     double tol;
-    bool shaken, moved, backward; /* moved: starts are those of a companion */
+    bool shaken, moved, backward; /* constants are shaken; starts are those of companions; time runs backwards */
 } qdot_ensemble_steps_of;
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of,
                                                     qdot_ensemble_steps **steps);
@@ -58,7 +58,7 @@ void qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system);
 
 /* For one member: the starts of its steps, if stored: t and the state, [1 + 2n + varied] each. */
 typedef struct {
-    size_t n, capacity; /* of numbers */
+    size_t n, capacity; /* how many numbers are stored, allocated */
     double *at;
 } qdot_ensemble_starts;
 const qdot_ensemble_starts *qdot_ensemble_steps_starts(const qdot_ensemble_steps *s, size_t member);

@@ -217,8 +217,8 @@ keep_contacts(const qdot_run *run, double t0, double *y, double *low)
 
 /* How the start of a companion is moved. */
 typedef enum {
-    EACH,  /* every component by itself */
-    ALIKE, /* those of one size alike, so that what they meet together stays together */
+    EACH,  /* each component is shifted with its own sign */
+    ALIKE, /* components of equal size are shifted alike, so that simultaneous events stay so */
     NOT,
     MOVES
 } move;
@@ -244,7 +244,7 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     if (!run->leading)
         QDOT_TRY(keep_contacts(run, t0, y, low));
     move_by_error(run, number, 1, y, low);
-    if (system->project) /* along what solutions may do */
+    if (system->project) /* only in directions that the constraints allow */
         QDOT_TRY(project_start(run, system, t0, y));
     /* a start on a bound of a domain must not be moved outside */
     if (qdot_domains_outside(&run->stage.domains, y)) {
@@ -494,7 +494,7 @@ add_delays(const qdot_course *c, double *floor)
         next = qdot_course_systems(c) + tr->pieces.at[end->piece + 1].mode;
         if (old->rhs(end->t, tr->y + (first - 1) * tr->n, before, old->user) != QDOT_OK
             || next->rhs(end->t, tr->y + first * tr->n, behind, next->user) != QDOT_OK)
-            continue; /* the floor of the error may lack this part */
+            continue; /* undefined there: this part is missing in the error bound */
         for (size_t i = 0; i < tr->n; i++)
             floor[i] += end->late * fabs(behind[i] - before[i]);
     }
@@ -550,7 +550,7 @@ qdot_run_end_apart(qdot_run *run, double *apart, bool *known)
         for (size_t i = 0; i < n && *known; i++)
             apart[c * n + i] -= tr->y[(tr->count - 1) * n + i];
     }
-    for (size_t i = 0; i < n && !run->has_twin; i++) /* with one companion only, the other side is its mirror image */
+    for (size_t i = 0; i < n && !run->has_twin; i++) /* with one companion the second shift is the mirror image */
         apart[n + i] = -apart[i];
     return QDOT_OK;
 }
@@ -571,7 +571,7 @@ qdot_run_end_error(qdot_run *run, double *difference)
     run->report.error = run->report.scaled_error = NAN;
     if (!known)
         return find_doubt(run, &run->companion);
-    of = qdot_calloc(3 * tr->n, sizeof *of); /* the end states of both companions; the effect of delayed events */
+    of = qdot_calloc(3 * tr->n, sizeof *of); /* end states of both companions; effect of delayed events */
     status = of ? end_of(run, &run->companion, ends, of, &known) : QDOT_ENOMEM;
     if (status == QDOT_OK && known && run->has_twin)
         status = end_of(run, &run->twin, ends + 1, of + tr->n, &known);

@@ -20,7 +20,7 @@ static const double turned = 0.5, kept = 0.3;
 typedef struct {
     const qdot_trajectory *tr;
     qdot_constrained *held;
-    size_t first, last; /* the points of the piece */
+    size_t first, last; /* indices of the first and last point of the piece */
 } piece;
 
 static double

@@ -36,13 +36,13 @@ struct qdot_distance {
     size_t m;
     qdot_reader own, others[2];
     size_t n_others;
-    double share; /* of D that the companions' own error may be, where truncation rules */
-    double *at;   /* [points x m] what the companions may be off by at the points */
-    bool *known;  /* [points] */
-    double *unit; /* [n] 1/span; 0: it does not count */
-    double *work; /* [4m] */
-    double *aside; /* [3m] */
-    qdot_oscillations *over; /* what the run has gone over; NULL: nothing */
+    double share; /* part of D that may be the companions' own truncation error */
+    double *at;   /* [points x m] estimated errors at the stored points */
+    bool *known;  /* [points] the error at this point has been computed */
+    double *unit; /* [n] 1/span of each component; 0: not counted */
+    double *work; /* [4m] scratch */
+    double *aside; /* [3m] scratch */
+    qdot_oscillations *over; /* fast oscillations that steps may have missed; NULL: none */
 };
 
 void
@@ -251,7 +251,7 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
                 out[j] = fmax(out[j], at[j]);
         }
         if (k == (way > 0 ? last : first)) {
-            *cut = k > 0; /* at the start of the run all is known */
+            *cut = k > 0; /* at the start of the run there is nothing before */
             return QDOT_OK;
         }
         if (k > first && k < last)

@@ -12,11 +12,11 @@ typedef struct {
     qdot_reading of;
     qdot_reader reader;
     qdot_distance *distance;
-    size_t n;  /* occurrences of the event */
-    double *t; /* [n + 2] the start of the run, the times of the occurrences, and the end of what is looked at */
+    size_t n;  /* number of occurrences of the event */
+    double *t; /* [n + 2] start of the run, times of the occurrences, end of the search */
     double *errors; /* [n + 2] errors of the times; NaN: the event does not occur in the companions */
-    double size;      /* the largest |g| that was seen along the run */
-    double tol, end;  /* of the run */
+    double size;      /* largest |g| seen along the run */
+    double tol, end;  /* tolerance and end time of the run */
 } look;
 
 static void
@@ -148,7 +148,7 @@ static qdot_status
 faded_find(look *l, double *from)
 {
     static const double sure = 1e-3;
-    size_t k = l->n + 1; /* the stretch from t[k - 1] to t[k] */
+    size_t k = l->n + 1; /* index of the interval t[k - 1] ... t[k] */
     double seen = NAN, start, left;
 
     QDOT_TRY(find_size(l));
@@ -159,7 +159,7 @@ faded_find(look *l, double *from)
         if (!isnan(seen))
             break;
     }
-    if (k == 0 || k > l->n) /* never, or until the end */
+    if (k == 0 || k > l->n) /* g never leaves its error, or does so until the end */
         return QDOT_OK;
     start = l->t[k];
     left = fabs(l->end - start);

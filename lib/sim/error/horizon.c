@@ -25,14 +25,14 @@ enum { SAMPLES = 64, MOST_POINTS = 4096, LEAST_POINTS = 32 };
 
 typedef struct {
     const qdot_run *run;
-    const qdot_course *other; /* a companion of the run */
+    const qdot_course *other; /* course of a companion of the run */
     qdot_trajectory_cursor *companion;
-    double *y;      /* [n] the companion's */
-    size_t *point;  /* [points] of the run, in order: those that are compared */
-    double *t, *d;  /* [points] times of the points; distances of run and companion at these */
-    size_t points, most; /* the points compared so far; the most that are compared at first */
-    size_t read;         /* states of the companion */
-    size_t *pieces; /* [points] the piece that each point lies in */
+    double *y;      /* [n] state of the companion */
+    size_t *point;  /* [points] indices of the run's points that are compared, in order */
+    double *t, *d;  /* [points] times; distance of run and companion at these times */
+    size_t points, most; /* number of points compared; largest number compared at first */
+    size_t read;         /* number of companion states read so far */
+    size_t *pieces; /* [points] index of the piece in which each point lies */
     double threshold;
 } search;
 
@@ -151,7 +151,7 @@ search_measure(search *s)
         while (piece + 1 < pieces && a->pieces.at[piece + 1].first <= k)
             piece++;
         if (way * (a->t[k] - b->t[b->count - 1]) > 0 && piece + 1 == b->pieces.n)
-            break; /* the companion ended before */
+            break; /* the companion ended earlier */
         QDOT_TRY(measure_at(s, k, piece, &d));
         s->point[s->points] = k;
         s->pieces[s->points] = piece;
@@ -269,10 +269,10 @@ horizon_find(qdot_run *run, search *s)
     QDOT_TRY(look_between(s, first));
     if (!(way * (crossing(s, first) - report->horizon) > 0))
         report->horizon = crossing(s, first);
-    qdot_free(run->doubt); /* of the end: it needs none any more */
+    qdot_free(run->doubt); /* with a horizon no doubt about the end needs to be stated */
     run->doubt = NULL;
     mean = mean_from(s, first);
-    report->error = fmax(report->error, mean); /* of a NaN the mean */
+    report->error = fmax(report->error, mean); /* also replaces a NaN by the mean */
     report->scaled_error = fmax(report->scaled_error, mean);
     return QDOT_OK;
 }

@@ -26,11 +26,11 @@ static const double at_most = 2;
 
 struct qdot_oscillations {
     const qdot_course *course;
-    double longest; /* step */
-    double lost;    /* a at the start */
-    double damping; /* the least |Re lambda| at the point */
-    double *J, *f;  /* [n x n], [2n] room */
-    double complex *lambda, *v, *c; /* [n], [n x n], [n] */
+    double longest; /* length of the longest step */
+    double lost;    /* amplitude already lost at the start */
+    double damping; /* smallest |Re lambda| at this point */
+    double *J, *f;  /* Jacobian [n x n]; scratch [2n] */
+    double complex *lambda, *v, *c; /* eigenvalues [n]; eigenvectors [n x n]; coefficients [n] */
 };
 
 void
@@ -74,7 +74,7 @@ find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *t
 {
     const qdot_ode_system *system = qdot_course_systems(o->course) + mode;
     const size_t n = system->n;
-    double *second = o->f + n; /* y'' = df/dt + J f */
+    double *second = o->f + n; /* second derivative y'' = df/dt + J f */
     qdot_status status = system->rhs(t, y, o->f, system->user);
 
     if (status == QDOT_OK)
@@ -209,7 +209,7 @@ qdot_oscillations_add(qdot_oscillations *o, qdot_reader *r, double t, const doub
     const size_t n = tr->n, m = r->of.m;
     const double a = at_most * o->lost * exp(-o->damping * fabs(t - tr->t[0]));
     const double *scales = qdot_course_systems(o->course)->scales;
-    double most = 0; /* of a velocity */
+    double most = 0; /* largest velocity */
     double *y = qdot_malloc((n + 2 * m) * sizeof *y), *g = y + n, *sums = g + m;
     qdot_status status;
     bool there;

@@ -30,23 +30,23 @@ enum { few_steps = 100, parts_of_a_step = 4, most_parts = 64 };
 /* A set of constraint rows (none if unknown) that become dependent, and the times at which they do. */
 typedef struct {
     const qdot_constraints *of;
-    bool *rows; /* [of->m], owned */
+    bool *rows; /* [of->m] the rows of the set, owned */
     qdot_vec(double) times;
 } group;
 
 typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
-    qdot_constrained *held; /* of the piece at hand */
-    size_t piece, end; /* the piece at hand; the index of the first point behind it */
-    double *y; /* [2n] */
-    size_t step; /* whose end is stored point `step`: where between[] is of */
-    double *between; /* [4n] of a method without series: slopes of its ends' states */
-    bool sloped;     /* they are known; else those of cubics stand for them */
+    qdot_constrained *held; /* constraints in the mode of the present piece */
+    size_t piece, end; /* index of the present piece; of the first point after it */
+    double *y; /* [2n] scratch state */
+    size_t step; /* index of the step, which ends at stored point `step`, to which `between` belongs */
+    double *between; /* [4n] dy/dt at both ends of this step, for methods without series */
+    bool sloped;     /* `between` is known; otherwise slopes come from cubics */
     double enough; /* values of q below this count as 0 */
-    double t[3], q[3]; /* time and quality of the last places of the piece that were evaluated, */
+    double t[3], q[3]; /* time and quality q of the last three points of the piece */
     size_t taken;      /* the number of places evaluated */
-    double most;       /* the largest q since the last place that was reported */
+    double most;       /* largest q since the last reported singular place */
     qdot_vec(group) groups;
 } search;
 
@@ -232,7 +232,7 @@ groups_note(search *s, double t)
     mine.rows = qdot_calloc(mine.of->m, sizeof *mine.rows);
     if (!mine.rows)
         return QDOT_ENOMEM;
-    (void)qdot_constrained_near(s->held, t, s->y, mine.rows); /* else no row is marked */
+    (void)qdot_constrained_near(s->held, t, s->y, mine.rows); /* on failure no row is marked */
     QDOT_TRY(find_group(s, &mine, &i));
     if (s->groups.at[i].times.n > 0 && s->most < away * s->enough)
         return QDOT_OK;

@@ -12,7 +12,7 @@ typedef struct {
     qdot_expr function;
     qdot_reading of;
     qdot_reader reader;
-    qdot_distance *distance; /* NULL: no error is known */
+    qdot_distance *distance; /* distance of run and companions; NULL: errors are unknown */
 } look;
 
 static qdot_status
@@ -165,7 +165,7 @@ find_size(look *l, const qdot_trajectory *tr, double *size)
 qdot_status
 qdot_touches_end(qdot_run *run, size_t event, bool *undecided)
 {
-    static const double small = 1e-3; /* beside a jump the error is as large as g */
+    static const double small = 1e-3; /* near a jump the error is as large as g itself */
     const qdot_trajectory *tr = &run->course.tr;
     const double t = tr->t[tr->count - 1];
     look l = {0};

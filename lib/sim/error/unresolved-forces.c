@@ -5,8 +5,8 @@
 #include "sim/course/reader.h"
 
 typedef struct {
-    qdot_disc_hiding hiding; /* what the method may have gone over */
-    const qdot_plan *plan;   /* whose tape is looked at; NULL: none yet */
+    qdot_disc_hiding hiding; /* kinds of forces that the method may have missed */
+    const qdot_plan *plan;   /* plan whose tape is examined; NULL: none yet */
     qdot_trajectory_cursor *cursor;
     qdot_pulses pulses;
     size_t piece;

@@ -6,22 +6,22 @@
 #include "sim/model/equations.h"
 
 typedef struct {
-    size_t n;        /* unknowns: q'' of the block; with constraints of all, then multipliers */
-    bool constant;   /* factored once */
-    double *a;       /* [n x n] M, then its factors; bordered: [M A^T; A 0] */
-    double *x;       /* [n] for whoever solves; scratch of _invert */
-    qdot_ldlt ldlt;  /* factors if M is not positive definite */
-    size_t m;        /* n, filled up to full vectors */
-    double *inverse; /* [m x n], once asked for; else NULL */
-    double *lower;   /* [m x n] its scratch; then the product of [m] */
+    size_t n; /* number of unknowns: q'' of one block; with constraints all q'', then multipliers */
+    bool constant;   /* M is constant here and factored only once */
+    double *a;       /* [n x n] M, then its factors; with constraints [M A^T; A 0] */
+    double *x;       /* [n] right side and solution of the caller; scratch of _invert */
+    qdot_ldlt ldlt;  /* LDL^T factors, if M is not positive definite */
+    size_t m;        /* n rounded up to full vectors */
+    double *inverse; /* [m x n] inverse of M, if requested; else NULL */
+    double *lower;   /* [m x n] scratch for the inverse; [m] for products */
 } qdot_solver;
 
 typedef struct {
     const qdot_plan *plan;
-    qdot_solver *at; /* [n] */
-    size_t n;        /* plan->structure.blocks; with constraints 1 */
-    bool diagonal;   /* then: M is */
-    size_t factored; /* how often */
+    qdot_solver *at; /* [n] a solver for each block */
+    size_t n;        /* number of blocks, plan->structure.blocks; with constraints 1 */
+    bool diagonal;   /* with constraints: M is diagonal */
+    size_t factored; /* number of factorisations so far */
 } qdot_blocks;
 
 /* For this plan, borrowed; constant blocks factored. With constraints, up to QDOT_BORDERED_MOST

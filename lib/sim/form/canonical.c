@@ -17,8 +17,8 @@ typedef struct {
     qdot_scene *scene;
     const qdot_plan *plan;
     qdot_canonical *c;
-    qdot_expr *p;                         /* [n] momenta */
-    qdot_expr *slope, *pull, *Q, *before; /* [n] dH/dp, -dH/dq, what is applied beside V; dL/dq' */
+    qdot_expr *p;                         /* [n] symbols of the momenta */
+    qdot_expr *slope, *pull, *Q, *before; /* [n] each: dH/dp, -dH/dq, other applied forces Q, momenta dL/dq' */
 } builder;
 
 /* Whether Hamilton's equations are worthwhile; not if M is constant, as momenta are then velocities

@@ -19,12 +19,12 @@
 #include "sim/model/equations.h"
 
 struct qdot_canonical {
-    size_t n, moving;   /* coordinates; those whose momenta move */
-    size_t *place;      /* [n] of the momenta: those that move, then the others */
-    qdot_tape *momenta; /* from q, q', t: p [n], in their order */
-    qdot_tape *rates;   /* from q, t, p in their order: dH/dp [n], -dH/dq of those that move */
-    qdot_tape *forces;  /* from q, q', t: Q of these; NULL: none */
-    qdot_motion motion; /* from q, q', t, p in their order */
+    size_t n, moving;   /* number of coordinates; how many of their momenta are not constant */
+    size_t *place;      /* [n] coordinates in the order of momenta: first those whose p varies */
+    qdot_tape *momenta; /* from q, q', t: momenta p [n] in this order */
+    qdot_tape *rates; /* from q, t, p in this order: dH/dp [n], then -dH/dq of the varying momenta */
+    qdot_tape *forces;  /* from q, q', t: forces Q on the varying momenta; NULL: none */
+    qdot_motion motion; /* series program with the inputs q, q', t, p in this order */
 };
 
 /* Of a plan with M and f and without constraints, switches or further states, where M's blocks are

@@ -16,28 +16,28 @@ enum { L = QDOT_LANES, most_order = 44 };
 
 /* A block of unknowns coupled by K. */
 typedef struct {
-    size_t first, n, positive; /* of these the first are of coordinates, others of constraints */
-    double *A, *inverse;       /* [n x n groups] K, factored; its inverse */
-    double *x;                 /* [n groups] */
+    size_t first, n, positive; /* first unknown; number of unknowns; how many, the first, are accelerations */
+    double *A, *inverse;       /* [n x n groups] the matrix K, factored; its inverse */
+    double *x;                 /* [n groups] right side and solution */
 } solver;
 
 struct qdot_ensemble_series {
     const qdot_plan *plan;
-    size_t n, numbers; /* coordinates that move; parameters of members */
+    size_t n, numbers; /* number of coordinates that move; of parameters that differ between members */
     const qdot_batch_kernels *kernels;
-    const qdot_motion *motion; /* of the plan, or of its residual */
+    const qdot_motion *motion; /* series program of the plan, or of its residual */
     qdot_lanes *lanes;
-    qdot_constrained_lanes *held; /* NULL: without constraints */
-    size_t stride;                /* groups */
+    qdot_constrained_lanes *held; /* holds the constraints; NULL: there are none */
+    size_t stride;                /* distance of two rows, in groups */
     double *q, *v, *t;            /* rows of the inputs; after t follow constant inputs: parameters and momenta */
-    solver *solvers;              /* [blocks] */
+    solver *solvers;              /* [blocks] a solver for each block of K */
     size_t blocks;
-    double *by; /* [solved groups] */
+    double *by; /* [solved groups] corrections of the unknowns */
     double unit[L];
     bool shaken;
-    qdot_tape *shaken_masses; /* a shaken tape of M for a residual; NULL: the plan's own */
-    double *in, *out, *work;  /* groups */
-    qdot_lanes_motion *code;  /* NULL: kernels run */
+    qdot_tape *shaken_masses; /* tape of M with shaken constants, for a residual; NULL: the plan's own tape */
+    double *in, *out, *work;  /* inputs, outputs and scratch of the tape of M, in groups */
+    qdot_lanes_motion *code;  /* generated machine code; NULL: the compiled kernels are used */
 };
 
 /* --- one stage of the expansion ------------------------------------------------------ */
@@ -97,7 +97,8 @@ lanes_factor(const qdot_ensemble_series *e, const solver *s)
         memset(s->A, 0, s->n * s->n * L * sizeof *s->A);
     for (size_t k = 0; k < m->entries.n; k++) {
         const qdot_motion_entry *x = m->entries.at + k;
-        const size_t i = x->i - s->first, j = x->j - s->first; /* below 0: beyond n */
+        /* an index below the block's first wraps and is larger than n */
+        const size_t i = x->i - s->first, j = x->j - s->first;
 
         if (i < s->n && j < s->n)
             memcpy(s->A + (i * s->n + j) * L, qdot_lanes_series(e->lanes, x->at),

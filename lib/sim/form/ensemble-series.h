@@ -18,7 +18,7 @@
 #include "ode/batch.h"
 #include "sim/model/equations.h"
 
-typedef struct qdot_ensemble_series qdot_ensemble_series; /* one a thread */
+typedef struct qdot_ensemble_series qdot_ensemble_series; /* must not be shared between threads */
 
 /* A plan with a residual by it, others by M q'' = f with constraints: for series to *order, or if that
  * is 0 to the one that costs least under tol, which is put there; shaken as for qdot_bind_new. Plan

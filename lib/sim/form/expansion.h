@@ -13,9 +13,9 @@
 #include "series/taylor.h"
 
 typedef struct {
-    qdot_taylor *taylor; /* owned by whoever fills it */
-    size_t n, stride;    /* coordinates; from row to row */
-    double *q, *v, *t;   /* rows of the inputs */
+    qdot_taylor *taylor; /* the series program; owned by the object that contains this */
+    size_t n, stride;    /* number of coordinates; distance of two rows, in doubles */
+    double *q, *v, *t;   /* Taylor coefficients of the inputs q, q', t */
 } qdot_expansion;
 
 /* The expansion of n coordinates by the series program `taylor`. */

@@ -10,11 +10,11 @@ static const double least_sine = 0.1;
 
 struct qdot_guarded {
     qdot_motion_series *fast;
-    const qdot_ode_series *own, *other, *now; /* `own` of `fast`; `now`: the one begun last */
+    const qdot_ode_series *own, *other, *now; /* series of `fast`; the safer one; the one that was begun last */
     size_t n, m;
-    bool as_code; /* `own` is worth its time as machine code only: */
-    int p;        /* the order; `other` is taken until `own` has code of this order */
-    bool looked;  /* `own` has measured its rows at the first state */
+    bool as_code; /* `own` is faster only as machine code */
+    int p;        /* order: `other` is used until `own` has machine code for this order */
+    bool looked;  /* `own` has measured the constraint rows at the first state */
     qdot_ode_series series;
 };
 

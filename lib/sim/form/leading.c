@@ -19,16 +19,16 @@ _Static_assert((int)QDOT_ODE_LEADING_MOST <= (int)QDOT_TWO_MOST, "orders that ar
 struct qdot_leading {
     const qdot_plan *plan;
     const qdot_ode_series *series;
-    const qdot_motion *motion; /* of the plan, or of its residual */
+    const qdot_motion *motion; /* series program of the plan, or of its residual */
     qdot_tape_two *two;
     qdot_ode_leading leading;
     qdot_blocks solvers;
-    qdot_two *q, *v, *t; /* rows of the inputs, `stride` apart */
+    qdot_two *q, *v, *t; /* Taylor coefficients of q, q', t; rows are `stride` apart */
     size_t stride;
     double unit;
-    double *newest, *by;     /* [solved] accelerations as guessed, what is missing in them */
-    double *in, *out, *work; /* of the residual's masses */
-    const double *hi, *lo;   /* [n_kept]; borrowed */
+    double *newest, *by;     /* [solved] first guess of the accelerations' coefficient; its error */
+    double *in, *out, *work; /* inputs, outputs and scratch of the tape of M of a residual */
+    const double *hi, *lo;   /* [n_kept] kept momenta hi + lo; borrowed */
 };
 
 /* --- the mass matrix ----------------------------------------------------------------- */
@@ -159,7 +159,7 @@ static qdot_status
 next(int k, void *user)
 {
     qdot_leading *l = user;
-    double nothing = 0; /* a sum of zeros, if all is finite */
+    double nothing = 0; /* sum of 0 times each value: 0 if all are finite, else NaN */
 
     guess_accelerations(l, k - 1);
     qdot_tape_two_stage(l->two, k - 1, l->newest);

@@ -15,7 +15,7 @@
 #include "ode/system.h"
 #include "sim/model/equations.h"
 
-typedef struct qdot_leading qdot_leading; /* one a thread */
+typedef struct qdot_leading qdot_leading; /* must not be shared between threads */
 
 /* Of a smooth plan without constraints, and its series in doubles, which is there when an order is
  * asked for; both borrowed. Errors: QDOT_ESINGULAR, those of constants, QDOT_ENOMEM. */

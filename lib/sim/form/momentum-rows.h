@@ -16,10 +16,10 @@ typedef struct qdot_momentum qdot_momentum;
 typedef struct {
     const qdot_plan *plan;
     qdot_expansion at;
-    const double *hi, *lo; /* [n_kept] the momenta, borrowed; NULL: 0 */
-    qdot_momentum *drawn;  /* [n_kept] the momenta as they were rounded last */
-    const double **rates;  /* [n_kept] series of the velocities that follow */
-    bool shaken;           /* of the momenta hi alone */
+    const double *hi, *lo; /* [n_kept] kept momenta hi + lo, borrowed; NULL: 0 */
+    qdot_momentum *drawn;  /* [n_kept] the momenta, rounded at random as in the latest step */
+    const double **rates; /* [n_kept] Taylor coefficients of the velocities that follow from the momenta */
+    bool shaken;           /* use only the part hi of the momenta */
 } qdot_momentum_rows;
 
 /* Make the rows of conserved momenta for a plan, borrowed, whose program exists. Errors: QDOT_ENOMEM. */

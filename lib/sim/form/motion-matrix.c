@@ -160,7 +160,7 @@ make_solvers(qdot_motion_matrix *K, bool shaken)
     if (!K->block)
         return QDOT_ENOMEM;
     for (size_t b = 0, k = 0; b < K->blocks; b++, k++) {
-        while (!K->masses && K->solvers.at[k].n == 1) /* given */
+        while (!K->masses && K->solvers.at[k].n == 1) /* a block of one unknown is given by its own row */
             k++;
         K->block[b] = k;
         QDOT_TRY(qdot_blocks_prepare(&K->solvers, k));

@@ -26,17 +26,17 @@ typedef struct {
 typedef struct {
     const qdot_plan *plan;
     const qdot_motion *motion;
-    qdot_saddle_solver *saddle; /* of constraints by their own coefficients, */
-    int refined;                /* and orders up to this one are; else NULL, and: */
+    qdot_saddle_solver *saddle; /* solver for constraints by their own coefficients; NULL: not used */
+    int refined;                /* with `saddle`: orders up to this one are refined by iteration */
     qdot_blocks solvers;
-    size_t blocks; /* of the motion, */
-    size_t *block; /* [blocks] the number in `solvers` of each block */
-    qdot_motion_matrix_entry *entries; /* [n_entries] those that move; none: K is of `masses` */
+    size_t blocks; /* number of blocks of the motion */
+    size_t *block; /* [blocks] index in `solvers` of each block */
+    qdot_motion_matrix_entry *entries; /* [n_entries] entries of K that vary; none: K comes from `masses` */
     size_t n_entries;
-    const qdot_tape *masses; /* NULL: K is of the entries */
-    qdot_tape *shaken;       /* a shaken copy of `masses`; NULL: none */
-    double *in, *out, *work; /* of `masses` */
-    double *by;              /* [solved] order k of what is solved for */
+    const qdot_tape *masses; /* tape that gives K; NULL: K comes from `entries` */
+    qdot_tape *shaken;       /* copy of `masses` with shaken constants; NULL: none */
+    double *in, *out, *work; /* inputs, outputs and scratch of `masses` */
+    double *by;              /* [solved] the coefficient of order k of the unknowns */
 } qdot_motion_matrix;
 
 /* For a series of the motion; all is borrowed. masses: M as lower triangles of the blocks that are

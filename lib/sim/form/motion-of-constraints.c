@@ -10,9 +10,9 @@ typedef struct {
     const qdot_constraints *c;
     qdot_motion *motion;
     qdot_program_builder *program;
-    qdot_program_row *inputs;          /* [2n + 1] */
-    qdot_program_row *f, *M, *A, *row; /* outputs of the tape: [n], [n_masses], [n_slopes], [m] */
-    qdot_motion_line *lines;           /* [n + m] a, mu */
+    qdot_program_row *inputs;          /* [2n + 1] rows of the inputs q, q', t */
+    qdot_program_row *f, *M, *A, *row; /* rows of the tape's outputs: f [n], M [n_masses], A [n_slopes], constraint rows [m] */
+    qdot_motion_line *lines; /* [n + m] equations of the accelerations a, then of the multipliers mu */
 } builder;
 
 static qdot_program_row

@@ -8,13 +8,13 @@
 /* The unknowns in their order: q'' of the coordinates, then the multipliers of the constraints. */
 typedef struct {
     const qdot_plan *plan;
-    const qdot_tape *tape; /* of it, or with the rest of constraints for machine code */
-    size_t n; /* coordinates that move; those of the plan behind them are numbers */
+    const qdot_tape *tape; /* the plan's tape, or for machine code the one with constraints (bordered) */
+    size_t n; /* coordinates that move; later ones of the plan are constant */
     qdot_motion *motion;
     qdot_program_builder *program;
-    qdot_program_row *outputs; /* of the plan's tape */
-    qdot_motion_line *lines;   /* [n + m] by number in the motion; right: f, gamma */
-    uint32_t *place;           /* [n + m] the index of each coordinate or multiplier among the unknowns */
+    qdot_program_row *outputs; /* rows of the outputs of `tape` */
+    qdot_motion_line *lines;   /* [n + m] equations in the motion's order; right sides f, gamma */
+    uint32_t *place; /* [n + m] index among the unknowns of each coordinate and multiplier */
 } builder;
 
 static bool
@@ -153,7 +153,7 @@ input(const builder *b, size_t i)
         return (qdot_program_row)(i < n ? i : n + 1 + i);
     if (i < 2 * all && i - all >= n)
         return qdot_program_number(b->program, zero);
-    return (qdot_program_row)(i == 2 * all ? i - 2 * numbers : i - numbers); /* 2 all: t */
+    return (qdot_program_row)(i == 2 * all ? i - 2 * numbers : i - numbers); /* input 2 `all` is t */
 }
 
 static qdot_status

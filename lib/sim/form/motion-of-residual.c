@@ -9,10 +9,10 @@ typedef struct {
     const qdot_residual *residual;
     qdot_motion *motion;
     qdot_program_builder *program;
-    qdot_program_row *inputs;         /* [2n + 1] */
-    qdot_program_row *places, *forces; /* outputs of these tapes */
-    qdot_program_row *x, *F;          /* [functions] x'', F */
-    qdot_program_row *E;              /* [n] */
+    qdot_program_row *inputs;         /* [2n + 1] rows of the inputs q, q', t */
+    qdot_program_row *places, *forces; /* rows of the outputs of the tapes `places` and `forces` */
+    qdot_program_row *x, *F; /* [functions] rows of x'' and of the force F of each function */
+    qdot_program_row *E;              /* [n] rows of the residuals E_i */
 } builder;
 
 static void

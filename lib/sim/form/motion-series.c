@@ -17,12 +17,12 @@ enum { most_coded = 6 };
 struct qdot_motion_series {
     const qdot_plan *plan;
     const qdot_motion *motion;
-    qdot_expansion at; /* the expansion of the program */
+    qdot_expansion at; /* the series program of the motion in doubles */
     qdot_motion_matrix K;
     qdot_momentum_rows momenta;
-    qdot_lanes_motion *code; /* by lanes; NULL: none */
-    const char *why; /* there is no code for this reason; NULL: the program knows */
-    bool begun;      /* once at least */
+    qdot_lanes_motion *code; /* machine code from the lanes' generator; NULL: none */
+    const char *why; /* why there is no machine code; NULL: ask the program */
+    bool begun;      /* an expansion has been begun at least once */
     qdot_ode_series series;
     double unit;
 };
@@ -169,7 +169,7 @@ write_lanes(int p, int most, void *user)
     qdot_motion_series *s = user;
     const qdot_lanes_rows rows = qdot_taylor_get_rows(s->at.taylor);
 
-    (void)most; /* it is written for each order */
+    (void)most; /* not needed: code is generated for each order by itself */
     if (is_code_of_lanes(p, s))
         return QDOT_OK;
     drop_lanes(s);

@@ -15,7 +15,7 @@ struct qdot_phase {
     const qdot_phase_space *space;
     qdot_ode_phase callbacks;
     qdot_ldlt ldlt;
-    double *in, *out, *M, *work; /* [2n + 1], [n + n(n + 1)/2], [n x n] */
+    double *in, *out, *M, *work; /* inputs [2n + 1]; outputs [n + n(n + 1)/2]; M [n x n]; scratch */
 };
 
 void

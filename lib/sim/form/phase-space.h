@@ -19,9 +19,9 @@
 /* Tapes from q [n], q' [n], t. */
 struct qdot_phase_space {
     size_t n;
-    qdot_tape *momenta; /* p [n] */
-    qdot_tape *masses;  /* b [n], the lower triangle of M by rows; they do not depend on q' */
-    qdot_tape *forces;  /* p' [n] */
+    qdot_tape *momenta; /* outputs: momenta p [n] */
+    qdot_tape *masses; /* outputs: b [n], then the lower triangle of M by rows, p = M q' + b; both independent of q' */
+    qdot_tape *forces;  /* outputs: p' [n] */
 };
 
 /* Of a plan with M and f; *space NULL where q' itself will do. QDOT_ENOTBUILT:

@@ -19,30 +19,30 @@ static const double most_bytes = 2e9;
 /* A block of unknowns coupled by K. */
 typedef struct {
     size_t first, n;
-    mpfr_t *lu;    /* [n x n] */
-    mpfr_t *x, *y; /* [n] */
-    size_t *order; /* [n] */
-    double *scale; /* [n] */
+    mpfr_t *lu;    /* [n x n] LU factors of K */
+    mpfr_t *x, *y; /* [n] right side, solution */
+    size_t *order; /* [n] pivot order of the rows */
+    double *scale; /* [n] scale factors of the rows */
 } solver;
 
 struct qdot_precise_bind {
     const qdot_plan *plan;
     qdot_motion own;
-    const qdot_motion *motion; /* the program of the motion, or of Hamilton's equations */
+    const qdot_motion *motion; /* series program of the motion, or of Hamilton's equations */
     qdot_precise *series;
-    qdot_precise *momenta; /* of the latter, from q, q', t; */
-    int late;              /* it has order k of velocities at stage k, else k + 1 */
+    qdot_precise *momenta; /* with Hamilton's equations: the momenta from q, q', t */
+    int late;              /* 1: velocities have order k at stage k; 0: order k + 1 */
     qdot_precise_system system;
-    mpfr_t *q, *v, *t; /* the inputs' rows, `stride` apart */
+    mpfr_t *q, *v, *t; /* Taylor coefficients of the inputs; rows are `stride` apart */
     size_t stride;
-    solver *solvers; /* [blocks of the motion] */
+    solver *solvers; /* [blocks] a solver for each block of K */
     size_t blocks;
-    bool fixed;         /* K is of numbers, and */
-    bool is_factored;   /* has been factored */
-    qdot_reals numbers; /* 2 of scratch; by [solved]; of the solvers */
+    bool fixed;         /* K is constant */
+    bool is_factored;   /* K is constant and has been factored */
+    qdot_reals numbers; /* memory: 2 scratch numbers; `by` [solved]; the arrays of the solvers */
     mpfr_t *w, *by;
-    double *widest; /* [constraints] the largest squared norm of each row of A so far */
-    qdot_precise *held[2]; /* residuals of positions, of velocities; NULL without such rows */
+    double *widest; /* [constraints] largest squared norm of each row of A so far */
+    qdot_precise *held[2]; /* residuals of position and of velocity constraints; NULL: no such rows */
     size_t factored;
 };
 
@@ -158,7 +158,8 @@ take_matrix(const qdot_precise_bind *e, const solver *s)
         mpfr_set_zero(s->lu[i], 1);
     for (size_t k = 0; k < m->entries.n; k++) {
         const qdot_motion_entry *x = m->entries.at + k;
-        const size_t i = x->i - s->first, j = x->j - s->first; /* below 0: beyond n */
+        /* an index below the block's first wraps and is larger than n */
+        const size_t i = x->i - s->first, j = x->j - s->first;
         const mpfr_t *value = qdot_precise_row(e->series, x->at);
 
         if (i >= s->n || j >= s->n)
@@ -270,7 +271,7 @@ precise_extend(int p, void *user)
     qdot_precise_bind *e = user;
 
     for (int k = 1 + e->late; k < p + e->late; k++) {
-        QDOT_TRY(qdot_interrupt_check()); /* an order may take long */
+        QDOT_TRY(qdot_interrupt_check()); /* one order may take long */
         QDOT_TRY(accelerations(e, k));
     }
     return QDOT_OK;

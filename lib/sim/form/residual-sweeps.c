@@ -19,13 +19,13 @@ struct qdot_residual_sweeps {
     qdot_taylor_wide *places;
     qdot_articulated *system;
     size_t n, nodes, m, c, slots;
-    size_t *lane;         /* [n] of a coordinate: its k-th of a node in slots k ... */
-    size_t d[components]; /* the first lanes of the differences, */
-    size_t J[unknowns * components]; /* slopes [c x m], */
-    size_t applied[unknowns];        /* what is applied; SIZE_MAX: nothing */
-    size_t forces;         /* doubles of an order of F, an odd number of eights */
-    double *allocated, *F; /* [orders x forces] m times slots */
-    double *r, *q;         /* [c x slots] */
+    size_t *lane; /* [n] lane of each coordinate: the k-th coordinate of a node is in slots k ... */
+    size_t d[components]; /* first lane of the position differences d, for each component */
+    size_t J[unknowns * components]; /* [c x m] first lane of each slope J = dd/dq */
+    size_t applied[unknowns];        /* first lane of the applied forces; SIZE_MAX: none */
+    size_t forces;         /* number of doubles for one order of F, an odd multiple of 8 */
+    double *allocated, *F; /* allocated block; forces [orders x forces], m components for each slot */
+    double *r, *q;         /* [c x slots] right sides; accelerations */
 };
 
 /* --- sorting lanes by nodes --------------------------------------------------------- */
@@ -35,7 +35,7 @@ typedef struct {
     const qdot_residual *r;
     const qdot_residual_tree *tree;
     const qdot_taylor *t;
-    size_t *at; /* [slots] */
+    size_t *at; /* [slots] the node in each slot */
 } builder;
 
 /* Where the outputs [nodes x step] of the program at `from` lie by slots; *to SIZE_MAX:
@@ -117,11 +117,12 @@ sweeps_build(builder *b)
     b->at = qdot_calloc(s->slots, sizeof *b->at);
     if (!b->at)
         return QDOT_ENOMEM;
-    for (size_t i = 0; i < s->m; i++) /* differences are outputs by their numbers */
+    /* the functions are the first outputs of `places`, in their order */
+    for (size_t i = 0; i < s->m; i++)
         QDOT_TRY(align(b, t->function + i, t->m, s->d + i));
     for (size_t e = 0; e < s->c * s->m; e++) {
         QDOT_TRY(align(b, t->slope + e, t->c * t->m, s->J + e));
-        if (s->J[e] == SIZE_MAX) { /* nowhere: a row of zeros */
+        if (s->J[e] == SIZE_MAX) { /* slope 0 everywhere: use a row of zeros */
             for (size_t k = 0; k < s->slots; k++)
                 b->at[k] = SIZE_MAX;
             QDOT_TRY(qdot_taylor_wide_align(s->places, s->slots, b->at, s->J + e));

@@ -13,7 +13,7 @@ typedef struct {
     size_t n;
     uint32_t
         *group; /* [functions] the previous function of the same node; itself for the first one */
-    uint32_t *first; /* [n] a function that moves with a coordinate */
+    uint32_t *first; /* [n] a function that depends on each coordinate */
 } builder;
 
 static uint32_t

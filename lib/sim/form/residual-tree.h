@@ -14,13 +14,13 @@
 #include "sim/form/residual.h"
 
 typedef struct {
-    size_t nodes, m, c;     /* components and coordinates of a node, at most */
-    uint32_t *function;     /* [nodes x m] UINT32_MAX: it has fewer */
-    uint32_t *coordinate;   /* [nodes x c] the same */
-    uint32_t *slope;        /* [nodes x c x m] output of `places`; UINT32_MAX: 0 */
-    uint32_t *node, *place; /* [functions] where a function is: node, component */
-    uint32_t *parent;       /* [nodes x m] as num/articulated.h has them */
-    uint8_t *unknowns;      /* [nodes] coordinates */
+    size_t nodes, m, c; /* number of nodes; largest number of components, of coordinates of a node */
+    uint32_t *function;     /* [nodes x m] function of each component; UINT32_MAX: none */
+    uint32_t *coordinate;   /* [nodes x c] the node's coordinates; UINT32_MAX: fewer than c */
+    uint32_t *slope; /* [nodes x c x m] output of `places` that is the slope; UINT32_MAX: 0 */
+    uint32_t *node, *place; /* [functions] node and component to which a function belongs */
+    uint32_t *parent;       /* [nodes x m] component of the parent, as in num/articulated.h */
+    uint8_t *unknowns;      /* [nodes] number of coordinates of the node */
 } qdot_residual_tree;
 
 /* Find the tree of a residual with n coordinates. *tree NULL: its functions do not form a tree.

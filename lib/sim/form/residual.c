@@ -23,8 +23,8 @@ typedef struct {
     const qdot_plan *plan;
     qdot_residual *r;
     qdot_vec(qdot_expr) functions, outputs, forces;
-    qdot_keymap place; /* (term, function + 1) -> its place in the sum that the function is */
-    qdot_vec(qdot_expr) terms; /* the terms of a difference of positions */
+    qdot_keymap place; /* maps (term, function + 1) to its position in that function's sum */
+    qdot_vec(qdot_expr) terms; /* the terms of a difference of two positions */
 } builder;
 
 void

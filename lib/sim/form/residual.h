@@ -26,34 +26,35 @@
 #include "sim/model/equations.h"
 
 typedef struct {
-    uint32_t to, from; /* F_to += w x''_from */
+    uint32_t to, from; /* indices of functions: F_to += w x''_from */
     double w;
-    signed char side; /* where the exact w lies beside it */
-    double low;       /* how far */
+    signed char side; /* sign of (exact w - w) */
+    double low;       /* exact w - w, rounded */
     qdot_expr exact;  /* the weight w as an expression */
 } qdot_residual_weight;
 
 typedef struct {
-    uint32_t function, coordinate, output; /* of `places` */
+    /* indices of function f, coordinate i, and output of `places` for the slope dd_f/dq_i */
+    uint32_t function, coordinate, output;
 } qdot_residual_slope;
 
 struct qdot_residual {
     size_t functions;
-    qdot_expr *difference; /* [functions] d_f, the values put in */
-    uint32_t *parent;      /* [functions] UINT32_MAX: none; before its children */
+    qdot_expr *difference; /* [functions] differences d_f of positions, with parameter values */
+    uint32_t *parent;      /* [functions] parent function, earlier in the list; UINT32_MAX: none */
     qdot_residual_weight *weights;
     size_t n_weights;
-    qdot_residual_slope *slopes; /* dd_f/dq_i that are not zero */
+    qdot_residual_slope *slopes; /* the slopes dd_f/dq_i that are not identically 0 */
     size_t n_slopes;
-    qdot_expr *applied; /* [n] Q_i, the values put in */
+    qdot_expr *applied; /* [n] applied forces Q_i, with parameter values */
     uint32_t *force; /* [n] output of `places`, or 1 << 31 and one of `forces`, with Q_i;
                         UINT32_MAX: zero */
     /* Tapes with the inputs q, q' and t: */
     qdot_tape *places; /* outputs: the d_f in their order, their slopes, and the parts of Q_i without velocities */
-    qdot_tape *forces; /* Q_i with velocities; NULL: none */
+    qdot_tape *forces; /* outputs: Q_i that depend on velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
                           plan without M (sim/plan/tree-alone.h) */
-    qdot_program of_places, of_forces; /* of these tapes, once asked for (qdot_residual_programs) */
+    qdot_program of_places, of_forces; /* series programs of these tapes, made by qdot_residual_programs */
     qdot_motion motion; /* the program of the motion (motion-of-residual.h), filled by the plan, if it
                            has masses */
 
@@ -61,7 +62,7 @@ struct qdot_residual {
      * (sim/form/residual-energy.h). */
     qdot_expr h;
     qdot_tape *energy;
-    bool *absent; /* [n] coordinates that h may be the same at any value of: so a few places say */
+    bool *absent; /* [n] coordinates of which h may be independent, as found at sample points */
 };
 
 #define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)

@@ -19,15 +19,15 @@ enum { QDOT_SADDLE_REFINED = 3, QDOT_SADDLE_LEAST_REFINED = 18 };
 
 /* An entry of M or A. */
 typedef struct {
-    const double *series; /* borrowed */
+    const double *series; /* Taylor coefficients of the entry, up to the sign; borrowed */
     double sign;          /* the entry is `sign` times the series */
 } qdot_saddle_series;
 
 typedef struct {
     const qdot_plan *plan;
-    qdot_saddle matrix;        /* of q'', then -lambda */
-    qdot_saddle_series *M, *A; /* [n_masses], [n_slopes] */
-    double best;               /* the best quality of the factorisation so far */
+    qdot_saddle matrix;        /* the system for q'' and -lambda */
+    qdot_saddle_series *M, *A; /* entries of M [n_masses] and of A [n_slopes] */
+    double best;               /* best independence of the constraints in factorisations so far */
     double *weak;              /* [m + n] scratch */
 } qdot_saddle_solver;
 

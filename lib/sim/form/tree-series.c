@@ -22,16 +22,16 @@ struct qdot_tree_series {
     const qdot_residual *residual;
     qdot_residual_sweeps *tree;
     qdot_expansion places,
-        forces;     /* which may have none */
-    double *weight; /* [n_weights] */
+        forces;     /* the series of the forces; without program if there are none */
+    double *weight; /* [n_weights] the weights w in doubles */
     qdot_ode_series series;
-    double unit, force_scale; /* unit^2 */
+    double unit, force_scale; /* unit of time; its square, by which forces are multiplied */
     const double *
-        *applied; /* [n] series of Q that hold velocities; NULL: zero, or of `places` */
-    const double **slope;   /* [n_slopes] series */
-    double *x, *F;          /* [functions] */
-    size_t eliminated;      /* how often */
-    double *R;              /* [n] */
+        *applied; /* [n] Taylor coefficients of velocity-dependent Q_i; NULL: zero, or in `places` */
+    const double **slope;   /* [n_slopes] Taylor coefficients of the slopes */
+    double *x, *F;          /* [functions] coefficient of x'' and of F at the present order */
+    size_t eliminated;      /* how many times M has been eliminated */
+    double *R;              /* [n] right sides of the equations */
 };
 
 /* --- along the tree --------------------------------------------------------------------- */

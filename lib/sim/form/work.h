@@ -12,10 +12,10 @@
 
 typedef struct {
     double coordinates;
-    double length; /* steps of programs that kernels carry out, each as often as it is */
-    double convolutions; /* convolutions of these steps, per order */
-    double calls;        /* of elementary functions, once an expansion */
-    double operations;   /* of the tape of K */
+    double length; /* number of program steps executed by compiled kernels, repetitions counted */
+    double convolutions; /* products of two series in these steps, for each order */
+    double calls;        /* calls of elementary functions, once for each expansion */
+    double operations;   /* operations of the tape that computes K */
     /* Of blocks of n >= 2 unknowns that are solved for together: sums of n, n^2, n^3; of
      * those that are factored in every expansion: sums of n, n^3. */
     double unknowns, squares, cubes;
@@ -27,7 +27,7 @@ typedef struct {
     /* Along a tree: nodes; convolutions of whole vectors; products of the sweeps, and of
      * their beginning. */
     double nodes, vectors, products, begun;
-    bool code; /* it may be machine code, if the processor has any */
+    bool code; /* machine code can be generated, if the processor supports it */
 } qdot_work;
 
 /* Of a motion of the plan, whose blocks are the plan's or, with constraints, one; `tape`: of the

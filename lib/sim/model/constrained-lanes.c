@@ -16,22 +16,22 @@ enum { L = QDOT_LANES, most_iterations = 6, LEVELS = 2 };
 
 /* The constraint rows that restrict positions, or those that restrict velocities. */
 typedef struct {
-    const qdot_tape *tape; /* the residuals of these rows */
+    const qdot_tape *tape; /* tape whose outputs are the residuals of these rows */
     size_t m;
-    size_t *place; /* [rows of the constraints] among these; SIZE_MAX: it is none of them */
+    size_t *place; /* [rows of all constraints] index among these rows; SIZE_MAX: not one of them */
 } level;
 
 struct qdot_constrained_lanes {
     const qdot_constraints *c;
-    size_t n, numbers; /* coordinates; parameters, which follow them in the state */
+    size_t n, numbers; /* number of coordinates; of parameters, which follow the coordinates in the state */
     const qdot_batch_kernels *kernels;
-    qdot_tape *copies[3]; /* shaken; NULL: the constraints' */
+    qdot_tape *copies[3]; /* copies of the tapes with shaken constants; NULL: use the constraints' own */
     const qdot_tape *metric;
     level levels[LEVELS];
-    double *in;              /* q, parameters, q', their rates, t */
-    double *M, *A, *work;    /* in the order of the outputs of the metric */
-    double *K, *x;           /* [n + m], factored; right-hand side, solution */
-    double *residual, *size; /* [m] sum |A_ki| max(|x_i|, least) */
+    double *in;              /* inputs of the tapes: q, parameters, q', rates of parameters, t */
+    double *M, *A, *work;    /* outputs of `metric` M, A, and its scratch */
+    double *K, *x; /* factored matrix [(n + m) x (n + m)]; right side, then solution [n + m] */
+    double *residual, *size; /* [m] residuals, and their scale sum_i |A_ki| max(|x_i|, least) */
 };
 
 void
@@ -121,8 +121,8 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
 /* The variables that a projection moves (q or q'), their low parts, and their position in the tapes' inputs. */
 typedef struct {
     const level *l;
-    double *x, *carry, *loaded; /* [n] */
-    bool open[L];               /* lanes that are not done */
+    double *x, *carry, *loaded; /* [n] the variables, their low parts, their place in the inputs */
+    bool open[L];               /* lanes whose projection has not converged yet */
     double before[L];
 } newton;
 

@@ -14,7 +14,7 @@
 #include "num/batch.h"
 #include "sim/model/constraints.h"
 
-typedef struct qdot_constrained_lanes qdot_constrained_lanes; /* one a thread */
+typedef struct qdot_constrained_lanes qdot_constrained_lanes; /* must not be shared between threads */
 
 /* Prepare the projection for a plan with constraints, borrowed; shaken as for qdot_bind_new.
  * Errors: QDOT_ENOMEM. */

@@ -112,7 +112,7 @@ bool
 qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
                            double below, bool *rows)
 {
-    double *part = s->w; /* scratch of n + m */
+    double *part = s->w; /* s->w [n + m] used as scratch */
     bool some = false;
 
     memset(rows, 0, c->m * sizeof *rows);

@@ -31,7 +31,7 @@ qdot_constrained_remains(qdot_constrained *h, double t, const double *y, size_t 
 
     qdot_constrained_load(h, t, y);
     qdot_constrained_metric(h, all);
-    (void)qdot_saddle_faded(&all->saddle); /* called because it notes the largest pivot */
+    (void)qdot_saddle_faded(&all->saddle); /* called for its side effect: it records the largest pivot */
     for (size_t k = 0; k < all->m; k++) {
         const double left = qdot_saddle_remains(&all->saddle, k);
 

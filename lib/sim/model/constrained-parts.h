@@ -9,12 +9,12 @@
 typedef struct {
     qdot_saddle saddle;
     size_t m;
-    size_t *row; /* [m] index of each in the constraints */
+    size_t *row; /* [m] index of each row in the constraints */
     double *residual; /* [m] residuals of these rows, with the low parts of the state (carry) */
-    double *noise;    /* [m] what rounding of a state makes of them */
-    bool filled; /* M and A have been evaluated */
-    bool few;    /* few rows and M diagonal: projections use `move`, if it is factored */
-    bool moves;  /* `move` is factored */
+    double *noise;    /* [m] change of the residuals by rounding of the state */
+    bool filled; /* M and A have been evaluated at the present state */
+    bool few;    /* few rows and diagonal M: projections use `move` */
+    bool moves;  /* `move` contains a factorisation for the present state */
     qdot_least_move move;
 } qdot_constrained_level;
 
@@ -22,21 +22,22 @@ typedef struct qdot_constrained qdot_constrained;
 struct qdot_constrained {
     const qdot_plan *plan;
     const qdot_constraints *c;
-    qdot_tape *positions, *velocities, *metric, *equations; /* shaken copies or NULL */
+    /* copies of the tapes with shaken constants; NULL: the constraints' own */
+    qdot_tape *positions, *velocities, *metric, *equations;
     qdot_constrained_level levels[3];
-    qdot_constrained_level *at[3]; /* by kind; kinds with the same rows share a level */
-    double *in;                    /* [2n + 1] q, q', t; room for so many more */
+    qdot_constrained_level *at[3]; /* level of each constraint kind; kinds with the same rows share a level */
+    double *in;                    /* [2 (2n + 1)] inputs q, q', t, then scratch of the same size */
     double *out, *work;
-    double *f, *w; /* [m] residuals of positions and velocities, by row */
+    double *f, *w; /* [m] residuals of positions f, of velocities w, by row */
     double *f_bound,
-        *w_bound; /* [m] rounding of f, w; they grow along a run */
-    double *a;    /* [n + m] q'', then multipliers */
-    double *weight; /* [m] of the multipliers, with room for the outputs and the work of c->scale; NULL: 1 */
+        *w_bound; /* [m] bounds of the rounding errors in f, w; they only grow during a run */
+    double *a;    /* [n + m] accelerations q'', then multipliers */
+    double *weight; /* [m] scale factors of the multipliers, then scratch for c->scale; NULL: all 1 */
     /* Derivatives by q, q', t, if the method needs a Jacobian; else NULL: */
-    double *slopes;      /* [outputs x (2n + 1)] of a tape */
-    double *gains;       /* [(n + m) x (2n + 1)] of the equations */
-    double *slopes_work; /* of the derivatives */
-    bool *used;          /* [m] rows that are not redundant, for implicit methods */
+    double *slopes;      /* [outputs x (2n + 1)] derivatives of a tape by q, q', t */
+    double *gains;       /* [(n + m) x (2n + 1)] derivatives of q'' and multipliers */
+    double *slopes_work; /* scratch for evaluating derivatives */
+    bool *used;          /* [m] rows that are not redundant, used by implicit methods */
 };
 
 /* Set the state at which the tapes are evaluated next. */

@@ -59,7 +59,7 @@ typedef struct {
  * state, as far as it is known. */
 typedef struct {
     bool factored;
-    double rate; /* INFINITY: not known */
+    double rate; /* factor by which a step reduces the residual; INFINITY: not known */
 } convergence;
 
 /* Add the effect of the low part of the state on the residuals, by A, if A is evaluated. */
@@ -173,7 +173,7 @@ projection_is_rounding(qdot_constrained *h, const part *p)
     const qdot_saddle *s = &p->l->saddle;
     const size_t m = p->l->m;
     const bool redundant = !p->l->moves && s->rank < m;
-    double noise = 0; /* of all rows, in the scales of the system */
+    double noise = 0; /* rounding error of all rows, in the scales of the system */
 
     if (redundant)
         measure_noise(h, p);

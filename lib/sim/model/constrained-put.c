@@ -17,10 +17,10 @@ static const double least_size = 0x1p-10;
  * each value set. */
 typedef struct {
     const qdot_constrained_level *level;
-    double *x, *low; /* [n] the values are x + low; low NULL: x */
-    const bool *set; /* [n] */
+    double *x, *low; /* [n] the values are x + low; low NULL: 0 */
+    const bool *set; /* [n] the event has set this value */
     const double *residual;
-    const qdot_tape *tape; /* of the residuals of the level's rows */
+    const qdot_tape *tape; /* tape whose outputs are the residuals of the level's rows */
     void (*find)(qdot_constrained *h);
     qdot_saddle saddle;
 } part;
@@ -28,7 +28,7 @@ typedef struct {
 /* The state y + low at time t + t_low that must satisfy the constraints; who: the event that set its values. */
 typedef struct {
     double t, t_low;
-    const double *y, *low; /* [2n]; low NULL: 0 */
+    const double *y, *low; /* [2n] state y + low; low NULL: 0 */
     const char *who;
 } place;
 
@@ -171,7 +171,7 @@ project_state(qdot_constrained *h, part *p, const place *at)
         before = now;
         if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) {
             QDOT_TRY(qdot_interrupt_check());
-            if (now < 1e3) /* all values are set, and rounding is all that is left */
+            if (now < 1e3) /* all values are set by the event, and only rounding errors remain */
                 return QDOT_OK;
             break;
         }
@@ -215,7 +215,7 @@ bring_in_two(qdot_constrained *h, part *p, const place *at)
     size_t failed;
 
     QDOT_TRY(measure_in_two(h, p, at));
-    if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) /* all values are set */
+    if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) /* singular if the event has set all values */
         return qdot_interrupt_check();
     qdot_saddle_solve_refined(&p->saddle);
     for (size_t i = 0; i < h->plan->n; i++) {

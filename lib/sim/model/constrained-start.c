@@ -25,7 +25,7 @@ typedef struct {
     qdot_constrained *h;
     double t;
     double *y; /* [2n] a state near the start */
-    double *A; /* [m x n] holonomic rows, the others 0; or all */
+    double *A; /* [m x n] gradients of holonomic constraints, others 0; or of all */
     double *b, *x;
     qdot_row_space rows;
 } place;
@@ -206,7 +206,7 @@ move_velocities(place *p, size_t *worst, double *by)
 
     for (size_t i = 0; i < n; i++)
         size = fmax(size, fabs(v[i]));
-    for (size_t i = 0; i < n; i++) /* without a pattern */
+    for (size_t i = 0; i < n; i++) /* irregular changes, so that no symmetry of the scene is kept */
         v[i] += beside * size * sin(1.0 + 7.0 * (double)i);
     for (int k = 0; k < iterations && most > 1e-12 * size; k++) {
         qdot_constrained_load(p->h, p->t, p->y);
@@ -272,7 +272,8 @@ check_place(qdot_constrained *h, double t, const double *y)
 
     if (rank == m)
         return QDOT_OK;
-    holds = qdot_constrained_contradicting(h) == SIZE_MAX; /* the start itself */
+    /* false if constraints contradict each other at the start itself */
+    holds = qdot_constrained_contradicting(h) == SIZE_MAX;
     p.y = qdot_calloc(3 * n + m * n + m, sizeof *p.y);
     if (!p.y)
         return QDOT_ENOMEM;
@@ -281,7 +282,7 @@ check_place(qdot_constrained *h, double t, const double *y)
     p.b = p.A + m * n;
     status = qdot_row_space_init(&p.rows, m, n);
     for (int k = 0; k < tries && status == QDOT_OK; k++) {
-        const bool later = k + 1 == tries; /* after the start itself has been looked about */
+        const bool later = k + 1 == tries; /* the last try is at a slightly later time */
 
         p.t = later ? t + beside : t;
         if (!step_aside(&p, y, k)) {

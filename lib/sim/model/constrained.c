@@ -151,7 +151,8 @@ qdot_constrained_look_first(const qdot_constrained *h, qdot_constrained_level *l
 static qdot_status
 dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
-    static const double lost = 1e-9; /* a row that keeps less than this of its length is dependent on the others */
+    /* a row is dependent if less than this part of its length is independent of other rows */
+    static const double lost = 1e-9;
     bool *rows = qdot_calloc(c->m, sizeof *rows);
     qdot_status status = rows ? QDOT_ESINGULAR : QDOT_ENOMEM;
 

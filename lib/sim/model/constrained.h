@@ -163,7 +163,7 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constr
 /* Convert multipliers lambda [m] of the rows at t, y = (q, q') [2n] to those of the scene's constraints. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_rescale(const qdot_constrained *constrained, double t,
                                                      const double *y, double *lambda);
-size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
+size_t qdot_constrained_rows(const qdot_constrained *constrained); /* number m of constraint rows */
 const qdot_constraints *qdot_constrained_of(const qdot_constrained *constrained);
 /* The number of independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);

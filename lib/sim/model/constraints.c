@@ -341,7 +341,7 @@ constraints_build(builder *b, qdot_scene *scene)
     if (b->plan->rescaled)
         QDOT_TRY(expressions_lower(b->plan, &b->scale, &b->c->scale));
     QDOT_TRY(lower_index_1(b));
-    QDOT_TRY(find_signs(b)); /* not before: it negates slopes, for lower_series alone */
+    QDOT_TRY(find_signs(b)); /* must be last: it negates slopes, which only lower_series expects */
     return lower_series(b);
 }
 

@@ -26,7 +26,7 @@ static bool
 may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 {
     const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER;
-    bool changes = false; /* not by x' = x' */
+    bool changes = false; /* the event changes some velocity; x' = x' does not */
 
     if (event->stop || event->targets.n == 0
         || !(qdot_expr_node(scene->pool, u)->holds & QDOT_HAS_COORD)

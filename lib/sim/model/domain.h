@@ -7,16 +7,16 @@
 
 typedef struct {
     size_t coordinate; /* the index of the coordinate */
-    double lo, hi;     /* -inf, inf: no bound */
+    double lo, hi;     /* bounds of the domain; -inf, inf: unbounded */
     bool lo_open, hi_open;
-    char *text; /* "0 < theta < pi" */
+    char *text; /* the domain as text: "0 < theta < pi" */
 } qdot_domain;
 
 /* The domains of a run's coordinates. Start from {0}. */
 typedef struct {
     size_t n;
     qdot_domain *at;
-    const qdot_domain *left; /* the domain that a run has left, set by _watch; else NULL */
+    const qdot_domain *left; /* the domain that the run has left, set by qdot_domains_watch; NULL: none */
 } qdot_domains;
 
 /* Find the domains of the plan's coordinates; bounds may contain parameters. Errors: QDOT_EUNSET

@@ -23,40 +23,40 @@
 #include "tape/tape.h"
 
 typedef struct {
-    size_t n;            /* coordinates in the block */
-    const size_t *index; /* [n] which ones; borrowed from plan->structure */
-    bool constant;       /* n > 1, and M has only numbers there */
-    double *M;           /* [n x n] of a constant block, lower triangle; else NULL */
-    signed char *side;   /* [n x n] sign of the exact entry less the double (tape/shake.h) */
+    size_t n;            /* number of coordinates in the block */
+    const size_t *index; /* [n] indices of the coordinates; borrowed from plan->structure */
+    bool constant;       /* n > 1, and the block of M is constant */
+    double *M;           /* [n x n] lower triangle of a constant block; else NULL */
+    signed char *side;   /* [n x n] sign of (exact entry - double) (tape/shake.h) */
 } qdot_plan_block;
 
-typedef struct qdot_residual qdot_residual; /* sim/form/residual.h */
-typedef struct qdot_canonical qdot_canonical; /* sim/form/canonical.h */
-typedef struct qdot_phase_space qdot_phase_space; /* sim/form/phase-space.h */
-typedef struct qdot_constraints qdot_constraints; /* sim/model/constraints.h */
-struct qdot_switches;                       /* sim/model/switch.h */
+typedef struct qdot_residual qdot_residual; /* defined in sim/form/residual.h */
+typedef struct qdot_canonical qdot_canonical; /* defined in sim/form/canonical.h */
+typedef struct qdot_phase_space qdot_phase_space; /* defined in sim/form/phase-space.h */
+typedef struct qdot_constraints qdot_constraints; /* defined in sim/model/constraints.h */
+struct qdot_switches;                       /* defined in sim/model/switch.h */
 
 /* The form of the equations from which Taylor series are computed. */
 typedef enum {
     QDOT_FORM_NONE,        /* no series: the equations switch */
-    QDOT_FORM_EXPLICIT,    /* M q'' = f, by the program plan->motion */
-    QDOT_FORM_RESIDUAL,    /* d'Alembert's residual, by the program of plan->residual */
+    QDOT_FORM_EXPLICIT,    /* M q'' = f, expanded by the program plan->motion */
+    QDOT_FORM_RESIDUAL,    /* d'Alembert's residual, expanded by the program of plan->residual */
     QDOT_FORM_TREE,        /* d'Alembert's residual along its tree (sim/form/tree-series.h) */
-    QDOT_FORM_CONSTRAINED, /* with the constraints themselves expanded as series */
-    QDOT_FORM_ELIMINATED,  /* multipliers eliminated beforehand: plan->eliminated */
-    QDOT_FORM_BORDERED     /* multipliers solved for by machine code: plan->bordered */
+    QDOT_FORM_CONSTRAINED, /* constraint equations expanded as series together with q'' */
+    QDOT_FORM_ELIMINATED,  /* equations without multipliers: plan->eliminated */
+    QDOT_FORM_BORDERED /* q'' and multipliers from one linear system, as machine code: plan->bordered */
 } qdot_form;
 
 /* All decisions about a run: made in sim/plan, then constant, and read everywhere else. */
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
-    unsigned uses;   /* users besides the first (sim/plan/kept.h) */
-    qdot_pool *pool; /* borrowed */
-    size_t n;        /* coordinates */
-    size_t m;        /* constraints of the scene, one a component */
+    unsigned uses;   /* number of users besides the first (sim/plan/kept.h) */
+    qdot_pool *pool; /* pool of the expressions; borrowed */
+    size_t n;        /* number of coordinates */
+    size_t m; /* number of constraint equations of the scene; each component of a vector counts */
     size_t n_states; /* the last coordinates: parameters that events set
                         (sim/model/parameter-states.h) */
-    size_t n_sides;  /* surfaces at which the equations switch, and symbols of pucks */
+    size_t n_sides;  /* number of switching surfaces and of symbols of pucks (sim/model/puck.h) */
     qdot_expr *inputs; /* [3n + 1 + m + n_sides] q, q', t, q'', lambda of m constraints, the symbols of
                           the sides (sim/model/switch.h), of which only what is read along a run
                           may hold some */
@@ -64,17 +64,17 @@ struct qdot_plan {
      * it where a run keeps mu f in place of f (mech/dynamics/integrated.h). */
     qdot_expr *multipliers, *scaled;
     bool rescaled;     /* some `scaled` differs from its multiplier */
-    char **names;      /* [n] of the coordinates; owned */
-    qdot_expr *M;      /* [n x n] M, f and tape are NULL if only the tree is used */
-    qdot_expr *f;      /* [n]                                   (sim/plan/tree-alone.h) */
+    char **names;      /* [n] names of the coordinates; owned */
+    qdot_expr *M;      /* [n x n] mass matrix; M, f and tape are NULL if only the tree is used */
+    qdot_expr *f;      /* [n] right sides f of M q'' = f (sim/plan/tree-alone.h) */
     bool *massless; /* [n] coordinates without mass, whose equations stand among the constraints
                        behind those of the scene (sim/model/massless.h); NULL: there are none */
     size_t n_massless;
-    bool indefinite;   /* a stated Lagrangian, a potential with velocities: LDL^T */
+    bool indefinite;   /* M may be indefinite, as for a stated Lagrangian: factor as LDL^T */
     qdot_structure structure;
-    qdot_plan_block *blocks; /* [structure.blocks] */
+    qdot_plan_block *blocks; /* [structure.blocks] blocks of M */
     const qdot_ode_method *method;
-    bool chosen; /* the plan chose the method */
+    bool chosen; /* the method was chosen by the plan, not by the user */
     /* For a geometric method (sim/plan/geometric.h): if `halves`, q' may replace the momenta; else
      * phase_space computes them. */
     bool halves;
@@ -84,8 +84,8 @@ struct qdot_plan {
      * index-1 equations. */
     qdot_constraints *constraints;
     qdot_run_treatment treatment;
-    qdot_plan *eliminated; /* their q'' without multipliers (sim/form/eliminated.h); or NULL */
-    qdot_tape *bordered; /* or as `tape`, for machine code (sim/form/bordered.h); or NULL */
+    qdot_plan *eliminated; /* plan of equations without multipliers (sim/form/eliminated.h); NULL: none */
+    qdot_tape *bordered; /* form of `tape` for machine code (sim/form/bordered.h); NULL: none */
 
     /* The values given in the request, for expressions that are read later; owned copies. */
     size_t n_values;
@@ -99,8 +99,8 @@ struct qdot_plan {
      * that of `bordered`. */
     qdot_motion *motion;
 
-    bool leading; /* first orders in two doubles are wanted (sim/form/leading.h) */
-    bool smooth; /* the equations have Taylor series: for the method or its companion */
+    bool leading; /* compute the first orders of series in two doubles (sim/form/leading.h) */
+    bool smooth; /* the equations have Taylor series, for the method or its companion */
     /* The equations as d'Alembert's residual if that form is taken, else NULL; convolutions an order
      * of either form, 0 if not counted. */
     qdot_residual *residual;
@@ -120,9 +120,9 @@ struct qdot_plan {
 
     /* Plans of decoupled groups of coordinates, two or more, for a run in which nothing watches
      * the steps (sim/plan/parts.h). */
-    qdot_plan **parts; /* [n_parts] */
+    qdot_plan **parts; /* [n_parts] a plan for each decoupled group of coordinates */
     size_t n_parts;
-    size_t *place; /* in the plan of a part: [n] index of its coordinates in the scene */
+    size_t *place; /* [n] in the plan of a part: index of each coordinate in the whole scene */
 
     /* The equations that are integrated instead of these, if cyclic coordinates leave shorter
      * ones (sim/plan/routh.h); else NULL. */
@@ -131,10 +131,10 @@ struct qdot_plan {
      * solved for; the momenta are the inputs after t. Their rates are the last outputs of the
      * tape; the blocks are those of the other coordinates. */
     size_t n_kept;
-    size_t *kept;      /* [n_kept] */
-    bool subtracts;    /* velocities of these are sums, whose terms may cancel */
-    bool by_start;     /* whether a reduced plan exists depends on the start and the tolerance */
-    qdot_tape *momenta; /* from q, q', t: [n_kept] */
+    size_t *kept;      /* [n_kept] indices of the coordinates whose momenta are kept */
+    bool subtracts;    /* velocities from kept momenta are sums in which terms may cancel */
+    bool by_start;     /* whether there is a reduced plan depends on start and tolerance */
+    qdot_tape *momenta; /* from q, q', t: the kept momenta [n_kept] */
 
     /* The mode in which switches are frozen while the plan is made; NULL later. */
     const struct qdot_switches *mode;

@@ -75,7 +75,7 @@ typedef struct {
     size_t m;
     const qdot_surface *at;
     qdot_gates *g;
-    qdot_walk *walk; /* of every node its gate + 1; 0: it is none */
+    qdot_walk *walk; /* value of each node: index of its gate + 1; 0: not a gate */
 } finder;
 
 static size_t
@@ -290,7 +290,7 @@ open_extreme(opening *o, size_t i, const size_t *arguments)
             if (!may)
                 continue;
             if (pair->surface != SIZE_MAX && o->side && o->side[pair->surface] == QDOT_SIDE_SLIDES) {
-                sign = 0; /* on a surface along which the motion slides both sides are equal */
+                sign = 0; /* both sides are equal on a surface along which the motion slides */
                 known = true;
             }
             open_pair(o, i, pair);
@@ -322,7 +322,7 @@ open_arguments(opening *o, size_t i)
             open_gate(o, i, arguments[2]);
         return;
     }
-    case QDOT_GATE_LOGIC: /* arguments are evaluated up to the first that decides */
+    case QDOT_GATE_LOGIC: /* operands are evaluated in order, up to the first that decides */
         for (uint32_t k = 0; k < gate->n && goes_on; k++) {
             open_gate(o, i, arguments[k]);
             if (gate->op != QDOT_NOT && arguments[k] != SIZE_MAX)

@@ -19,39 +19,39 @@
 
 /* A comparison whose sign follows from the side of a surface: that of u, or of -u. */
 typedef struct {
-    size_t surface; /* SIZE_MAX: the argument does not change along a run */
-    int turned;     /* -1: the surface has -u; else 1 */
-    uint8_t sign;   /* what is known of that of one that does not move: QDOT_GE0 ... */
-    qdot_expr u;    /* the difference */
+    size_t surface; /* index of the surface; SIZE_MAX: the comparison never changes during a run */
+    int turned;     /* -1 if the surface function is -u; else 1 */
+    uint8_t sign;   /* if it never changes: bits QDOT_GE0 ... of its known sign */
+    qdot_expr u;    /* left minus right side of the comparison */
 } qdot_gate_pair;
 
 typedef enum {
-    QDOT_GATE_PASSES,  /* a node that holds gates, or a product with a power that has a layer */
+    QDOT_GATE_PASSES,  /* contains gates, or is a product with a power that needs a layer */
     QDOT_GATE_IF,
     QDOT_GATE_LOGIC,
     QDOT_GATE_RELATION,
-    QDOT_GATE_EXTREME, /* min, max: pairs of arguments (0, 1), (0, 2), ... (1, 2), ... */
-    QDOT_GATE_VALUE    /* abs, sign, floor, mod */
+    QDOT_GATE_EXTREME, /* min, max: compares argument pairs (0, 1), (0, 2), ... (1, 2), ... */
+    QDOT_GATE_VALUE    /* abs, sign, floor, mod: value given by one surface */
 } qdot_gate_kind;
 
 typedef struct {
     qdot_expr node;
     qdot_gate_kind kind;
-    uint16_t op; /* of the node, */
-    uint32_t n;  /* the number of arguments */
-    size_t first; /* of its arguments in `arguments`: gates, SIZE_MAX for those that are none */
-    size_t pair;  /* of its pairs */
+    uint16_t op; /* operation of the node */
+    uint32_t n;  /* number of its arguments */
+    size_t first; /* index in `arguments` of its first; entries: gate, or SIZE_MAX for none */
+    size_t pair;  /* index in `pairs` of its first pair */
 } qdot_gate;
 
 /* The switching functions in the equations. Start from {0}. */
 typedef struct {
     size_t surfaces;
-    qdot_vec(qdot_gate) gates; /* those of children first */
+    qdot_vec(qdot_gate) gates; /* the gates, children first */
     qdot_vec(size_t) arguments;
     qdot_vec(qdot_gate_pair) pairs;
-    qdot_vec(size_t) roots; /* gates */
-    size_t *decides; /* [surfaces] the gate of what a surface decides by; SIZE_MAX: it is none */
-    bool branches;   /* in some mode a gate is closed */
+    qdot_vec(size_t) roots; /* gates of the outermost functions in the expressions searched */
+    size_t *decides; /* [surfaces] the gate that depends on each surface; SIZE_MAX: none */
+    bool branches;   /* there is a mode in which some gate is not evaluated */
 } qdot_gates;
 
 /* Whether a node is a switching function whose argument changes along a run. */

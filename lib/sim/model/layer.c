@@ -108,7 +108,8 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
 static double
 beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {
-    if (surface->power < 1 || qdot_layers_in_time(pool, surface)) /* friction that holds; times are exact */
+    /* no layer is needed: for friction laws, and for u(t), whose zeros are located exactly */
+    if (surface->power < 1 || qdot_layers_in_time(pool, surface))
         return 0;
     return fmin(beyond_steps * pow(tol, 1.25), pow(share * tol, 1 / (1 + surface->power)));
 }
@@ -126,7 +127,7 @@ qdot_layers_measure(const qdot_pool *pool, size_t m, qdot_surface *surfaces, con
     for (size_t i = 0; i < m; i++) {
         const double width = fmax(passage * latest, beyond_series(pool, &surfaces[i], tol)) * (speed[i] > 0 ? speed[i] : largest);
 
-        if (surfaces[i].power > 0 && isnormal(width)) /* a power of two: rims are exact */
+        if (surfaces[i].power > 0 && isnormal(width)) /* round to a power of two, so that layer boundaries are exact */
             surfaces[i].layer = exp2(ilogb(width));
     }
 }

@@ -15,10 +15,10 @@ typedef struct {
     const qdot_massless_rows *rows;
     qdot_pool *pool;
     size_t n_from;
-    qdot_expr *from, *to;  /* [n_from] q, q' and the parameters that the event puts; what they are behind it */
-    qdot_expr *R, *x;      /* [w] equations R = 0 and their unknowns, */
-    size_t *place;         /* [w] the places of these in q, q' */
-    qdot_expr *A, *b, *at; /* [w x w], [w], [w] A x = b */
+    qdot_expr *from, *to; /* [n_from] replace q, q' and parameters set by the event, by their values after it */
+    qdot_expr *R, *x;      /* [w] equations R = 0 and their unknowns x */
+    size_t *place;         /* [w] index of each unknown in (q, q') */
+    qdot_expr *A, *b, *at; /* linear system A x = b: A [w x w], b [w], evaluation point [w] */
 } jump;
 
 static qdot_expr

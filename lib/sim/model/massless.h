@@ -37,8 +37,8 @@ bool qdot_massless_switch(const qdot_plan *p, const qdot_switches *s);
  * one of positions alone determines a position, and by its rate a velocity. */
 typedef struct {
     size_t n;
-    qdot_expr *equations; /* [n] */
-    bool *of_positions;   /* [n] */
+    qdot_expr *equations; /* [n] left sides G of G = 0 */
+    bool *of_positions;   /* [n] the equation contains positions only; else a massless velocity */
 } qdot_massless;
 
 /* Find the massless coordinates before there is a plan; derives M and f. x is cleared on failure. */

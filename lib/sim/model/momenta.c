@@ -16,10 +16,10 @@ struct qdot_momenta {
     qdot_momenta_tape equations;
     qdot_precise *precise;
     qdot_ode_following following;
-    size_t *index;   /* [n_kept] of the velocities in a state */
-    double *hi, *lo; /* [n_kept] */
+    size_t *index;   /* [n_kept] indices of the velocities in a state */
+    double *hi, *lo; /* [n_kept] the kept momenta are hi + lo */
     bool entered;
-    double t, *y; /* [2n] where the solution begins */
+    double t, *y; /* time and state [2n] at which the solution was entered */
 };
 
 static qdot_status
@@ -57,7 +57,7 @@ momenta_enter(double t, const double *y, const double *carry, void *user)
         m->lo[k] = mpfr_get_d(rest, MPFR_RNDN);
         mpfr_clear(rest);
     }
-    mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); /* of a thread that may end after the run */
+    mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); /* release MPFR's cache, as this thread may end with the run */
     m->t = t;
     memcpy(m->y, y, n * sizeof *y);
     m->entered = true;

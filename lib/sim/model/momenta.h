@@ -9,7 +9,7 @@
 #include "ode/system.h"
 #include "sim/model/equations.h"
 
-typedef struct qdot_momenta qdot_momenta; /* one a thread */
+typedef struct qdot_momenta qdot_momenta; /* must not be shared between threads */
 
 /* Make the conserved momenta of a reduced plan, borrowed. `tape`: its own tape or a shaken one, borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_momenta_new(const qdot_plan *reduced,

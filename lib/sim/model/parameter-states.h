@@ -18,8 +18,8 @@
 
 /* A request in which parameters that events set are further coordinates. Start from {0}. */
 typedef struct {
-    qdot_run_request request; /* borrows from the original one, and from: */
-    qdot_expr *expressions;   /* states, symbols, values, q0, v0 */
+    qdot_run_request request; /* the new request; borrows from the original one and from `expressions` */
+    qdot_expr *expressions;   /* memory of the lists states, symbols, values, q0, v0 */
     bool *named;
 } qdot_parameter_states;
 
@@ -49,16 +49,16 @@ QDOT_MUST_CHECK qdot_status qdot_parameter_states_occur(const qdot_plan *plan, q
 
 /* A declared condition on parameters that must hold after every event. */
 typedef struct {
-    char *text;   /* "al > 0" */
-    int op;       /* a qdot_rel_op of left and right */
-    bool turned;  /* messages print the relation with its sides exchanged */
-    const char *why; /* "declared", "assumed" ... */
+    char *text;   /* the condition as text: "al > 0" */
+    int op;       /* relation between left and right, a qdot_rel_op */
+    bool turned;  /* messages print it with its sides exchanged */
+    const char *why; /* where the condition comes from: "declared", "assumed" ... */
 } qdot_parameter_condition;
 
 typedef struct {
     size_t n;
     qdot_parameter_condition *at;
-    qdot_tape *sides; /* from q, q', t: left, right of each; NULL: no condition */
+    qdot_tape *sides; /* outputs: left and right side of each, from q, q', t; NULL: no conditions */
 } qdot_parameter_conditions;
 
 /* Find the declared domains of parameters, the assumptions and the rest lengths of springs that

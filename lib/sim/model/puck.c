@@ -173,7 +173,7 @@ switches_add_puck(qdot_switches *s, qdot_puck *puck)
 
     puck->surface = s->surfaces.n;
     puck->first = s->n_puck_symbols;
-    for (size_t a = 0; a <= puck->k; a++) { /* a space is in no name of a user */
+    for (size_t a = 0; a <= puck->k; a++) { /* symbol names with a space, which no user's name contains */
         qdot_expr *to = a < puck->k ? &puck->share[a] : &puck->inverse;
 
         snprintf(name, sizeof name, "puck %zu %zu", s->pucks.n + 1, a);
@@ -248,11 +248,11 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
 typedef struct {
     const qdot_puck *puck;
     enum {
-        AT_REST,     /* 1/|w| is the symbol `inverse`, positive powers are 0; */
-        AS_INVERSES, /* all by `inverse`, and |w|^2; */
-        AS_LENGTHS   /* all by the symbol `length` */
+        AT_REST,     /* 1/|w| as the symbol `inverse`, positive powers as 0 */
+        AS_INVERSES, /* all powers by the symbol `inverse` and |w|^2 */
+        AS_LENGTHS   /* all powers by the symbol `length` */
     } by;
-    bool refused; /* AT_REST: there is a negative power other than 1/|w| */
+    bool refused; /* AT_REST: the expression contains a negative power other than 1/|w| */
 } replacement;
 
 static qdot_expr replace(qdot_pool *pool, qdot_expr e, replacement *r);
@@ -376,7 +376,7 @@ qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square)
     const qdot_expr more = qdot_sub(pool, square, QDOT_ONE);
     qdot_expr sum = QDOT_ONE;
 
-    for (long n = 5; n >= 1; n--) { /* 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
+    for (long n = 5; n >= 1; n--) { /* Horner: 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
         const qdot_expr c =
             qdot_div(pool, qdot_expr_int(pool, 2 * n - 1), qdot_expr_int(pool, 2 * n));
 
@@ -415,7 +415,7 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
     qdot_expr to[QDOT_PUCK_MOST], rest = replace(pool, *e, &near);
     qdot_status status;
 
-    if (rest == *e) /* the expression does not contain the direction */
+    if (rest == *e) /* the expression does not contain the direction w/|w| */
         return QDOT_OK;
     for (size_t a = 0; a < puck->k; a++)
         to[a] = qdot_add(pool, qdot_sub(pool, puck->symbol[a], puck->rest[a]),

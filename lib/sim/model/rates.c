@@ -16,8 +16,8 @@ typedef struct {
 typedef struct {
     qdot_pool *pool;
     const qdot_walk *w;
-    rates *of;  /* [w->n] */
-    bool gains; /* a power was met that is not whole and positive */
+    rates *of;  /* [w->n] first and second rate of each node */
+    bool gains; /* an exponent was not a positive integer */
 } differentiation;
 
 static rates

@@ -28,7 +28,8 @@ find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
     qdot_status status = qdot_walk_begin(pool, e, &walk);
 
     *f = QDOT_NIL;
-    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++) /* arguments come first */
+    /* arguments before functions, so that the last found is the outermost */
+    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
         if (jumps(pool, walk.at[i]))
             *f = walk.at[i];
     qdot_walk_end(&walk);
@@ -39,7 +40,8 @@ find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
 static qdot_status
 split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
 {
-    const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "jumping function"); /* a space is in no name of a user */
+    /* a name with a space, which no user's name contains */
+    const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "jumping function");
     const qdot_expr with = qdot_subs(pool, g, 1, &f, &s), slope = qdot_diff(pool, with, s);
     qdot_expr rest;
 
@@ -75,7 +77,7 @@ of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr k, qdot
     if (period == 0)
         return QDOT_OK;
     QDOT_TRY(qdot_constant_double(pool, qdot_div(pool, k, b), &part));
-    if (!(part >= 0 && part < 1)) { /* none; where k is b it comes as near as one likes */
+    if (!(part >= 0 && part < 1)) { /* no zeros; for k = b mod(a, b) comes arbitrarily near to k */
         out->u = QDOT_ONE;
         return QDOT_OK;
     }
@@ -92,7 +94,7 @@ of_floor(qdot_pool *pool, qdot_expr a, qdot_expr c, qdot_expr k, qdot_repeated *
     double n;
 
     QDOT_TRY(qdot_constant_double(pool, k, &n));
-    if (n != floor(n)) { /* none */
+    if (n != floor(n)) { /* floor(a) is never k */
         out->u = QDOT_ONE;
         return QDOT_OK;
     }
@@ -132,7 +134,7 @@ qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
 
     *out = (qdot_repeated){.u = g, .turn = QDOT_NIL};
     if (g == QDOT_NIL || (qdot_expr_node(pool, g)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)) != 0)
-        return QDOT_OK; /* `turn` is read from states alone */
+        return QDOT_OK; /* because `turn` must depend on the state only */
     QDOT_TRY(find_outermost(pool, g, &f));
     if (f == QDOT_NIL)
         return QDOT_OK;

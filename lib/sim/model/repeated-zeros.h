@@ -19,10 +19,10 @@
 #include "expr/id.h"
 
 typedef struct {
-    qdot_expr u;    /* g itself where it is none of these, or holds accelerations or multipliers */
-    qdot_expr turn; /* not 0 at a zero of u; NIL: u goes as g does */
-    bool half;      /* zeros of u at which turn < 0 are none of g */
-    bool touches;   /* whatever u does, g only touches 0: k is the value to which f jumps, or g is v^2 */
+    qdot_expr u; /* smooth function; g itself if g has no such form, or contains accelerations or multipliers */
+    qdot_expr turn; /* sign of dg/du at a zero of u, never 0; nil: u changes like g */
+    bool half;      /* zeros of u with turn < 0 are not zeros of g */
+    bool touches;   /* g does not change sign: f reaches k by a jump, or g is v^2 */
 } qdot_repeated;
 
 /* Find u for the function g with parameter values. Errors: of the pool; of a constant that is not real. */

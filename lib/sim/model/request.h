@@ -11,22 +11,22 @@
 typedef enum { QDOT_RUN_PROJECT, QDOT_RUN_BAUMGARTE, QDOT_RUN_NONE } qdot_run_treatment;
 
 typedef struct {
-    size_t n_values;              /* values of parameters: symbol -> exact constant */
+    size_t n_values; /* number of parameters with values: symbols[i] has the constant values[i] */
     const qdot_expr *symbols, *values;
-    const qdot_expr *q0, *v0;     /* [n] start: exact constants, in order of the coordinates */
+    const qdot_expr *q0, *v0; /* [n] start q, q' as exact constants, in the order of coordinates */
     const bool *q_named, *v_named; /* [n] which of them were named: the others may be solved for
                                      from the constraints; NULL: all */
-    bool exactly;                 /* a start that breaks a constraint is refused */
-    qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
+    bool exactly; /* refuse a start that violates a constraint, instead of moving it */
+    qdot_expr t0, t1;             /* start and end time, exact constants; t1 < t0 runs backwards */
     qdot_expr said[2]; /* the limits as they were written, with symbols that have values; nil: t0, t1 */
     double tol;                   /* local error of each component in each step, relative to
                                      max(s, |value|) */
     const double *scales;         /* [2n] s of q, then of q', in order of the coordinates; 0: found
                                      by the run (sim/run/scales.h); NULL: all are */
-    const char *method;           /* "auto" or a name of ode/method.h */
+    const char *method;           /* "auto" or the name of a method (ode/method.h) */
     bool turns;                   /* a method for stiff scenes may change to series and back
                                      (ode/alternate.h) */
-    qdot_run_treatment treatment; /* of a scene with constraints */
+    qdot_run_treatment treatment; /* how constraints are treated */
     size_t n_states;              /* set by the run itself, leave it 0: parameters that events
                                      set, as further coordinates (sim/model/parameter-states.h); */
     const qdot_expr *states;      /* [n_states] their symbols; symbols, values, q0 ... include
@@ -35,7 +35,7 @@ typedef struct {
                                      tol is not used */
     bool lanes;                   /* for an ensemble, eight members at a time
                                      (sim/ensemble/ensemble.h) */
-    bool by_clock;                /* the time is a coordinate of the scene (sim/run/collide.h) */
+    bool by_clock;                /* t is one of the coordinates of the scene (sim/run/collide.h) */
     bool no_drifts;               /* conserved quantities are not searched for, since nobody reads the report */
     const double *apart;          /* [2 x 2n] how far the run's two companions start from it, each in q and q', where the
                                      start has an error (qdot_run_end_apart); NULL: it is exact */

@@ -122,7 +122,7 @@ keep_row(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, d
         const double before = x[i];
 
         x[i] -= out[r] / square * slope[i];
-        if (fabs(x[i]) < DBL_MIN) /* sweep after sweep comes nearer to 0, and each subnormal number has fewer digits */
+        if (fabs(x[i]) < DBL_MIN) /* flush subnormal numbers to 0: repeated corrections would lose their digits */
             x[i] = 0;
         moves = moves || x[i] != before;
     }

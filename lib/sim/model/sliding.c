@@ -32,7 +32,7 @@ qdot_sliding_is(const qdot_switches *s, const long *side)
 /* An unknown share: of a surface, or of component c of a puck. */
 typedef struct {
     size_t surface, c;
-    const qdot_puck *puck; /* NULL: the surface is of none */
+    const qdot_puck *puck; /* the puck to which the surface belongs; NULL: none */
 } unknown;
 
 /* The linear system while it is filled: unknowns q'', then multipliers, then sliding shares. */
@@ -40,9 +40,9 @@ typedef struct {
     qdot_plan *p;
     qdot_scene *scene;
     size_t n, m, k, size;
-    unknown *of; /* [k] */
+    unknown *of; /* [k] the unknown shares */
     qdot_expr *A, *b, *x;
-    bool *massless; /* [n] */
+    bool *massless; /* [n] the coordinate is massless */
     bool some_massless;
     /* Shares that are known from equations of massless coordinates: their surfaces, symbols and values. */
     size_t n_settled, *settled;
@@ -221,7 +221,7 @@ fill(sliding *s)
         if (holds_share(s, u))
             return cannot("one switch is inside another");
         QDOT_TRY(fill_row(s, r, u, holds(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
-        for (size_t i = 0; i < s->n && x->contact; i++) { /* the reaction of the contact */
+        for (size_t i = 0; i < s->n && x->contact; i++) { /* add the reaction force of the contact */
             const qdot_expr slope = s->A[r * s->size + i];
 
             s->A[i * s->size + r] =

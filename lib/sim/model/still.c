@@ -11,9 +11,9 @@
 
 typedef struct {
     const qdot_plan *plan;
-    bool *still;         /* [n] */
+    bool *still;         /* [n] the coordinate stays at 0 */
     size_t n_zeros;
-    qdot_expr *of, *to;  /* [2n] q and q' of these; 0 */
+    qdot_expr *of, *to;  /* [2n] substitution: q and q' of still coordinates (of) by 0 (to) */
 } set;
 
 static qdot_expr

@@ -21,16 +21,16 @@
 #define QDOT_SIDE_IDLE (LONG_MIN + 1)
 
 typedef struct {
-    qdot_expr u;  /* as in the equations, with parameter values */
-    bool steps;   /* the side is floor(u); else the sign of u */
-    qdot_expr side; /* a symbol for the side */
-    double power;   /* the least broken exponent of a power of u (sim/model/layer.h); 0: none */
+    qdot_expr u;  /* the function u, as in the equations, with parameter values */
+    bool steps;   /* the side is the integer floor(u); otherwise the sign of u */
+    qdot_expr side; /* symbol that stands for the side in expressions */
+    double power;   /* smallest non-integer exponent of a power of u (sim/model/layer.h); 0: none */
     /* A contact that may last (sim/model/contact.h): u of an event, which no equation holds.
      * Its side is 0, or QDOT_SIDE_SLIDES while it lasts. */
     bool contact;
-    size_t event; /* whose `then` is the impact */
-    int reaction; /* the sign of du/dt that the contact can push to */
-    size_t puck; /* 1 + the number of the puck that u is |w|^2 of (sim/model/puck.h); 0: of none */
+    size_t event; /* for a contact: the event whose `then` is the impact */
+    int reaction; /* for a contact: sign of du/dt towards which it can push */
+    size_t puck; /* 1 + index of the puck whose |w|^2 is u (sim/model/puck.h); 0: none */
     double layer;   /* half the width of the layer in which that power counts as 0, there of
                        side 0: a power of two; 0: there is none */
 } qdot_surface;
@@ -41,22 +41,22 @@ enum { QDOT_PUCK_MOST = 6, QDOT_PUCK_MOST_TIED = 4 };
 
 typedef struct {
     size_t surface; /* index of its surface */
-    size_t k;       /* components */
-    size_t velocity[QDOT_PUCK_MOST];  /* the coordinates j, */
-    qdot_expr symbol[QDOT_PUCK_MOST]; /* and their q'_j */
+    size_t k;       /* number of components of w */
+    size_t velocity[QDOT_PUCK_MOST];  /* [k] coordinates j whose velocities w contains */
+    qdot_expr symbol[QDOT_PUCK_MOST]; /* [k] the symbols q'_j */
     /* Velocities of w that constraints, with constant coefficients, tie to others: q'_j = to, which
      * changes by follow_ja with the velocity a above. */
     size_t n_tied, tied[QDOT_PUCK_MOST_TIED];
     qdot_expr tied_symbol[QDOT_PUCK_MOST_TIED], to[QDOT_PUCK_MOST_TIED];
     double follow[QDOT_PUCK_MOST_TIED][QDOT_PUCK_MOST];
-    qdot_expr square;                 /* |w|^2, with parameter values */
-    qdot_expr rest[QDOT_PUCK_MOST];   /* d_j: q'_j less its value at w = 0 */
-    qdot_expr metric[QDOT_PUCK_MOST * QDOT_PUCK_MOST]; /* [k x k] G */
-    qdot_expr share[QDOT_PUCK_MOST];  /* symbols of the shares s_j, */
-    qdot_expr inverse;                /* and of 1/|w|, 0 at rest */
-    qdot_expr length;                 /* a symbol for |w| while it goes to 0 */
-    size_t first; /* where shares and inverse begin, behind the sides of all surfaces */
-    double radius; /* |w| up to this is rest; 0: it is not looked for */
+    qdot_expr square;                 /* the expression |w|^2, with parameter values */
+    qdot_expr rest[QDOT_PUCK_MOST];   /* [k] d_j: q'_j minus its value at w = 0 */
+    qdot_expr metric[QDOT_PUCK_MOST * QDOT_PUCK_MOST]; /* [k x k] the matrix G of |w|^2 in terms of d */
+    qdot_expr share[QDOT_PUCK_MOST];  /* [k] symbols of the components s_j of the direction */
+    qdot_expr inverse;                /* symbol for 1/|w|; 0 at rest */
+    qdot_expr length;                 /* symbol for |w| while it goes to 0 */
+    size_t first; /* index of its first symbol; symbols of pucks follow the sides of all surfaces */
+    double radius; /* the puck counts as at rest if |w| is at most this; 0: not tested */
 } qdot_puck;
 
 #endif

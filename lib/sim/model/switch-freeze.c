@@ -12,11 +12,11 @@
 
 typedef struct {
     const qdot_switches *s;
-    const long *side;   /* NULL: symbols */
-    const long *corner; /* [surfaces] the side meant by QDOT_SIDE_SLIDES */
-    qdot_gates gates;   /* the gates of the expressions that are frozen */
+    const long *side;   /* [surfaces] the sides; NULL: keep symbols */
+    const long *corner; /* [surfaces] the side to use where `side` is QDOT_SIDE_SLIDES */
+    qdot_gates gates;   /* gates of the expressions that are rewritten */
     uint8_t *open;
-    qdot_expr *to; /* [gates] */
+    qdot_expr *to; /* [gates] replacement of each gate */
 } freezer;
 
 /* Argument k of a gate, with its switches frozen. */
@@ -168,7 +168,7 @@ freeze_value(const freezer *f, const qdot_gate *gate)
         return surface_is_held(f, pair) ? QDOT_ZERO : qdot_mul(pool, side_of(f, pair, false), argument(f, gate, 0));
     case QDOT_SIGN: return side_of(f, pair, false);
     case QDOT_FLOOR: return side_of(f, pair, true);
-    default: /* mod */
+    default: /* case mod */
         return qdot_sub(pool, argument(f, gate, 0),
                         qdot_mul(pool, argument(f, gate, 1), side_of(f, pair, true)));
     }
@@ -290,7 +290,7 @@ qdot_switches_freeze(const qdot_switches *s, const long *side, const qdot_expr *
         return QDOT_OK;
     }
     corner = qdot_calloc(s->surfaces.n + 1, sizeof *corner);
-    copy = qdot_malloc((n + 1) * sizeof *copy); /* `frozen` may be `e` */
+    copy = qdot_malloc((n + 1) * sizeof *copy); /* copy first, as `frozen` may be the same array as `e` */
     status = corner && copy ? QDOT_OK : QDOT_ENOMEM;
     if (status == QDOT_OK) {
         memcpy(copy, e, n * sizeof *e);

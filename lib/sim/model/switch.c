@@ -44,7 +44,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     if (!steps)
         u = qdot_gates_upright(s->pool, u, &turned);
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (!qdot_gates_moves(s->pool, u)) /* what changes along a run cancelled in u */
+    if (!qdot_gates_moves(s->pool, u)) /* the parts of u that vary along a run have cancelled */
         return QDOT_OK;
     QDOT_TRY(switches_collect(s, u));
     for (size_t i = 0; i < s->surfaces.n; i++)
@@ -130,7 +130,7 @@ find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
     qdot_pool *pool = s->pool;
     qdot_status status = QDOT_OK;
     qdot_expr sum = scene->lagrangian;
-    bool moved = false; /* T holds terms of first degree */
+    bool moved = false; /* T contains terms of first degree in velocities */
 
     if (sum == QDOT_NIL && (switches(s, mass, &status) || !qdot_lagrangian_has(scene, QDOT_T, &moved) || moved))
         sum = qdot_mech_numeric_kinetic(scene);

@@ -35,15 +35,15 @@
 #include "sim/model/surface.h"
 
 typedef struct qdot_switches {
-    qdot_pool *pool; /* borrowed */
-    qdot_vec(qdot_surface) surfaces; /* inner ones first, then contacts, then pucks */
+    qdot_pool *pool; /* pool of the expressions; borrowed */
+    qdot_vec(qdot_surface) surfaces; /* nested ones first, then contacts, then pucks */
     size_t contacts;
-    qdot_vec(qdot_puck) pucks; /* their surfaces come after those of contacts */
-    size_t n_puck_symbols;     /* their symbols, k + 1 of each */
-    qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
-    qdot_vec(qdot_expr) roots; /* the expressions that contain the atoms */
-    qdot_gates gates; /* of the roots, and of the u of the surfaces */
-    qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
+    qdot_vec(qdot_puck) pucks; /* pucks; their surfaces come after the contacts' */
+    size_t n_puck_symbols;     /* number of symbols of all pucks, k + 1 for each */
+    qdot_vec(qdot_expr) atoms; /* the functions that switch (abs, sign ...), nested ones first */
+    qdot_vec(qdot_expr) roots; /* the expressions that contain switching functions */
+    qdot_gates gates; /* gates of `roots` and of the functions u of the surfaces */
+    qdot_expr mass, forcing; /* M and f of M q'' = f with their switching functions and parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
                         NIL: none */
 } qdot_switches;

@@ -19,12 +19,12 @@ typedef struct {
     qdot_pool *pool;
     size_t n;
     const qdot_expr *targets;
-    qdot_expr *unknown; /* [n] symbols */
-    qdot_expr *after;   /* [n] the values that `then` gives the targets */
-    qdot_expr *before;  /* [n] what they are; NIL: not found yet */
-    qdot_expr f;        /* of the unknowns */
-    bool forgot;        /* f has been used as the equation of one of them */
-    qdot_expr image;    /* an expression that is 0 at states that the event may have left */
+    qdot_expr *unknown; /* [n] symbols for the values before the event */
+    qdot_expr *after;   /* [n] values after the event, in terms of `unknown` */
+    qdot_expr *before;  /* [n] the solution: values before the event; nil: not found yet */
+    qdot_expr f;        /* the event's function in terms of the unknowns, 0 before the event */
+    bool forgot;        /* f = 0 was used to determine one of the unknowns */
+    qdot_expr image;    /* an expression that is 0 at every state after the event */
 } undoing;
 
 static bool

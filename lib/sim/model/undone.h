@@ -16,9 +16,9 @@
 #include "normal/field/facts.h"
 
 typedef struct {
-    qdot_expr function; /* 0 at states that the event leaves behind; NIL: no such function is known */
-    qdot_expr *values;  /* [n] the targets before the event, as expressions of the state after it; owned */
-    const char *why;    /* why the values before cannot be known; NULL: they are */
+    qdot_expr function; /* 0 at states just after the event; nil: no such function is known */
+    qdot_expr *values;  /* [n] values before the event in terms of the state after it; owned */
+    const char *why;    /* why these values cannot be determined; NULL: they are known */
 } qdot_undone;
 
 /* Find what undoes the event f = 0 then targets[i] = values[i], i < n; all in the same symbols. Errors: those of the pool,

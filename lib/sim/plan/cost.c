@@ -21,9 +21,9 @@ enum {
 };
 
 typedef struct {
-    double start[FEATURES]; /* c[0] */
-    double order[FEATURES]; /* c[1] */
-    double pair[FEATURES];  /* c[2] */
+    double start[FEATURES]; /* coefficients of c[0], the cost independent of the order */
+    double order[FEATURES]; /* coefficients of c[1], the cost proportional to the order */
+    double pair[FEATURES];  /* coefficients of c[2], the cost proportional to the order squared */
 } model;
 
 /* The cost of M q'' = f by kernels, which was measured first; costs of other forms are relative to it. */
@@ -220,7 +220,7 @@ qdot_cost_constrained(const qdot_plan *p, const qdot_work *w)
     qdot_ode_cost c = {0};
 
     model_apply(w->inverted ? &constrained_inverse : &constrained_factor, w, c.kernels);
-    if (w->inverted) /* a solution by the factor for each column */
+    if (w->inverted) /* the inverse costs one solution for each column */
         c.kernels[0] += 2.5 * w->filled * w->unknowns;
     c.kernels[0] += qdot_cost_projection(p);
     return c;

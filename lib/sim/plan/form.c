@@ -62,7 +62,7 @@ typedef struct {
     qdot_ode_cost cost;
     qdot_work work;
     double convolutions;
-    size_t nodes; /* along a tree */
+    size_t nodes; /* number of nodes of the tree, for QDOT_FORM_TREE */
     bool is_path;
 } candidate;
 
@@ -254,7 +254,7 @@ qdot_plan_choose_constrained(qdot_plan *p, const qdot_run_request *request)
     double least;
 
     QDOT_TRY(measure_constrained(p));
-    if (request->digits > 0 || p->n_massless > 0) /* other forms need an invertible M */
+    if (request->digits > 0 || p->n_massless > 0) /* digits or massless coordinates: other forms need an invertible M */
         return QDOT_OK;
     own = p->expansions;
     least = qdot_cost_constrained_steps(p, &own, request->tol);

@@ -9,13 +9,13 @@ enum { MOST = 4 };
 
 typedef struct {
     qdot_plan *plan;
-    qdot_run_treatment treatment; /* as asked for */
+    qdot_run_treatment treatment; /* treatment of constraints that was requested */
     double tol;
-    qdot_expr *start; /* [2n + 1] q0, v0, t0 */
+    qdot_expr *start; /* [2n + 1] start q0, v0, t0 for which the plan was made */
 } kept_plan;
 
 typedef struct {
-    uint64_t version; /* of the scene */
+    uint64_t version; /* version of the scene for which the plans were made */
     size_t n;
     kept_plan at[MOST];
 } kept_plans;

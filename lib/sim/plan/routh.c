@@ -29,16 +29,16 @@ static const double harmless = 4, roundings = 64;
 typedef enum { PUT_IN, HELD, SIMPLIFIED, WAYS } way;
 
 typedef struct {
-    qdot_plan *p; /* borrowed */
+    qdot_plan *p; /* the plan with all coordinates; borrowed */
     qdot_scene *scene;
     const qdot_run_request *request;
     qdot_pool *pool;
     qdot_facts facts;
     size_t n, h;
-    bool *cyclic;         /* [n] */
+    bool *cyclic;         /* [n] the coordinate is cyclic */
     bool *gone;           /* [n] the velocity of the coordinate is eliminated */
     size_t *order;        /* [h] coordinates in the order of elimination */
-    qdot_expr *M, *f;     /* [n x n], [n] after the eliminations so far */
+    qdot_expr *M, *f;     /* M [n x n] and f [n] after the eliminations so far */
     qdot_expr *kept;      /* [n] the symbol of the momentum p_c */
     qdot_expr *momentum;  /* [n] dL/dq_c' */
     qdot_expr *rest;      /* [n] p_c - b_c after the eliminations so far */

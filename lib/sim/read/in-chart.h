@@ -12,10 +12,10 @@
 typedef struct {
     qdot_run *run;
     size_t m;
-    double t;             /* of the stretch */
-    qdot_expr *exprs;     /* [m] */
-    bool turns;           /* one holds an angle outside of sin and cos, or a sign */
-    const long *quarters; /* from which that is counted; borrowed */
+    double t; /* a time for which the expressions are valid; they are for its whole stretch */
+    qdot_expr *exprs;     /* [m] the expressions in the coordinates of the run */
+    bool turns;           /* one contains an angle outside of sin and cos, or a sign */
+    const long *quarters; /* quarter turns from which these angles are counted; borrowed */
 } qdot_in_chart;
 
 /* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading;

@@ -24,7 +24,7 @@ qdot_run_has_event(const qdot_run *run, const char *name)
 /* The times of a course's occurrences event by event: those of event e are t[first[e]] to
  * t[first[e + 1] - 1], in their order. */
 typedef struct {
-    size_t *first; /* [events + 1] */
+    size_t *first; /* [events + 1] index of each event's first occurrence */
     double *t;
 } by_event;
 

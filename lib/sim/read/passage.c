@@ -62,7 +62,8 @@ read_side(qdot_run *run, qdot_expr e, double t, double h, int sign, double *valu
             at[n] = j;
             times[n++] = qdot_chebyshev_place(t - h, t + h, qdot_chebyshev_node(NODES, j));
         }
-    QDOT_TRY(qdot_run_chart_quarters(run, times[0], &quarters)); /* the turns of the chart's angles on this side */
+    /* full turns of the chart's angles on this side of the singularity */
+    QDOT_TRY(qdot_run_chart_quarters(run, times[0], &quarters));
     QDOT_TRY(qdot_in_chart_values(run, 1, &e, &(qdot_exact_times){n, times, NULL}, read, errors));
     for (size_t i = 0; i < n; i++) {
         values[at[i]] = read[i];
@@ -80,7 +81,7 @@ find_extrema(const double *c, double middle, int sign, qdot_passage *p)
 
     qdot_chebyshev_derivative(NODES, c, slope);
     n = qdot_chebyshev_crossings(NODES - 1, slope, roots);
-    n = n > 0 ? n : 0; /* values that are not finite have no extrema */
+    n = n > 0 ? n : 0; /* none if a value is not finite */
     p->most = -INFINITY;
     p->least = INFINITY;
     for (int i = 0; i < n + 2; i++) {

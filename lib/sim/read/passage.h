@@ -13,7 +13,7 @@
 #include "sim/read/in-chart.h"
 
 typedef struct {
-    double beyond; /* the other end of the interval covered */
+    double beyond; /* end of the covered interval on the other side of the singularity */
     double most, least, error;
 } qdot_passage;
 

@@ -24,36 +24,36 @@ typedef struct {
     qdot_reader reader;
     qdot_polynomial_bounds bounds;
     qdot_range_kind kind;
-    const size_t *pieces;     /* of the courses, in this step */
+    const size_t *pieces;     /* index of the present piece of each course */
     int nodes;
-    double first;             /* the value where the range begins */
+    double first;             /* the value at the start of the range */
     double largest, smallest; /* the extrema found so far */
     long double integral;
     double highest, lowest;   /* bounds for values that were not evaluated */
-    double rough;             /* error of the values */
-    double sure[2];           /* lower bound of the largest, upper bound of the smallest value */
-    double left;              /* error of the integral from parts without a good polynomial */
-    double noise;             /* evaluation noise in this step */
-    double blur;              /* change of e by a change of the state within its accuracy there */
-    double *least;            /* [inputs of the tape] sizes beside which they are rounding */
-    size_t parts;             /* the number of parts of this step so far */
+    double rough;             /* error bound of the values */
+    double sure[2];           /* the maximum is at least sure[0], the minimum at most sure[1] */
+    double left;              /* bound for the integral over parts that no polynomial fits */
+    double noise;             /* evaluation noise of the expression in this step */
+    double blur;              /* change of the expression by errors of the state in this step */
+    double *least;            /* [inputs] inputs smaller than this are rounding errors */
+    size_t parts;             /* number of parts into which this step has been divided */
     size_t most_parts;        /* limit of `parts`: lowered after a step that exceeded it */
     double typical;           /* size of the values in this step */
-    double length;            /* of this step */
-    bool above, below;        /* e is unbounded above, below, at the time `pole` */
-    bool diverges;            /* the integral of the expression is infinite, too */
+    double length;            /* length of this step */
+    bool above, below;        /* the expression is unbounded above, below, at the time `pole` */
+    bool diverges;            /* its integral is infinite, too */
     double pole;
     bool sought; /* qdot_range_seek was called in this step */
     bool begun;
-    bool open;   /* e has no bound at all somewhere */
-    bool odd[2]; /* equations switch at the step's start, end: sign(0) is not the limit */
-    double ends[2]; /* of this step */
+    bool open;   /* the expression is nowhere bounded in some interval */
+    bool odd[2]; /* equations switch at the step's start, end: sign(0) there is not the limit */
+    double ends[2]; /* start and end of this step */
 } qdot_range_scan;
 
 typedef struct {
     double a, b;
     int n;
-    double tail; /* size of the last coefficients; INFINITY before they are known */
+    double tail; /* size of the last coefficients; INFINITY: not computed */
     bool rough;  /* accepted although its coefficients do not vanish */
     double values[QDOT_CHEBYSHEV_MOST], c[QDOT_CHEBYSHEV_MOST];
 } qdot_range_part;

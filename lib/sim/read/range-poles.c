@@ -27,7 +27,7 @@ bounded(qdot_range_scan *s, const qdot_range_part *p)
 
     if (s->typical > 0)
         return beyond_bounds * s->typical;
-    for (int side = -1; side <= 1; side += 2) { /* 0 elsewhere: what it grows by towards here */
+    for (int side = -1; side <= 1; side += 2) { /* near the pole, growth towards it; elsewhere 0 */
         double t = p->a + side * far_beside * (p->b - p->a), v;
 
         if (fmin(s->ends[0], s->ends[1]) <= t && t <= fmax(s->ends[0], s->ends[1])

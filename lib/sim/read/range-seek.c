@@ -14,7 +14,7 @@ size_of(const qdot_range_scan *s)
 {
     const double size = fmax(fabs(s->largest), fabs(s->smallest));
 
-    return isfinite(size) ? size : 0; /* none was met yet */
+    return isfinite(size) ? size : 0; /* no value has been found yet */
 }
 
 static double

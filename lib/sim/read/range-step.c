@@ -37,10 +37,10 @@ typedef qdot_range_part part;
 
 /* What the values at the nodes of an interval show about it. */
 typedef enum {
-    ROUGH,     /* no polynomial fits the values */
-    UNSURE,    /* one fits, but a peak may hide between the nodes */
-    SINGULAR,  /* one fits, but a part of the expression may be singular */
-    HOLLOW,    /* likewise, on a part so short that this may be rounding */
+    ROUGH,     /* no polynomial fits the values at the nodes */
+    UNSURE,    /* a polynomial fits, but a peak may hide between the nodes */
+    SINGULAR,  /* a polynomial fits, but a part of the expression may be singular */
+    HOLLOW,    /* as SINGULAR, on an interval so short that it may be rounding */
     SURE,
     SURPASSED, /* no value on the part exceeds those found elsewhere */
 } verdict;
@@ -181,7 +181,7 @@ bound_blurred(scan *s, const part *p, double low, double high)
 
         if (status != QDOT_OK && !qdot_reader_has_nothing(status))
             return status;
-        if (status != QDOT_OK || !good) /* one of them may be where there is no value */
+        if (status != QDOT_OK || !good) /* undefined at one of the states */
             QDOT_TRY(fit(s, &finer, p->n, &good));
         qdot_polynomial_bounds_look(&s->bounds, p->a, p->b, finer.n, NULL, NULL);
     }

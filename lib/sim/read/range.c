@@ -30,7 +30,7 @@ typedef qdot_range_scan scan;
 typedef struct {
     const qdot_run_expression *x;
     qdot_range_kind kind;
-    double from, to; /* in the direction of the runs */
+    double from, to; /* limits of the range, in the direction of the runs */
     qdot_joint joint;
 } question;
 

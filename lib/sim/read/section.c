@@ -23,7 +23,7 @@ static const double slope_over = 0x1p-28;
 typedef struct {
     const qdot_course *course;
     qdot_crossings at;
-    double *t; /* the times of the crossings */
+    double *t; /* [at.n] times of the crossings */
     double lost;
     qdot_reader reader;
 } side;
@@ -31,10 +31,10 @@ typedef struct {
 typedef struct {
     qdot_run *run;
     const qdot_section_of *of;
-    qdot_reading reading; /* of the expressions */
-    side sides[3];        /* the run and its companions */
+    qdot_reading reading; /* reads the expressions along the runs */
+    side sides[3];        /* crossings of the run and of its companions */
     size_t n_sides;
-    double *work; /* [3 m] */
+    double *work; /* [3 m] scratch */
 } section;
 
 void
@@ -230,7 +230,8 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
         x.sides[i].course = courses[i];
         x.n_sides = i + 1;
         status = find_crossings(&x, &x.sides[i], limits);
-        if (i > 0 && qdot_reader_has_nothing(status)) { /* the companion has no value here: it gives no error */
+        /* the companion has no value here, so it gives no error estimate */
+        if (i > 0 && qdot_reader_has_nothing(status)) {
             x.n_sides = 1;
             status = QDOT_OK;
             break;

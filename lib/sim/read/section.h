@@ -15,17 +15,17 @@
 
 typedef struct {
     qdot_expr g;
-    int way; /* 1, -1: g rises, falls as t grows; 0: either, and where it touches 0 */
+    int way; /* as t grows g 1 rises, -1 falls; 0: both, and touches */
     size_t m;
-    const qdot_expr *exprs; /* [m] */
-    const double *limits;   /* [2] of the times; NULL: the whole run */
+    const qdot_expr *exprs; /* [m] expressions to evaluate at the crossings */
+    const double *limits;   /* [2] limits of time; NULL: the whole run */
 } qdot_section_of;
 
 typedef struct {
-    size_t n, m;     /* crossings, in the order of the run; numbers of each */
-    double *t, *t_errors;    /* [n] */
-    double *values, *errors; /* [n x m] NaN: undefined there; its error is unknown */
-    double lost; /* from then on crossings are not known (sim/course/crossings.h); NaN: all are */
+    size_t n, m;     /* number of crossings, in the order of the run; of expressions */
+    double *t, *t_errors;    /* [n] times of the crossings and their errors */
+    double *values, *errors; /* [n x m] values and their errors; NaN: undefined, error unknown */
+    double lost; /* time from which crossings are unknown (sim/course/crossings.h); NaN: all are known */
 } qdot_section;
 
 /* Start from {.lost = NAN}; clear it in any case. QDOT_EDOMAIN: g is undefined somewhere; QDOT_ENOTBUILT: a run

@@ -12,13 +12,13 @@
 
 typedef struct {
     size_t n;
-    const qdot_course *const *courses; /* [n] borrowed */
+    const qdot_course *const *courses; /* [n] the courses; borrowed */
     double from, to;
-    qdot_vec(double) times; /* where stretches begin and end, ascending */
+    qdot_vec(double) times; /* boundaries of all stretches, ascending */
     size_t next;
-    double a, b;    /* the stretch, in the direction of the range */
-    bool odd[2];    /* at a, b: the equations of a course switch, but its state does not jump */
-    size_t *pieces; /* [n] the piece of each course that holds the stretch */
+    double a, b;    /* the present stretch a ... b, in the direction of the range */
+    bool odd[2];    /* at a, at b: equations of a course switch while its state is continuous */
+    size_t *pieces; /* [n] index of the piece of each course that contains the stretch */
 } qdot_stretches;
 
 /* Prepare to go through the intervals between points in from ... to. QDOT_ENOMEM; clear s in any case. */

@@ -40,7 +40,7 @@ measure_start(const qdot_scene *s, const qdot_run_request *request, const qdot_r
 
     QDOT_TRY(qdot_chart_start_sign(s, request, distance, &x->sign, &value));
     x->least = fabs(value);
-    x->most = run ? x->least : 1; /* M, singular in doubles, has told that it is near */
+    x->most = run ? x->least : 1; /* no run: M was singular in doubles, so the place is near */
     return QDOT_OK;
 }
 
@@ -51,7 +51,7 @@ measure_at(qdot_reader *r, double t, double *before, nearness *x)
     const qdot_status status = qdot_reader_at(r, SIZE_MAX, t, &value);
 
     if (qdot_reader_has_nothing(status)) {
-        x->least = 0; /* the run is at a place where M is singular */
+        x->least = 0; /* undefined: the run is at a place where M is singular */
         return QDOT_OK;
     }
     QDOT_TRY(status);

@@ -56,14 +56,14 @@ qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarter
 typedef struct {
     qdot_run_chart *x;
     qdot_reader reader;
-    size_t m, n;  /* moved coordinates, signs */
+    size_t m, n;  /* number of replaced coordinates; of signs */
     double *xy;   /* [4 m + 2 n] x, y of the angles with all signs 1, -1; then the roots w, and
                      the squares of their slopes */
-    double *now;  /* [m] the angles at `t`, continued, */
+    double *now;  /* [m] the angles at time t, continued without jumps */
     double *next; /* [m] the angles at the next point */
-    double *most; /* [m + n] the largest distance so far, or slope of a root */
-    long *signs;  /* [n] at `t` */
-    uint64_t passed; /* those whose place is passed, at the next point */
+    double *most; /* [m + n] largest distance so far; largest slope of each root */
+    long *signs;  /* [n] the signs at time t */
+    uint64_t passed; /* bits: signs whose singular place is passed at the next point */
     double t;
 } following;
 
@@ -433,7 +433,7 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     if (!isnan(r->error))
         r->error = largest;
     r->scaled_error = r->error;
-    r->scales = NULL; /* they are of the coordinates of the chart */
+    r->scales = NULL; /* the scales belong to coordinates of the chart */
     r->n = x->n;
     r->coordinates = x->coordinates;
     r->q = x->end;
@@ -441,7 +441,7 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     r->drifts = run->drifts.at;
     r->n_drifts = run->drifts.energy ? 1 : 0;
     r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
-    r->m = r->independent = 0; /* only the chart has these constraints */
+    r->m = r->independent = 0; /* these constraints exist only in the chart */
     r->constraint_drift = r->velocity_drift = NAN;
     return QDOT_OK;
 }

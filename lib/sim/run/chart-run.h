@@ -20,24 +20,24 @@
 /* A time from which on angles are counted from a given number of quarter turns, with constant signs. */
 typedef struct {
     double t;
-    uint64_t passed; /* signs whose place is passed exactly at t, bit by bit */
-    size_t quarters; /* index of the first of qdot_run_chart.quarters, then the signs */
+    uint64_t passed; /* bits: signs whose singular place is passed exactly at t */
+    size_t quarters; /* index in qdot_run_chart.quarters of the first number of quarter turns; signs follow */
 } qdot_chart_stretch;
 
 typedef struct qdot_run_chart {
     qdot_chart chart;         /* its scene is that of the run, without a collision; else it may be one in
                                  which nothing is moved */
-    qdot_collision collision; /* its scene, if there is one, is that of the run */
-    qdot_expr energy;       /* of the given scene: its values are those of collision.energy; or nil */
-    size_t n;               /* coordinates of the scene given */
-    qdot_expr *coordinates; /* [n] */
-    double *angles;         /* [moved] at the start, as given */
-    double *end;   /* [2n] the end state in the coordinates given; NaN: undefined there */
-    bool at_place;         /* the run begins at a singular place */
-    bool followed; /* the stretches are known: */
+    qdot_collision collision; /* a regularised collision; its scene, if any, is that of the run */
+    qdot_expr energy;       /* energy in the given scene, equal to collision.energy; nil: none */
+    size_t n;               /* number of coordinates of the given scene */
+    qdot_expr *coordinates; /* [n] coordinates of the given scene */
+    double *angles;         /* [moved] angles at the start, as given */
+    double *end;   /* [2n] end state in the given coordinates; NaN: undefined there */
+    bool at_place;         /* the run starts at a singular place */
+    bool followed; /* `stretches` has been computed */
     bool crosses;  /* a root passed a place where its surface w^2 = P crosses itself */
     bool changes;  /* a sign has changed at a singular place passed exactly */
-    qdot_vec(qdot_chart_stretch) stretches; /* in the direction of the run */
+    qdot_vec(qdot_chart_stretch) stretches; /* intervals of time with constant signs and quarter turns, in order of the run */
     qdot_vec(long) quarters;
 } qdot_run_chart;
 

@@ -46,7 +46,7 @@ static const double lengths[] = {8, 1e5};
 /* A scene without polar coordinates, in which colliding pairs are sought. */
 typedef struct {
     qdot_run_chart *x;
-    qdot_scene *scene; /* x->chart.scene, or the one given */
+    qdot_scene *scene; /* x->chart.scene, or the given scene */
     const qdot_run_request *request;
     qdot_expr *accels;
     qdot_collision_equations of;
@@ -187,7 +187,7 @@ pair_measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr
     qdot_free(values);
     *near = status == QDOT_EDOMAIN
                 ? 0
-                : least / most; /* it cannot be said at the place itself */
+                : least / most; /* undefined at the singular place itself */
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
@@ -251,11 +251,11 @@ at_start(const ground *g, qdot_expr e)
 
 /* A run with independent variable s: its length, start and scales. */
 typedef struct {
-    size_t n;         /* coordinates */
-    double T, R, k;   /* the time, R at the start */
-    double length;    /* of s */
-    qdot_expr *start; /* [2n] q, then q' */
-    double *scales;   /* [2n] */
+    size_t n;         /* number of coordinates */
+    double T, R, k;   /* duration T; distance R at the start; strength k */
+    double length;    /* length of the run in s */
+    qdot_expr *start; /* [2n] start q, then q' */
+    double *scales;   /* [2n] scales of q, then q' */
 } attempt;
 
 /* What the motion is about: u at the start and at the collision, the times, velocities and energies of

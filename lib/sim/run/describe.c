@@ -40,7 +40,7 @@ static void
 say_mass(const qdot_plan *p, qdot_text *out)
 {
     const char *when = p->method->series ? "once a step" : "at every evaluation";
-    const size_t n = p->n - p->n_kept - p->n_states; /* a parameter is a block of its own */
+    const size_t n = p->n - p->n_kept - p->n_states; /* without parameters, each of which is a block of its own */
     const size_t blocks = p->structure.blocks - p->n_states;
     size_t single = 0, constant = 0, largest = 0;
 
@@ -97,7 +97,7 @@ say_time(const qdot_plan *p, qdot_text *out)
     bool time = false;
 
     for (size_t i = 0; i < p->n && !p->M; i++)
-        time |= holds_time(p, p->residual->applied[i]); /* places do not */
+        time |= holds_time(p, p->residual->applied[i]); /* positions do not depend on t */
     for (size_t i = 0; i < p->n && p->M; i++) {
         time |= holds_time(p, p->f[i]);
         for (size_t j = 0; j < p->n; j++)

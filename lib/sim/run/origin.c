@@ -16,7 +16,7 @@ static const double far = 1024;
 
 typedef struct {
     qdot_pool *pool;
-    qdot_expr time; /* t in terms of s */
+    qdot_expr time; /* the expression for t in terms of s */
     bool found;
 } writing;
 

@@ -13,11 +13,11 @@
 
 /* A request that counts time from the start, as s. Start from {0}. */
 typedef struct {
-    qdot_run_request request; /* borrows from the one asked for */
-    double origin;            /* 0: nothing was done */
-    qdot_scene *scene;        /* written in s; NULL: t does not stand in it */
+    qdot_run_request request; /* the request in s; borrows from the given one */
+    double origin;            /* the time at s = 0; 0: nothing was changed */
+    qdot_scene *scene;        /* the scene in terms of s; NULL: t does not occur in it */
     qdot_scene_saved saved;
-    qdot_expr *values; /* of parameters, then of what events set, as it was */
+    qdot_expr *values; /* the original values of parameters and of assignments of events */
 } qdot_origin;
 
 /* Rewrite scene and request; call _end in any case. Errors: those of constants, QDOT_ENOMEM. */

@@ -62,7 +62,7 @@ read_apart(qdot_run *run, const qdot_run_request *request)
     run->apart = qdot_calloc(4 * n + 1, sizeof *run->apart);
     if (run->apart == NULL)
         return QDOT_ENOMEM;
-    for (size_t part = 0; part < 4; part++) /* q and q' of the first, then of the second */
+    for (size_t part = 0; part < 4; part++) /* q and q' of the first shifted start, then of the second */
         for (size_t i = 0; i < named; i++)
             run->apart[part * n + i] = request->apart[part * named + i];
     return QDOT_OK;
@@ -136,7 +136,8 @@ settle_and_check(qdot_run *run, qdot_scene *scene, const qdot_run_request *reque
         memcpy(said + 2 * n, run->start_low, 2 * n * sizeof *said);
         status = settle_start(run, scene, request, &run->stage.domains);
     }
-    if (status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches)) { /* on the sides of now */
+    /* for the sides of switches at the start */
+    if (status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches)) {
         qdot_text_truncate(&run->notice, words);
         memcpy(run->start, said, 2 * n * sizeof *said);
         status = qdot_start_settle(scene, run->plan, request, &run->stage.domains, run->start, run->start_low, &run->notice);

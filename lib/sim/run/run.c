@@ -235,7 +235,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                              run->start);
     qdot_ode_meter_end(&run->meter);
     *interrupted = status == QDOT_EINTR;
-    run->factored = 0; /* reading the run factors, too */
+    run->factored = 0; /* reset: reading the run factors matrices, too */
     for (size_t i = 0; i < run->course.binds.n; i++)
         if (run->course.binds.at[i])
             run->factored += qdot_bind_factored(run->course.binds.at[i]);
@@ -473,7 +473,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->stage, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_energy(run, tol);
-    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* the run has got somewhere: report that part */
+    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* interrupted: report the part of the run that exists */
         *interrupted = true;
         status = QDOT_OK;
     }
@@ -499,7 +499,7 @@ foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
     QDOT_TRY(qdot_long_run_tolerance(&it, better));
     if (*better != tol)
         QDOT_TRY(qdot_mech_energy_conserved(scene, &conserved));
-    if (!conserved) /* nothing to keep */
+    if (!conserved) /* energy is not conserved: nothing to preserve */
         *better = tol;
     return QDOT_OK;
 }
@@ -686,7 +686,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         && qdot_run_time_begin(*out, origin.origin) == QDOT_ENOMEM)
         status = QDOT_ENOMEM;
     qdot_origin_end(&origin);
-    if (status == QDOT_ENOMEM) { /* of a run that was to be made once more, too */
+    if (status == QDOT_ENOMEM) { /* also for memory that ran out during a repetition */
         qdot_run_free(*out);
         *out = NULL;
     }

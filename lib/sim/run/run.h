@@ -27,9 +27,9 @@
 QDOT_MUST_CHECK qdot_status qdot_run_new(qdot_scene *scene, const qdot_run_request *request,
                                          qdot_run **run);
 void qdot_run_free(qdot_run *run);
-size_t qdot_run_bytes(const qdot_run *run); /* memory of the stored points, about */
+size_t qdot_run_bytes(const qdot_run *run); /* memory used by the stored points, in bytes, approximately */
 const qdot_run_report *qdot_run_get_report(const qdot_run *run);
-double qdot_run_requested_end(const qdot_run *run); /* the second limit, reached or not */
+double qdot_run_requested_end(const qdot_run *run); /* the requested end time, reached or not */
 
 /* How far both companions of the run end from where it ends, apart [2 x 2n] like report->q, then report->v: by this much
  * companions of a run from there start aside, so that its error holds that of this one. *known: false where their ends say
@@ -97,10 +97,10 @@ typedef struct {
 } qdot_run_member;
 
 typedef struct {
-    qdot_expr e; /* without members: all of it is along runs[0] */
+    qdot_expr e; /* the expression; without members it is read along runs[0] */
     size_t n, m;
-    qdot_run *const *runs;          /* [n], all different */
-    const qdot_run_member *members; /* [m], with what moves beside those of named runs */
+    qdot_run *const *runs;          /* [n] the runs, all different */
+    const qdot_run_member *members; /* [m] values along named runs in e; includes unnamed varying symbols */
 } qdot_run_expression;
 
 /* As qdot_run_range, for an expression of several runs; range [2], NULL: all times that the runs

@@ -122,7 +122,7 @@ find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
             largest = fmax(largest, found[n + i]);
         }
     }
-    if (largest == 0 && least_asked < INFINITY) /* it says little of others, such as slopes beside the motion */
+    if (largest == 0 && least_asked < INFINITY) /* zero velocity at rest says little about other scales */
         largest = fmin(least_asked, 1);
     for (size_t i = 0; i < n; i++)
         if ((found[i] > 0 || slow) && found[n + i] == 0)

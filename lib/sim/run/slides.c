@@ -13,7 +13,7 @@ enum { MOST_LISTED = 3 };
 /* A time span in which the motion was held on a surface. */
 typedef struct {
     double begin, end;
-    double unsure; /* of the begin, beside what companions tell */
+    double unsure; /* additional uncertainty of `begin`, beyond that from companions */
 } stretch;
 
 typedef qdot_vec(stretch) stretches;
@@ -201,7 +201,7 @@ is_read(const qdot_run *run, size_t surface)
 
     for (size_t k = 0; k < run->course.tr.pieces.n; k++)
         slid = slid || slides(&run->course, k, surface);
-    return slid && !at->contact && !(at->layer > 0); /* the powers of a layer are 0 at u = 0 */
+    return slid && !at->contact && !(at->layer > 0); /* not for layers, whose powers are 0 at u = 0 */
 }
 
 /* Values are read by these sides. Where there are none the plan stays as it is: without switches other runs hold it

@@ -15,9 +15,9 @@
 enum { QDOT_GIVEN_BITS = 256 };
 
 typedef struct {
-    size_t n; /* 2n of the plan */
+    size_t n; /* length of the state: 2n for n coordinates */
     const qdot_plan *plan;
-    arb_ptr at; /* [n] q, q' */
+    arb_ptr at; /* [n] start values of q, q' as balls */
 } qdot_given;
 
 /* Set up the start y + low [2n] of a request as balls. Clear g in any case. */

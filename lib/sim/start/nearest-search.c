@@ -14,30 +14,30 @@
 enum { MOST_NEWTON = 100, MOST_SLIDES = 200, MOST_POLISH = 12 };
 
 /* Distances below are relative to 1 + |x|. */
-static const double on_it = 1e-8;   /* F = 0 is met: what is left is for balls */
-static const double alike = 1e-6;   /* points nearer than this are one */
-static const double as_near = 1e-9; /* distances nearer than this are equal */
+static const double on_it = 1e-8;   /* F = 0 is met within this; the exact test uses balls */
+static const double alike = 1e-6;   /* points nearer to each other than this are the same */
+static const double as_near = 1e-9; /* distances that differ by less than this are equal */
 
 /* A gradient below this fraction of the largest one that its row has had is rounding. */
 static const double rounding = 1e-13;
 
 typedef struct {
     qdot_nearest *p;
-    size_t n;         /* free unknowns */
-    size_t *index;    /* [n] */
-    const double *W;  /* of all unknowns; NULL: 1 */
-    double *C;        /* [n * n] W = C C^T of the free ones, NULL: 1 */
+    size_t n;         /* number of free unknowns */
+    size_t *index;    /* [n] index of each free unknown */
+    const double *W;  /* weights of all unknowns; NULL: all 1 */
+    double *C; /* [n x n] Cholesky factor of the weights, W = C C^T, of free unknowns; NULL: 1 */
     qdot_row_space rows;
-    double *B;        /* [m * n] rows C^-1 A_k */
+    double *B;        /* [m x n] rows C^-1 A_k */
     double *size;     /* [m] |A_k| */
-    double *widest;   /* [m] the largest so far, of rows that are not linear */
-    double *b;        /* [m] */
-    double *lambda;   /* [m] */
-    double *centre;   /* [inputs] */
-    double *step;     /* [n] */
-    double *away;     /* [n] C^T (x - a) */
-    double *from, *slid, *kept; /* [inputs] */
-    double *curvature; /* [curves] */
+    double *widest;   /* [m] largest |A_k| so far, of nonlinear rows */
+    double *b;        /* [m] right sides */
+    double *lambda;   /* [m] Lagrange multipliers */
+    double *centre;   /* [inputs] the given point, from which distances are measured */
+    double *step;     /* [n] Newton step */
+    double *away;     /* [n] C^T (x - centre) */
+    double *from, *slid, *kept; /* [inputs] scratch: saved points */
+    double *curvature; /* [curves] values of the second derivatives */
     double *curved_work;
 } search;
 
@@ -73,7 +73,7 @@ search_evaluate(search *s, const double *at, bool measure)
 
         if (measure)
             measure_row(s, k, qdot_nearest_length(A + k * p->n, p->n));
-        if (!isfinite(s->size[k])) /* no slope: nothing is near */
+        if (!isfinite(s->size[k])) /* the gradient is not finite: no zero nearby */
             sum = INFINITY;
         else if (F != 0)
             sum += (F / s->size[k]) * (F / s->size[k]);
@@ -381,7 +381,7 @@ newton_to_nearest(search *s, double *at)
         if (!isfinite(search_evaluate(s, at, true)) || step < 1e-16)
             break;
     }
-    if (last > 1e-6 && last < 1e-2) /* it went somewhere else */
+    if (last > 1e-6 && last < 1e-2) /* converged to another point */
         memcpy(at, s->kept, p->inputs * sizeof *at);
     qdot_free(K);
     return status;

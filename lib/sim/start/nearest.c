@@ -199,7 +199,7 @@ qdot_nearest_distance(qdot_nearest *p, const double *at, double *distance, doubl
 typedef struct {
     qdot_row_space rows;
     double *F, *A, *step;
-    size_t *index, n; /* the free unknowns */
+    size_t *index, n; /* [n] indices of the free unknowns */
 } refinement;
 
 static qdot_status

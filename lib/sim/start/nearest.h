@@ -24,32 +24,32 @@
 #include "sim/start/given.h"
 
 typedef struct {
-    qdot_pool *pool;         /* borrowed, as all below */
-    size_t inputs;           /* symbols in F: unknowns and given values */
-    const qdot_expr *symbol; /* [inputs] */
-    size_t first, n;         /* the unknowns are symbol[first ... first + n) */
+    qdot_pool *pool;         /* pool of the expressions; borrowed, as the fields below */
+    size_t inputs;           /* number of symbols in F: unknowns and given values */
+    const qdot_expr *symbol; /* [inputs] these symbols */
+    size_t first, n;         /* the unknowns are symbol[first] ... symbol[first + n - 1] */
     size_t m;
-    const qdot_expr *F; /* [m] */
-    const qdot_domains *domains; /* of the unknowns; NULL: none */
-    const qdot_given *given;     /* [inputs] the start that is asked for */
+    const qdot_expr *F; /* [m] equations F = 0 */
+    const qdot_domains *domains; /* domains of the unknowns; NULL: none */
+    const qdot_given *given;     /* [inputs] the requested start */
 
     /* Fields set by _begin: */
-    qdot_tape *tape, *curved; /* F and A; second derivatives where there are any */
-    qdot_expr *A;             /* [m * n] */
-    uint32_t *place;          /* [3 * curves] k, i, j of each second derivative */
+    qdot_tape *tape, *curved; /* outputs: F and A = dF/dx; second derivatives, if there are any */
+    qdot_expr *A;             /* [m x n] Jacobian A */
+    uint32_t *place;          /* [3 x curves] k, i, j of each second derivative d2F_k/dx_i dx_j */
     size_t curves;
-    bool curves_known; /* second derivatives are lowered */
+    bool curves_known; /* the tape `curved` has been made */
     bool bent; /* A depends on the unknowns */
-    bool *linear;  /* [m] */
-    double *constant; /* [m + m*n] of linear rows: F where all unknowns are 0, and A */
-    double *value; /* [m + m*n] F and A, of the latest point */
+    bool *linear;  /* [m] F_k is linear in the unknowns */
+    double *constant; /* [m + m*n] for linear rows: F_k at x = 0, and A */
+    double *value; /* [m + m*n] F and A at the latest point */
     double *work;
 } qdot_nearest;
 
 typedef enum {
     QDOT_NEAREST_FOUND,
-    QDOT_NEAREST_NONE,   /* no point was found where F = 0 */
-    QDOT_NEAREST_SEVERAL /* two, equally near */
+    QDOT_NEAREST_NONE,   /* no point with F = 0 was found */
+    QDOT_NEAREST_SEVERAL /* two different points are equally near */
 } qdot_nearest_outcome;
 
 /* Derive A and lower F and A. QDOT_EUNSET names a symbol without a value. */

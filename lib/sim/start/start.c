@@ -13,7 +13,7 @@
 #include "sim/model/constraints.h"
 #include "sim/start/nearest.h"
 
-static const double breaks = 1e-14; /* relative to max(1, |x|) */
+static const double breaks = 1e-14; /* a constraint is violated beyond this error, relative to max(1, |x|) */
 
 enum { MOST_LISTED = 24, MOST_ANSWERED = 4 };
 
@@ -27,12 +27,12 @@ typedef struct {
                       scene's constraints */
     size_t n;
     size_t m;
-    qdot_expr *F;        /* [m] */
-    size_t *constraint;  /* [m] the constraint to which each F belongs */
-    double *distance;    /* [m] |F| at the start as it was given */
-    bool *free;          /* [n] */
+    qdot_expr *F;        /* [m] left sides of the equations */
+    size_t *constraint;  /* [m] index of the constraint to which each F belongs */
+    double *distance;    /* [m] |F| at the requested start */
+    bool *free;          /* [n] may be changed by the solution */
     qdot_nearest near;
-    const double *before; /* [2n] */
+    const double *before; /* [2n] the requested start */
     const qdot_given *given;
 } level;
 

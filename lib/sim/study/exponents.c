@@ -27,11 +27,11 @@ typedef struct {
     const qdot_variation *v;
     const qdot_run_request *request;
     qdot_method_run m;
-    size_t n, k, all;      /* coordinates of the scene; directions; coordinates of both */
-    double *y, *look;      /* [2 all]; room for `pursuit_look` */
-    double t, *sum, *size; /* [k] */
-    double *growth;        /* [windows x k] */
-    bool alone;            /* steps end nowhere but where the integration says */
+    size_t n, k, all; /* number of coordinates of the scene; of tangent directions; of both together */
+    double *y, *look;      /* [2 all] the state; scratch for `pursuit_look` */
+    double t, *sum, *size; /* time; [k] sums of logarithms of growth; [k] lengths of the tangents */
+    double *growth;        /* [windows x k] logarithm of growth in each window */
+    bool alone;            /* the scene alone decides where steps end */
     bool stopped;
     char reason[400]; /* why the integration ended early */
 } pursuit;

@@ -24,15 +24,15 @@
 enum { QDOT_EXPONENTS_WINDOWS = 100 };
 
 typedef struct {
-    bool spectrum; /* in: all of them; else the largest alone */
+    bool spectrum; /* in: compute all exponents; false: only the largest */
 
-    size_t n; /* exponents */
+    size_t n; /* number of exponents */
     double *value,
-        *error; /* [n] in descending order; an error is NaN where the run ended too soon */
-    size_t windows;    /* the number of windows that were completed */
-    double *t;         /* [windows] time since the start, at their ends */
-    double *course;    /* [windows x n] the sums up to there by that time */
-    double steps, cpu; /* of the integration; its CPU seconds */
+        *error; /* [n] exponents in descending order; errors, NaN where the run ended too soon */
+    size_t windows;    /* number of completed windows */
+    double *t;         /* [windows] time since the start at the end of each window */
+    double *course; /* [windows x n] estimates at the end of each window: sum of logarithms / t */
+    double steps, cpu; /* steps of the integration; its CPU seconds */
     bool interrupted;
 } qdot_exponents;
 

@@ -13,7 +13,7 @@
 /* The extremum of an expression e to be found, with e, de/dt and d2e/dt2 along the run. */
 typedef struct {
     qdot_run *run;
-    qdot_range_kind kind; /* QDOT_RANGE_MAX, QDOT_RANGE_MIN */
+    qdot_range_kind kind; /* what is sought: QDOT_RANGE_MAX or QDOT_RANGE_MIN */
     qdot_expr e, rate, bend;
     double from, to;
 } qdot_extremum;

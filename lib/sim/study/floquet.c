@@ -40,15 +40,15 @@ typedef struct {
     qdot_scene *scene;
     qdot_run *run;
     const qdot_run_request *request;
-    qdot_run_request scaled; /* the same with the sizes of the states as scales */
-    size_t n, K, c;   /* coordinates; segments; multipliers */
+    qdot_run_request scaled; /* `request` with the sizes of the states as scales */
+    size_t n, K, c;   /* number of coordinates, of segments, of multipliers */
     double t0, T;
-    double *states;   /* [most K x 2n] at the beginnings of the segments */
-    double *ends;     /* [most K x 2n x 2n] slopes at their ends by these */
-    double *B, *E;    /* [most K x 2n x 2n] of them, [K x c x c] */
-    double *size;     /* [2n] of the states */
+    double *states;   /* [most K x 2n] states at the starts of the segments */
+    double *ends;     /* [most K x 2n x 2n] derivatives of each segment's end by its start */
+    double *B, *E; /* [most K x 2n x 2n] the same; in a basis of the constraints [K x c x c]; their errors */
+    double *size;     /* [2n] size of each component along the orbit */
     qdot_flow flow;
-    const qdot_variation *v; /* of the flow */
+    const qdot_variation *v; /* equations of the derivatives, owned by `flow` */
 } orbit;
 
 void
@@ -285,7 +285,7 @@ state_trivial(qdot_floquet *x, size_t count)
             }
         }
         if (best == x->n || least > fmax(near_one, 2 * x->error[best]))
-            return; /* none is: all stay as they were found */
+            return; /* no multiplier is near 1: leave all unchanged */
         x->re[best] = 1;
         x->im[best] = x->error[best] = 0;
     }
@@ -310,12 +310,12 @@ floquet_judge(qdot_floquet *x)
     x->verdict = QDOT_FLOQUET_UNDECIDED;
     for (size_t k = 0; k < x->n; k++)
         inside = inside && hypot(x->re[k], x->im[k]) + x->error[k] < 1;
-    x->asymptotic = x->asymptotic || inside; /* exp(c*t)*(T - V) damps too */
+    x->asymptotic = x->asymptotic || inside; /* also damping by a Lagrangian exp(c*t)*(T - V) */
     for (size_t k = 0; k < x->n; k++) {
         const double size = hypot(x->re[k], x->im[k]), error = x->error[k];
 
         if (error == 0)
-            continue; /* 1 whatever the orbit */
+            continue; /* exactly 1 for every orbit */
         if (size - surely * error > 1) {
             x->verdict = QDOT_FLOQUET_UNSTABLE;
             return;
@@ -340,7 +340,7 @@ find_eigenvalues(size_t K, size_t k, const double *B, const double *E, qdot_floq
     if (sum == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < K * kk; i++)
-        sum[i % kk] += fabs(B[i]) + E[i]; /* what is less than its error is no unit */
+        sum[i % kk] += fabs(B[i]) + E[i]; /* scale: an entry below its error must not set the unit */
     qdot_balance(k, sum, unit);
     for (size_t i = 0; i < K * kk; i++) {
         const double by = unit[i % k] / unit[i % kk / k];
@@ -402,7 +402,7 @@ find_multipliers(orbit *o, qdot_floquet *x)
     o->v = qdot_response_variation(o->flow.response);
     driven = holds_time(o);
     QDOT_TRY(qdot_floquet_rests(o->scene, o->run, &rests));
-    if (!rests) /* else its states have no sizes */
+    if (!rests) /* an orbit at rest has no sizes of states */
         QDOT_TRY(qdot_flow_rounding(&o->flow, &of, o->ends, z * z, o->size, o->E));
     return qdot_floquet_of(o->K, o->c, o->B, o->E, driven || rests ? 0 : free ? 2 : 1, !free, x);
 }

@@ -29,12 +29,12 @@ typedef enum {
 } qdot_floquet_verdict;
 
 typedef struct {
-    size_t n; /* multipliers: 2 (n - m) */
+    size_t n; /* number of multipliers: 2 (n - m) */
     double *re, *im,
-        *error;     /* [n] as qdot_eigenvalues_arrange puts them; error 0: exactly this */
-    size_t trivial; /* of them, which are 1 whatever the orbit */
+        *error; /* [n] multipliers re + i im, as qdot_eigenvalues_arrange sorts them; error 0: exact */
+    size_t trivial; /* number of multipliers that are 1 for every orbit */
     bool
-        asymptotic; /* friction, applied forces: stable means that all are within the circle */
+        asymptotic; /* damping or driving: stable means that all multipliers are inside the circle */
     qdot_floquet_verdict verdict;
 } qdot_floquet;
 

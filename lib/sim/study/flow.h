@@ -17,13 +17,13 @@ enum { QDOT_FLOW_LOOKS = 16, QDOT_FLOW_MOST_SEGMENTS = 32 };
 
 /* The flow map of a scene. Do not copy it: the response inside borrows from it. */
 typedef struct {
-    size_t n, z, p, m; /* coordinates, 2n, parameters; expressions: q, q', q'', then one more where there is one */
+    size_t n, z, p, m; /* numbers: coordinates n, z = 2n, parameters p; expressions: q, q', q'', perhaps one more */
     qdot_run_request request;
-    qdot_expr *exprs, *unknowns; /* [m], [z + p] */
+    qdot_expr *exprs, *unknowns; /* [m] expressions, [z + p] unknowns */
     const char **names;
-    double *in;    /* [z + p] */
-    double *value; /* [QDOT_FLOW_LOOKS x m] what was read last, */
-    double *by;    /* [QDOT_FLOW_LOOKS x m x (z + p)] its slopes */
+    double *in;    /* [z + p] values of the unknowns */
+    double *value; /* [QDOT_FLOW_LOOKS x m] values read last */
+    double *by;    /* [QDOT_FLOW_LOOKS x m x (z + p)] their derivatives by the unknowns */
     qdot_response *response;
 } qdot_flow;
 
@@ -55,7 +55,7 @@ QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_orbit(qdot_flow *x, const doub
 typedef struct {
     size_t K;
     double t0, T;
-    const double *first, *others; /* z_0 [z]; z_1 .. z_(K-1) */
+    const double *first, *others; /* start states of the segments: z_0 [z]; z_1 ... z_(K-1) */
     const double *parameters;
 } qdot_flow_orbit;
 

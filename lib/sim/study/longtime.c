@@ -29,8 +29,8 @@ typedef struct {
     qdot_longtime_row *row;
     qdot_ode_meter meter;
     double most_work;
-    uint64_t steps, next, draw; /* the step to be looked at next; for irregular distances */
-    double square;              /* sum of e^2 in the window */
+    uint64_t steps, next, draw; /* steps so far; next step to sample; random state for irregular distances */
+    double square;              /* sum of squared energy errors in the window */
     size_t count, window;
     bool too_much;
 } watched;

@@ -37,17 +37,17 @@ typedef struct {
     const char *method;
     double tol;
     uint64_t steps, evals;
-    double cpu; /* seconds */
-    size_t n;   /* windows */
-    double t[QDOT_LONGTIME_WINDOWS], error[QDOT_LONGTIME_WINDOWS]; /* their ends, less t0; e_k */
-    double largest;              /* |e| met */
-    double growth, growth_error; /* s; NaN: not to be told */
-    char status[300];            /* "done", or "failed: " and why */
+    double cpu; /* CPU seconds of the run */
+    size_t n;   /* number of time windows */
+    double t[QDOT_LONGTIME_WINDOWS], error[QDOT_LONGTIME_WINDOWS]; /* end of each window, minus t0; energy error e_k in it */
+    double largest;              /* largest energy error |e| */
+    double growth, growth_error; /* exponent s of the growth e ~ t^s and its error; NaN: cannot be determined */
+    char status[300];            /* "done", or "failed: " and the reason */
 } qdot_longtime_row;
 
 typedef struct {
-    const char *method; /* the only one; NULL: all */
-    double tol;         /* the tolerance of all methods; 0: each its own */
+    const char *method; /* name of the only method to run; NULL: all methods */
+    double tol;         /* tolerance for all methods; 0: each has its own */
     double budget;      /* largest work of a run, in units of about 1 ns; 0: 1e10, or no limit for a single method */
     size_t n, capacity;
     qdot_longtime_row *rows;

@@ -59,7 +59,7 @@ settle_side(qdot_method_run *m)
 {
     bool anew;
 
-    qdot_bind_free(m->bind); /* it is bound to a plan that may be freed next */
+    qdot_bind_free(m->bind); /* it refers to a plan that may be freed next */
     m->bind = NULL;
     m->held = NULL;
     QDOT_TRY(qdot_stage_settle(&m->stage, m->start, &anew));

@@ -16,13 +16,13 @@
 typedef struct {
     qdot_run_request request;
     qdot_stage stage;
-    qdot_plan *plan; /* the stage's */
+    qdot_plan *plan; /* plan of the first mode; owned by `stage` */
     qdot_bind *bind;
-    qdot_constrained *held; /* NULL: no constraints */
-    bool pieces;            /* events or switches may divide the run */
+    qdot_constrained *held; /* constraints; NULL: none */
+    bool pieces;            /* events or switches may divide the run into pieces */
     double t0, t1, t1_low;
-    double *start, *low, *y; /* [2n] the exact start is start + low; y is work space */
-    qdot_tape *energy;       /* NULL: not conserved, or not asked for */
+    double *start, *low, *y; /* [2n] exact start is start + low; y is scratch */
+    qdot_tape *energy;       /* the energy h; NULL: not conserved, or not requested */
     double *in, *work, energy0;
 } qdot_method_run;
 

@@ -29,11 +29,11 @@ static const char *const names[QDOT_RACE_FORMULATIONS] = {
 
 typedef struct {
     qdot_scene *scene;
-    const qdot_run_request *request; /* as given */
+    const qdot_run_request *request; /* the request for the given coordinates */
     qdot_run *reference;
     size_t n;
-    double *end; /* [2n] of the reference */
-    double *values; /* [2n] */
+    double *end; /* [2n] end state of the reference */
+    double *values; /* [2n] values in the coordinates of a formulation */
     qdot_race *race;
 } race;
 

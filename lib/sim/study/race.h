@@ -17,24 +17,24 @@
 enum { QDOT_RACE_FORMULATIONS = 4, QDOT_RACE_TOLERANCES = 6 };
 
 typedef struct {
-    const char *method;        /* NULL: this formulation was not run */
-    double tol, error;         /* NaN where the run failed */
-    double energy, constraint; /* drifts; NaN: none */
-    double cpu;                /* s, the integration; the least of several runs */
+    const char *method;        /* name of the method; NULL: not run at this tolerance */
+    double tol, error;         /* tolerance and error of the end state; NaN: the run failed */
+    double energy, constraint; /* drifts of energy and of constraints; NaN: none */
+    double cpu;                /* CPU seconds of the integration, the smallest of several runs */
 } qdot_race_entry;
 
 typedef struct {
-    const char *name; /* "as given, projected" ...; NULL: not run */
+    const char *name; /* name of the formulation, "as given, projected" ...; NULL: not run */
     char *reason;     /* why it was not run; owned */
     qdot_race_entry entry[QDOT_RACE_TOLERANCES];
 } qdot_race_lane;
 
 typedef struct {
     qdot_race_lane lane[QDOT_RACE_FORMULATIONS];
-    size_t coordinates, minimal; /* as given; in minimal coordinates, 0: there are none */
+    size_t coordinates, minimal; /* number of coordinates as given; in minimal coordinates, 0: no such form */
     double reference_tol, reference_error;
-    char *notice; /* of the start; NULL */
-    bool interrupted; /* by Ctrl-C: the rows so far */
+    char *notice; /* notice about the start; NULL: none */
+    bool interrupted; /* interrupted by Ctrl-C: only some rows are filled */
 } qdot_race;
 
 /* request: its tol, method and treatment are not used. Errors: as qdot_run_new; QDOT_EFAILED

@@ -23,33 +23,33 @@
 struct qdot_response {
     qdot_response_of of;
     qdot_pool *pool;
-    size_t n, n_parameters; /* coordinates; parameters among the unknowns */
-    qdot_expr *parameters;  /* [n_parameters] */
-    size_t *place;          /* [n_parameters] the index of each parameter among the unknowns */
-    qdot_tape *start;       /* from u: q, q' [2n], then their slopes by each unknown [k x 2n] */
-    double *starts, *work;  /* [(1 + k) 2n], of the tape */
-    double t0;              /* of the request */
-    double *in;             /* [n_parameters] of them, for: */
+    size_t n, n_parameters; /* number of coordinates; of parameters among the unknowns */
+    qdot_expr *parameters;  /* [n_parameters] their symbols */
+    size_t *place;          /* [n_parameters] index of each among the unknowns */
+    qdot_tape *start; /* from u: start q, q' [2n], then its derivatives by each unknown [k x 2n] */
+    double *starts, *work;  /* [(1 + k) 2n] values of `start`; its scratch */
+    double t0;              /* start time of the request */
+    double *in;             /* [n_parameters] values of the parameters */
     qdot_tangents tangents;
-    bool once, made;        /* the scene is made once; it is made */
+    bool once, made;        /* the variational scene does not change with u; it has been made */
 
     /* Fields of the scene with derivatives; with the constraints, for numerical values: */
     /* [k] the unknowns as symbols; [(1 + k) x n_values] the values of the request with all, and with one of them
      * free */
     qdot_expr *u, *values;
-    qdot_expr *first, *settled; /* [2 half], [2n] the start of the first run, and on the constraints */
-    qdot_run_request request; /* what the variation is of */
-    qdot_variation_by *by;    /* [k] */
-    qdot_expr *slopes;        /* [k x 2n] of the start */
+    qdot_expr *first, *settled; /* [2 half] start of the first run; [2n] the same on the constraints */
+    qdot_run_request request; /* request on which the variation is based */
+    qdot_variation_by *by;    /* [k] the directions of differentiation */
+    qdot_expr *slopes;        /* [k x 2n] derivatives of the start by the unknowns */
     qdot_variation variation;
     qdot_parameter_states states;
     qdot_run_request run_request;
     qdot_method_run run;
     qdot_course course;
-    double steps; /* the steps of all runs so far */
-    qdot_expr *exprs; /* [m (1 + k)] each expression, then its slopes */
+    double steps; /* number of steps of all runs so far */
+    qdot_expr *exprs; /* [m (1 + k)] each expression, then its derivatives */
     qdot_reading reading;
-    double *y, *out; /* [2 (1 + k) n + 2 n_parameters], [m (1 + k)] */
+    double *y, *out; /* [2 (1 + k) n + 2 n_parameters] a state; [m (1 + k)] values of `exprs` */
 };
 
 /* --- allocating and freeing -------------------------------------------------------------- */
@@ -205,7 +205,7 @@ free_all(qdot_response *r)
         i += parameter;
     }
     for (size_t i = 0; i < r->of.k * 2 * r->n; i++)
-        r->slopes[i] = QDOT_ZERO; /* the start of each run is put in as numbers */
+        r->slopes[i] = QDOT_ZERO; /* placeholders: each run's start gives the numbers */
 }
 
 /* Make the request of the runs: parameters among the unknowns become coordinates; the start is that

@@ -20,13 +20,13 @@ typedef struct {
     /* Values and start in the unknowns: a parameter among them has itself as its value, a coordinate or velocity
      * among them itself as its start. t1 is the last time that is needed; t0 the time of the start. */
     const qdot_run_request *request;
-    size_t k; /* unknowns: symbols of parameters, coordinates, velocities; their names for messages */
+    size_t k; /* number of unknowns: symbols of parameters, coordinates, velocities; then their names */
     const qdot_expr *unknowns;
     const char *const *names;
-    bool whole; /* the unknowns begin with q, q', each its own start */
-    size_t m; /* expressions of the scene, with parameters */
+    bool whole; /* the first unknowns are q, q', each the start value itself */
+    size_t m; /* number of expressions of the scene, which may contain parameters */
     const qdot_expr *exprs;
-    size_t n_times; /* times within t0..t1, in the order of the run */
+    size_t n_times; /* number of times within t0 ... t1, in the order of the run */
     const double *times;
 } qdot_response_of;
 

@@ -30,20 +30,20 @@ static const double tolerance = 1e-12;
 
 typedef struct {
     const qdot_shooting_of *of;
-    size_t z, k;           /* 2n, unknowns */
-    size_t K;              /* segments */
+    size_t z, k;           /* length 2n of a state; number of unknowns */
+    size_t K;              /* number of segments */
     qdot_flow flow;
-    qdot_expr *parameters; /* [flow.p] among the unknowns */
-    size_t *place;         /* [flow.p] the index of each parameter among the unknowns */
-    double *p;             /* [flow.p] */
-    qdot_tape *tape;       /* [z + 1] start and period, of u [k] */
+    qdot_expr *parameters; /* [flow.p] the parameters among the unknowns */
+    size_t *place;         /* [flow.p] index of each parameter among the unknowns */
+    double *p;             /* [flow.p] values of the parameters */
+    qdot_tape *tape;       /* [z + 1] start and period as functions of the unknowns u [k] */
     double *tape_work;
     double t0;
-    double *first, *slope; /* [z + 1], [(z + 1) x k] start and period, their slopes */
-    double *size;          /* [z] how far each state goes */
-    double *best;          /* [2k] the orbit nearest to the guess, its errors */
-    double *states;        /* [K x z] its states; NULL: not wanted */
-    size_t rank;           /* of u there */
+    double *first, *slope; /* start and period [z + 1]; their derivatives by u [(z + 1) x k] */
+    double *size;          /* [z] range of each component along the orbit */
+    double *best;          /* [2k] orbit nearest to the guess: unknowns, then errors */
+    double *states;        /* [K x z] states at the starts of the segments; NULL: not requested */
+    size_t rank;           /* rank of the equations in u at this orbit */
 } shooting;
 
 /* --- guesses for start and states ------------------------------------------------------------ */

@@ -26,22 +26,22 @@ typedef struct {
     qdot_scene *scene;
     /* The request, whose values depend on those unknowns that are parameters; t0 is the time of the start. */
     const qdot_run_request *request;
-    size_t k; /* unknowns: symbols of parameters, coordinates, velocities, times; their names for messages */
+    size_t k; /* number of unknowns: parameters, coordinates, velocities, times; then symbols, names */
     const qdot_expr *unknowns;
     const char *const *names;
-    const qdot_expr *start; /* [2n] q, q' in the unknowns */
-    qdot_expr period;       /* in the unknowns */
-    const double *low, *high; /* [k] bounds, infinite where there are none */
-    size_t segments;          /* 0: as many as the guess needs */
+    const qdot_expr *start; /* [2n] start q, q' in terms of the unknowns */
+    qdot_expr period;       /* the period in terms of the unknowns */
+    const double *low, *high; /* [k] bounds of the unknowns, infinite if there is none */
+    size_t segments;          /* number of segments; 0: as many as the guess needs */
     bool followed;            /* the guess closes within the error of its run: the states begin along it, all around */
 } qdot_shooting_of;
 
 typedef struct {
     bool found;
-    double *u, *error; /* [k] u in: the guess; out: the orbit with its errors if it was found, else as it was */
-    size_t rank;       /* how many unknowns are fixed */
+    double *u, *error; /* [k] u in: the guess; out: the orbit and its errors if found, else unchanged */
+    size_t rank;       /* number of unknowns that the orbit determines */
     size_t segments;
-    double *states;    /* [QDOT_FLOW_MOST_SEGMENTS x 2n] at the beginnings of the segments of what was found; NULL: not wanted */
+    double *states; /* [MOST_SEGMENTS x 2n] states at the starts of segments of the orbit found; NULL: not requested */
 } qdot_shooting_result;
 
 /* r->segments: how many were taken; 1: the motions

@@ -264,7 +264,7 @@ qdot_tangents_basis(qdot_tangents *x, double *basis)
     for (size_t k = rank; k < x->z; k++)
         for (size_t i = 0; i < x->z; i++)
             basis[(k - rank) * x->z + i] = x->tape != NULL ? gsl_matrix_get(x->V, i, k) : i == k;
-    if (leaves) /* what was decomposed at the state stays for qdot_tangents_project */
+    if (leaves) /* keep the decomposition at the state for qdot_tangents_project */
         (void)decompose(x, false);
     return x->z - rank;
 }

@@ -20,12 +20,12 @@
 #include "tape/tape.h"
 
 typedef struct {
-    size_t z, p, rows, rank; /* 2n; parameters; of F; of F_z at the latest state */
-    size_t leaves;           /* constraints whose leaf is known */
+    size_t z, p, rows, rank; /* 2n; number of parameters; rows of F; rank of dF/dz at the latest state */
+    size_t leaves; /* number of velocity constraints with known integral, whose value stays constant */
     qdot_tape *tape;         /* from z, p, t: F [rows], then F_z and F_p [rows x (z + p)], and those of the leaves
                               * [leaves x (z + p)]; NULL: no constraints */
     double *in, *out, *work;
-    gsl_matrix *U, *V;       /* of F_z at the latest state */
+    gsl_matrix *U, *V;       /* singular vectors of dF/dz at the latest state */
     gsl_vector *S, *room;
 } qdot_tangents;
 

@@ -7,29 +7,29 @@
 /* A direction of differentiation: the variable s by which derivatives are taken. */
 typedef struct {
     const char *name;
-    qdot_expr parameter; /* nil: s moves the start alone */
+    qdot_expr parameter; /* the parameter that s is; nil: s changes only the start */
     const qdot_expr
-        *values; /* [n_values] of the request with that parameter free; NULL: as there */
+        *values; /* [n_values] parameter values with this one free; NULL: as in the request */
     const qdot_expr *
-        start; /* [2n] dq/ds, dq'/ds at the start: exact constants; NULL: any, of size 1e-6 */
-    double scale; /* of s, where it is known; else 0 */
+        start; /* [2n] dq/ds, dq'/ds at the start, exact constants; NULL: any, of size 1e-6 */
+    double scale; /* typical size of s; 0: unknown */
 } qdot_variation_by;
 
 typedef struct {
-    qdot_scene *of, *scene;          /* borrowed; owned */
-    const qdot_run_request *request; /* borrowed */
-    size_t n, m, k;                  /* coordinates, constraints held, directions */
-    size_t n_massless;               /* equations of coordinates without mass (sim/model/massless.h) */
-    size_t w;                        /* of these, those held: all or none */
-    qdot_expr *G;                    /* [n] of them, 0 = G, without numbers */
-    size_t *massless;                /* [n] the massless coordinate to which each belongs */
-    bool *of_positions;              /* [n] whether such an equation holds no velocity of these */
-    const qdot_variation_by *by;     /* [k] borrowed */
-    qdot_expr *y;                    /* [k x n] */
-    qdot_expr *a, *lambda;           /* [n], [m] from q, q', t */
-    qdot_expr *start;                /* [2 (k + 1) n] q, y, q', y' at the start */
-    bool *named;                     /* [2 (k + 1) n] of these, which the start names */
-    double *scales;                  /* [2 (k + 1) n] of these, as in a request; NULL: none is known */
+    qdot_scene *of, *scene;          /* the given scene, borrowed; the variational scene, owned */
+    const qdot_run_request *request; /* request for the given scene; borrowed */
+    size_t n, m, k; /* number of coordinates; of constraints kept in the scene; of directions */
+    size_t n_massless; /* number of equations of massless coordinates (sim/model/massless.h) */
+    size_t w; /* how many of these equations are kept in the scene: all or none */
+    qdot_expr *G;                    /* [n_massless] left sides G of G = 0, parameters as symbols */
+    size_t *massless; /* [n_massless] index of the massless coordinate that the equation determines */
+    bool *of_positions;              /* [n_massless] the equation contains no massless velocity */
+    const qdot_variation_by *by;     /* [k] the directions; borrowed */
+    qdot_expr *y;                    /* [k x n] coordinates y_j = dq/ds_j */
+    qdot_expr *a, *lambda;           /* [n] q'', [m] multipliers as functions of q, q', t */
+    qdot_expr *start;                /* [2 (k + 1) n] start of q, y, q', y' */
+    bool *named;                     /* [2 (k + 1) n] the start prescribes this value */
+    double *scales; /* [2 (k + 1) n] scales of q, y, q', y' as in a request; NULL: unknown */
 } qdot_variation;
 
 /* The symbol of q, q', q'' (order 0, 1, 2) of coordinate i of the given scene, or of its derivative

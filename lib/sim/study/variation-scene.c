@@ -273,7 +273,8 @@ variation_put_start(const qdot_variation *v)
             v->named[k * n + i] = k == 0 || open == 0 || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }
-    for (size_t j = 0; j < 2 * all && v->w > 0; j++) { /* equations of massless ones determine these */
+    /* these values follow from the equations of massless coordinates */
+    for (size_t j = 0; j < 2 * all && v->w > 0; j++) {
         const size_t i = j % all % n;
 
         v->named[j] = (v->m == 0 || v->named[j]) && !is_determined(v, j >= all, i);
@@ -318,7 +319,7 @@ qdot_variation_request(const qdot_variation *v)
     r.exactly = false;
     r.no_drifts = true;
     r.scales = v->scales;
-    r.apart = NULL; /* slopes are those of a motion from exactly there */
+    r.apart = NULL; /* the derivatives belong to exactly this start */
     r.n_values = 0;
     r.symbols = r.values = NULL;
     /* the method given may not fit the variational scene */

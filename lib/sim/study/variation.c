@@ -130,15 +130,15 @@ typedef struct {
     qdot_variation *v;
     qdot_pool *pool;
     size_t n, m;
-    bool held;            /* equations of constraints and of massless coordinates stand in the scene */
-    qdot_expr whole;      /* M and f as derived */
-    qdot_expr *M, *f;     /* [n x n], [n] with numbers */
-    size_t w;             /* coordinates without mass; their indices are in v */
-    qdot_expr *F, *A;     /* [m + w] second rates of constraints, [(m + w) x n] */
-    qdot_expr *rate;      /* [w] those of massless ones without numbers */
-    qdot_expr *W;         /* [w x w] L U */
-    qdot_expr *L, *B, *S; /* [n x n], [m x n], [m x m] */
-    qdot_expr *x, *z;     /* [n], [m + w] work space */
+    bool held; /* equations of constraints and massless coordinates are kept in the scene */
+    qdot_expr whole;      /* M and f before parameter values are inserted */
+    qdot_expr *M, *f;     /* [n x n], [n] M and f with parameter values */
+    size_t w;             /* number of massless coordinates; their indices are in v */
+    qdot_expr *F, *A; /* second time derivatives of constraints [m + w]; their slopes [(m + w) x n] */
+    qdot_expr *rate;      /* [w] the same for massless equations, parameters as symbols */
+    qdot_expr *W;         /* [w x w] LU factors of W */
+    qdot_expr *L, *B, *S; /* factors of M [n x n], B [m x n], factors of S [m x m] */
+    qdot_expr *x, *z;     /* [n], [m + w] scratch */
 } elimination;
 
 static qdot_status

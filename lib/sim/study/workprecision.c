@@ -31,13 +31,13 @@ static const double rounding = 1e-14;
 /* A method that is measured, with its run and limits. */
 typedef struct {
     qdot_method_run run;
-    qdot_course course; /* of a run that may be divided into pieces */
+    qdot_course course; /* the run by pieces, if events or switches may divide it */
     double t_end;
     qdot_ode_system system;
     uint64_t most_evaluations;
-    double drift;           /* of the energy along a run */
-    qdot_constrained *held; /* NULL: no constraints */
-    double residual;        /* the largest met */
+    double drift;           /* largest energy drift along the run */
+    qdot_constrained *held; /* constraints; NULL: none */
+    double residual;        /* largest constraint residual so far */
 } worker;
 
 /* The end state of the reference run, as sums of two doubles. */
@@ -45,8 +45,8 @@ typedef struct {
     size_t n;
     double *high, *low;
     double t_end;
-    bool stopped;     /* an event stopped the run at that time */
-    double variation; /* of the motion (horizon.h) */
+    bool stopped;     /* an event stopped the run at t_end */
+    double variation; /* sensitivity of the end state to the start (horizon.h) */
 } reference;
 
 /* --- the reference run --------------------------------------------------------------- */
@@ -120,7 +120,7 @@ error_against(const reference *r, const double *scales, const double *y, double 
     for (size_t i = 0; i < r->n; i++) {
         double e = fabs((y[i] - r->high[i]) - r->low[i]) / qdot_ode_size(scales, i, r->high[i]);
 
-        if (!(e <= most)) /* a NaN stays */
+        if (!(e <= most)) /* also true for a NaN, which then stays */
             most = e;
     }
     return most;
@@ -179,7 +179,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     w->system = qdot_bind_system(w->run.bind);
     n = (double)(w->run.plan->n + w->run.plan->m);
     operations = (double)qdot_plan_operations(w->run.plan, NULL) + n * n * n / 3 + 100;
-    if (w->run.plan->method->series) /* an expansion is worth a few hundred evaluations */
+    if (w->run.plan->method->series) /* one expansion costs a few hundred evaluations of f */
         operations *= 200;
     w->most_evaluations = (uint64_t)fmax(100, budget / operations);
     return QDOT_OK;
@@ -219,7 +219,7 @@ follow_course(worker *w)
 static qdot_status
 go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
-    const uint64_t a_step = w->run.plan->method->series ? 1 : 10; /* evaluations, about */
+    const uint64_t a_step = w->run.plan->method->series ? 1 : 10; /* evaluations of f in one step, approximately */
     const qdot_ode_options options = {.tol = tol,
                                       .carry = w->run.low,
                                       .t1_low = w->run.t1_low,
@@ -264,7 +264,8 @@ worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
         options.accepted = worker_follow;
         options.user = w;
     }
-    if (w->run.plan->method->series || w->run.plan->method->geometric) /* told beforehand */
+    /* methods that can count their work in advance */
+    if (w->run.plan->method->series || w->run.plan->method->geometric)
         options.max_steps = w->most_evaluations;
     return qdot_ode_integrate(&w->system, w->run.plan->method, &options,
                               w->run.t0, w->run.t1, w->run.y, result);

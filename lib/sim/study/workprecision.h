@@ -35,20 +35,20 @@
 
 typedef struct {
     const char *method;
-    double tol, err, scd, time_min, time_median; /* NaN where it failed */
+    double tol, err, scd, time_min, time_median; /* tolerance, error, correct digits, CPU times; NaN: failed */
     uint64_t evals, steps, rejected;
-    double energy_err; /* NaN: not conserved, or failed */
-    double constraint_err; /* NaN: no constraints, or failed */
-    char status[300];  /* "done", "done: no digit is right", or "failed: " and why */
+    double energy_err; /* error of the energy; NaN: not conserved, or failed */
+    double constraint_err; /* largest constraint residual; NaN: no constraints, or failed */
+    char status[300];  /* "done", "done: no digit is right", or "failed: " and the reason */
 } qdot_workprecision_row;
 
 typedef struct {
-    double budget; /* operations that a run may take, about; 0: 3e8 */
+    double budget; /* largest number of operations of a run, approximately; 0: 3e8 */
     size_t n, capacity;
-    qdot_workprecision_row *rows; /* method by method, tolerances falling */
+    qdot_workprecision_row *rows; /* [n] rows method by method, with decreasing tolerance */
     qdot_methods_left_out left_out;
-    double ref_err; /* error of the reference, as err */
-    bool interrupted; /* by Ctrl-C: the rows so far */
+    double ref_err; /* error of the reference run, in the measure of `err` */
+    bool interrupted; /* interrupted by Ctrl-C: only some rows are filled */
     bool constraints; /* the scene has constraints */
 } qdot_workprecision;
 

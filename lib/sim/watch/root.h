@@ -9,20 +9,20 @@ typedef struct {
     double t;
     int way;         /* the sign of g after the root, in the direction of the run; 0: it only
                         touches */
-    double residual; /* |g| at the doubles on both sides of it, the larger */
-    bool exact;      /* g is 0 at t */
-    bool pole;       /* g changes its sign through infinity: it is no root */
-    bool turned;     /* g is watched in place of a function that changes its sign the other way (qdot_watch_turns) */
-    bool stays;      /* g is 0 from here on for a while; `way` leads to 0, from the sign before */
+    double residual; /* the larger |g| at the two doubles next to the root */
+    bool exact;      /* g is exactly 0 at t */
+    bool pole;       /* g changes sign by a pole: not a root */
+    bool turned; /* the function of interest changes sign in the opposite direction to g (qdot_watch_turns) */
+    bool stays; /* g stays 0 for a while after t; `way` is the direction from its sign before to 0 */
     /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the
      * run: not negative. */
     double late, blur;
-    bool cubic;  /* g grows around it like an odd power above the first: the motion crosses, however slowly */
+    bool cubic;  /* g crosses 0 like an odd power above the first, however slowly */
     bool deep;   /* it is located in many digits */
-    bool several; /* other crossings lie so near that doubles do not show them */
-    double flat; /* so far around it rounding of the state hides g; 0: less than a few doubles of t */
-    double rounding; /* of a function of t alone: so far rounding of its operations may move the root */
-    double moved;    /* so far t was put later, to that of another root of the same instant */
+    bool several; /* there are more crossings, too close to be separated in doubles */
+    double flat; /* width in t around the root in which rounding hides the sign of g; 0: a few doubles */
+    double rounding; /* for functions of t only: error of the root by rounding of g */
+    double moved;    /* shift of t to the time of another root of the same instant */
     /* For a touch: the tolerance below which |g| counts as 0 (0 if rounding decides), and g''. */
     double within, bend;
 } qdot_root;
@@ -39,8 +39,8 @@ typedef struct {
     /* Read the state at t as sums of two doubles; only for steps with a series, otherwise NULL. */
     qdot_status (*read_two)(double t, qdot_two *y, void *user);
     void *user;
-    bool alone; /* no other thread uses the pool of expressions meanwhile */
-    const qdot_ode_system *system; /* for accelerations and multipliers */
+    bool alone; /* no other thread uses the pool of expressions at this time */
+    const qdot_ode_system *system; /* equations of motion, for q'' and multipliers */
     /* Whether a step ends at this root, so that later roots are not wanted; NULL: steps do not end at roots. */
     bool (*ends)(const qdot_root *root, void *user);
 } qdot_watch_reader;

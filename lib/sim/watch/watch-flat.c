@@ -66,7 +66,7 @@ value_of_state(qdot_watch *w, size_t i, double t, size_t k, double by)
     if (!mpfr_number_p(out[0]))
         return NAN;
     g = mpfr_get_d(out[0], RN);
-    return mpfr_sgn(out[0]) * fmin(fmax(fabs(g), DBL_MIN), QDOT_WATCH_MOST); /* a zero stays one */
+    return mpfr_sgn(out[0]) * fmin(fmax(fabs(g), DBL_MIN), QDOT_WATCH_MOST); /* a zero remains a zero */
 }
 
 static qdot_status
@@ -327,7 +327,8 @@ make_touch(qdot_watch *w, const flat_range *of, int sign, qdot_root *root, bool 
     bool found;
 
     QDOT_TRY(value_in_digits(w, i, root->t, &g));
-    for (int side = 0; side < 2; side++) { /* as far as it falls, and twice that */
+    /* to both sides: to the nearest point with a clear sign, and twice as far */
+    for (int side = 0; side < 2; side++) {
         const double end = side == 0 ? of->from : of->to, way = end < root->t ? -1 : 1;
         double there = g, last = g;
 
@@ -424,7 +425,7 @@ qdot_watch_settle_flat(qdot_watch *w, const qdot_watch_part *p, double slope, qd
         if (room > 0x1p-10 * length) {
             QDOT_TRY(make_touch(w, &of, before ? -root->way : root->way, root, is));
             *is = *is && !is_found_already(w, root);
-        } else { /* at an end of the step */
+        } else { /* the flat root is at an end of the step */
             root->flat = 16 * room;
         }
         return QDOT_OK;
@@ -479,7 +480,7 @@ qdot_watch_settle_touch(qdot_watch *w, const qdot_watch_part *p, double bend, bo
         QDOT_TRY(make_touch(w, &of, sign[0], root, is));
     if (!*is && sign[0] == sign[1]) {
         QDOT_TRY(value_in_digits(w, i, root->t, &at));
-        if (sign[0] * at < 0) { /* beyond the near sides the sign is the other one: two crossings */
+        if (sign[0] * at < 0) { /* the sign between differs from that on both sides: two crossings */
             *root = seen;
             root->several = *is = true;
         }

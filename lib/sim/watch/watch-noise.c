@@ -49,7 +49,7 @@ qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double lea
 qdot_status
 qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise)
 {
-    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* q'' too */
+    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* also computes q'' */
     qdot_rounding_bounds(w->tape, w->in, NULL, w->raw, w->work);
     *noise = fmin(w->raw[i], QDOT_WATCH_MOST) * (exact ? qdot_tape_two_rounding(w->two) * 0x1p53 : 1);
     return QDOT_OK;
@@ -75,10 +75,11 @@ qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i, double *
 {
     double up, down;
 
-    QDOT_TRY(qdot_watch_noise(w, t, y, 4 * DBL_EPSILON, 0, i, &up)); /* they differ beside a kink */
+    /* both sides, because rounding differs beside a kink */
+    QDOT_TRY(qdot_watch_noise(w, t, y, 4 * DBL_EPSILON, 0, i, &up));
     QDOT_TRY(qdot_watch_noise(w, t, y, -4 * DBL_EPSILON, 0, i, &down));
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* q'' too */
+    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* also computes q'' */
     qdot_tape_eval(w->sizes, w->in, w->raw, w->work);
     *noise = fmax(up, down) + 4 * DBL_EPSILON * fmin(w->raw[i], QDOT_WATCH_MOST);
     qdot_rounding_bounds(w->tape, w->in, NULL, w->raw, w->work);
@@ -207,7 +208,8 @@ qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p)
     }
     for (size_t i = 0; i < w->m; i++) {
         w->noise[i] = qdot_watch_is_fine(w, i) || w->deep[i] ? 0 : w->first_noise[i];
-        if (w->live[i] && !w->deep[i] && w->clock[i] && qdot_watch_is_fine(w, i)) /* no state makes it grow along the step */
+        /* a function of t alone: its noise does not grow along the step */
+        if (w->live[i] && !w->deep[i] && w->clock[i] && qdot_watch_is_fine(w, i))
             QDOT_TRY(qdot_watch_operations_within(w, p, true, i, w->noise + i));
         if (!w->live[i] || !w->deep[i])
             continue;

@@ -37,104 +37,104 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
 struct qdot_watch_state {
     int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on
                    g stays 0 */
-    bool *on;   /* [m] the step starts on a zero of g */
+    bool *on;   /* [m] g_i is 0 at the start of the step */
     bool *blurred; /* [m] which is an extremum within rounding of 0, or a jump to it: two doubles tell no more
                       of it */
-    double *g0; /* [m] g at that zero, or where the part at hand starts */
-    bool *sharp; /* [m] which is in two doubles */
-    double *offset; /* [m] what rounding made of a zero: values in two doubles are less this */
+    double *g0; /* [m] g at that zero, or at the start of the present part */
+    bool *sharp; /* [m] g0 has been computed in two doubles */
+    double *offset; /* [m] value of g at its zero due to rounding, subtracted from values in two doubles */
 };
 
 typedef struct qdot_watch qdot_watch;
 struct qdot_watch {
     const qdot_plan *plan;
     const qdot_series_kernels *kernels;
-    qdot_watch_reader reader; /* of the piece */
-    qdot_tape *tape, *sizes; /* g; the sums of the magnitudes of their terms */
-    qdot_tape *plain; /* g, where `tape` is shaken; else NULL */
+    qdot_watch_reader reader; /* reads states within the step */
+    qdot_tape *tape, *sizes; /* outputs: g; sums of the magnitudes of their terms */
+    qdot_tape *plain; /* outputs: g without shaken constants; NULL: `tape` is not shaken */
     /* Fields for values in sums of two doubles (watch-two.c). */
-    qdot_tape_two *two;   /* the tape of g in two doubles; NULL until it is needed */
-    qdot_two *state_two;  /* [2n] scratch */
-    struct qdot_precise *many; /* g in many digits (watch-flat.c); NULL until it is needed */
+    qdot_tape_two *two;   /* evaluates g in two doubles; NULL: not needed yet */
+    qdot_two *state_two;  /* [2n] scratch state in two doubles */
+    struct qdot_precise *many; /* evaluates g in many digits (watch-flat.c); NULL: not needed yet */
     double *settled; /* [m] the time of the flat root at which a piece began; NaN: none */
-    bool *deep;      /* [m] values are in many digits: the first step of a piece that starts on it */
+    bool *deep; /* [m] evaluate g in many digits: first step of a piece that starts on its zero */
     bool any_deep;
     double *hidden; /* [m] of these: what rounding of their operations hides of the bounds on the part; 0: not computed */
-    bool *may_be_flat; /* [m] roots are located in many digits where that is wanted */
-    int *leaves;     /* [m] the sign of these just after the start */
-    struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
-    bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
-    bool *clock;          /* [m] it is one of t alone */
-    bool expanded;        /* the step has a series */
-    bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
-    bool fine;            /* values of those within the step are in two doubles at present */
+    bool *may_be_flat; /* [m] flat roots of g may be located in many digits */
+    int *leaves;     /* [m] sign of g just after the start */
+    struct qdot_watch_turn *turns; /* [m] directions of the original functions (watch-turns.c); NULL: as g */
+    bool *smooth;         /* [m] g contains no switching function and is not a bound */
+    bool *clock;          /* [m] g is a function of t only */
+    bool expanded;        /* the step has a Taylor series */
+    bool *wants;          /* [m] the sign of g_i in this part must be determined in two doubles */
+    bool fine;            /* such values are in two doubles at present */
     /* all switches in the functions keep their sides in the present interval, as far as was tested */
     bool steady;
-    bool coarse;          /* and are not to be: beside a jump or kink */
-    size_t m, n;             /* functions; coordinates */
+    bool coarse;          /* do not use two doubles, because a jump or kink is near */
+    size_t m, n;             /* number of functions; of coordinates */
     bool accelerations;
     double tol;
-    size_t *coordinate; /* [m] SIZE_MAX: not a bound */
-    double *bound;      /* [m] */
-    double *in;         /* of the tape */
-    double *work, *g;   /* [m] g */
-    double *moved, *raw; /* [m] scratch of noise and of values */
-    double *z;          /* [2n] likewise */
-    double *end;        /* [2n + 1] the state and the time at the end of the step that was searched last */
-    double *noise;      /* [m] of g in this part; NaN: not computed */
-    double *first_noise; /* [m] of g at the start of the step; likewise */
-    double *size;       /* [m] of the polynomial fitted last */
-    double *clear;      /* [m] distance from 0 that its bound guarantees, if positive */
-    qdot_polynomial_bounds bounds; /* between the nodes, or on the whole step */
+    size_t *coordinate; /* [m] coordinate of a domain bound; SIZE_MAX: g is no bound */
+    double *bound;      /* [m] value of the bound */
+    double *in;         /* inputs of the tape */
+    double *work, *g;   /* scratch; [m] values of g */
+    double *moved, *raw; /* [m] scratch for rounding errors and for values */
+    double *z;          /* [2n] scratch state */
+    double *end;        /* [2n + 1] state and time at the end of the step searched last */
+    double *noise;      /* [m] rounding error of g in this part; NaN: not computed */
+    double *first_noise; /* [m] rounding error of g at the start of the step; NaN: not computed */
+    double *size;       /* [m] size of the polynomial fitted last */
+    double *clear;      /* [m] guaranteed distance of g from 0 in this part, if positive */
+    qdot_polynomial_bounds bounds; /* bounds of g between nodes, or on the whole step */
     bool bound_at_step;  /* bounds on the whole step are known */
-    bool boxed_at_step;  /* and intervals, bounds.box */
-    bool all_bounds;     /* every g is a coordinate less its bound */
+    bool boxed_at_step;  /* intervals bounds.box for the whole step are known */
+    bool all_bounds;     /* every g is a coordinate minus its bound */
     double *final;      /* [m] g at the end of the step */
-    double length;      /* of the step */
-    double shortest;    /* a part of this length is not divided */
-    double cut;         /* QDOT_PART_START_FAR: the fraction of the part that is cut off at its start */
-    double reached;     /* of the step, where its search ended */
-    size_t looked_at;   /* parts of all steps */
-    double reach;       /* from the start of the step to the root that ended it; 0: none did */
-    double part_before; /* the start of the part before the present one, in this step */
-    double direction;   /* the direction of time in the step, 1 or -1 */
+    double length;      /* length of the step */
+    double shortest;    /* a part of this length is not divided further */
+    double cut;         /* QDOT_PART_START_FAR: fraction of the part to be cut off at its start */
+    double reached;     /* time in the step at which the search ended */
+    size_t looked_at;   /* number of parts searched in all steps */
+    double reach;       /* time from the start of the step to the root that ended it; 0: none */
+    double part_before; /* start of the previous part of this step */
+    double direction;   /* direction of time in the step: 1 or -1 */
 
     /* The start of the step, and the state of the search. */
-    double t, *y; /* [2n] */
-    double begun;          /* when the piece did */
-    const double *largest; /* [2n] as in qdot_watch_known */
-    double least; /* it is that of the piece, which was moved by a rounding of this; else 0 */
+    double t, *y; /* time and state [2n] at the start of the step */
+    double begun;          /* time at which the piece began */
+    const double *largest; /* [2n] largest |y| so far, as in qdot_watch_known */
+    double least; /* at a start that was shifted by rounding: size of this shift; else 0 */
     struct qdot_watch_state start, now;
-    int *first;      /* [m] */
-    bool *slow;      /* [m] g leaves its zero at the start with a slope lost in rounding */
+    int *first;      /* [m] first sign of g after the start */
+    bool *slow; /* [m] g leaves its zero at the start so slowly that rounding hides the slope */
     bool *fresh;     /* [m] `first` is not known yet */
     bool *grazed;    /* [m] g touches 0 at the end of the step */
     bool *live;      /* [m] g may have a root in this step */
     /* Fields for functions that have decayed until rounding hides their signs (watch-fade.c). */
-    bool *may_fade;  /* [m] they may be left unsearched there */
-    bool *fading;    /* [m] |g| is within its rounding all through the step at hand */
-    int *faded;      /* [m] the number of steps just before it, in a row, in which it was */
-    double *faded_since; /* [m] the start of the first of these steps */
-    double *most;    /* [m] the largest |g| at the ends of steps so far */
-    int nodes;       /* the number of nodes that sufficed the last time */
-    double *samples; /* [m x QDOT_WATCH_NODES] */
-    double *fitted;  /* [m x QDOT_WATCH_NODES] Chebyshev coefficients of polynomials through the samples at */
-    int *n_fitted;   /* [m] this number of nodes of the part; 0: not yet fitted */
-    double *extrema; /* [m x QDOT_WATCH_NODES] x of the polynomial's extrema on the part */
-    int *n_extrema;  /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as qdot_chebyshev_crossings */
+    bool *may_fade;  /* [m] g may be left unsearched after it has decayed */
+    bool *fading;    /* [m] |g| is within its rounding error during the whole step */
+    int *faded;      /* [m] number of consecutive steps before this one with the same property */
+    double *faded_since; /* [m] start of the first of these steps */
+    double *most;    /* [m] largest |g| at the ends of steps so far */
+    int nodes;       /* number of nodes that sufficed last time */
+    double *samples; /* [m x QDOT_WATCH_NODES] values of g at the nodes */
+    double *fitted;  /* [m x QDOT_WATCH_NODES] Chebyshev coefficients of the polynomials fitted */
+    int *n_fitted;   /* [m] number of nodes used for the fit; 0: not fitted */
+    double *extrema; /* [m x QDOT_WATCH_NODES] extrema of the polynomial, x in [-1, 1] */
+    int *n_extrema; /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as from qdot_chebyshev_crossings */
     double *fine_end; /* [m] g at the end of the part, in two doubles */
-    double *ends;    /* [(DEEPEST + 2) x m] g at the ends of parts not yet searched */
+    double *ends;    /* [(DEEPEST + 2) x m] g at the ends of parts still to be searched */
     qdot_vec(qdot_root) roots;
 };
 
 /* An interval of a step, and the polynomial of one function on it. */
 typedef struct {
-    double a, b; /* times */
+    double a, b; /* start and end time */
     int n;
     double c[QDOT_WATCH_NODES];
-    bool from_zero; /* the function is (g - g(a)) (b - a)/(t - a) */
-    double at_end;  /* g(b) */
-    bool sharp;     /* it is in two doubles, though values within the part are not */
+    bool from_zero; /* the polynomial represents (g - g(a)) (b - a)/(t - a) */
+    double at_end;  /* value g(b) */
+    bool sharp;     /* at_end is in two doubles, though values within the part are not */
 } qdot_watch_part;
 
 /* The next action for an interval; the most expensive last. */
@@ -143,8 +143,8 @@ typedef enum {
     QDOT_PART_MORE_NODES,
     QDOT_PART_HALVED,
     QDOT_PART_PARTED, /* cut beside the middle, where g may be singular */
-    QDOT_PART_START_CUT, /* a short part at its start is cut off */
-    QDOT_PART_START_FAR  /* likewise, as long as w->cut says */
+    QDOT_PART_START_CUT, /* cut off a short part at the start */
+    QDOT_PART_START_FAR  /* cut off a part at the start as long as w->cut says */
 } qdot_watch_verdict;
 
 /* Whether two doubles tell more of function i than one. What jumps or has a kink there is a matter of its values as

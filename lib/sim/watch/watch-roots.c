@@ -160,7 +160,7 @@ locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, boo
 
     guess = w->direction > 0 ? fmin(fmax(guess, lo), hi) : fmax(fmin(guess, lo), hi);
     QDOT_TRY(narrow(w, i, way, guess, ends, &over));
-    for (const bool back = over; over == back; step *= 8) { /* outward from the guess */
+    for (const bool back = over; over == back; step *= 8) { /* search outward from the guess, until the sign changes */
         const double t = guess + (back ? -1 : 1) * w->direction * step;
 
         if (w->direction * (back ? t - ends[0].t : ends[1].t - t) <= 0)
@@ -342,13 +342,13 @@ qdot_status
 qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
                  qdot_watch_end *ends, qdot_root *root, bool *found)
 {
-    const bool others = w->fine; /* are evaluated so on this part */
+    const bool others = w->fine; /* whether the other functions are evaluated in two doubles here */
     const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && qdot_watch_can_two(w, i);
     const double from = ends[0].t;
     qdot_watch_end near[2] = {ends[0], ends[1]};
     qdot_root again;
     bool also = false;
-    double beside; /* |g| beside the root; or at that end of the interval beyond which it is by doubles */
+    double beside; /* |g| next to the root, or at the end of the interval behind which the root lies */
     qdot_status status = QDOT_OK;
 
     if (two) {
@@ -362,7 +362,7 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
     beside = *found ? root->residual : fabs(ends[ends[1].t == from].g);
     if (!two || (*found && root->pole) || beside > rest_of_size * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
-    set_fine(w, i, true, others); /* the same root, where doubles do not tell */
+    set_fine(w, i, true, others); /* find the same root in two doubles, which doubles cannot locate */
     status = cross(w, p, i, way, *found ? root->t : guess, near, &again, &also);
     set_fine(w, i, false, others);
     if (status == QDOT_OK && also && !again.pole) {
@@ -399,7 +399,7 @@ is_flat(const qdot_watch_part *p)
 static bool
 is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    return is_flat(p) /* not for a NaN: */
+    return is_flat(p) /* false for a NaN */
            || fabs(qdot_chebyshev_at(p->n, p->c, -1)) <= noise_of_slope * w->noise[i];
 }
 
@@ -448,7 +448,7 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 
     if (qdot_watch_zero(w, i) != 0)
         QDOT_TRY(qdot_watch_cross(w, p, i, sign, p->a, ends, &root, &found));
-    if (!found) /* the root lies before this step */
+    if (!found) /* the root is before this step */
         root = (qdot_root){.function = i,
                            .t = p->a,
                            .way = sign,
@@ -596,7 +596,7 @@ qdot_watch_roots(qdot_watch *w, qdot_watch_part *p, size_t i)
 {
     const double *extrema;
     double x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
-    double sure = p->a; /* g has `sign` there, by the states */
+    double sure = p->a; /* latest time at which g certainly has `sign` */
     int n, sign = w->now.sign[i];
     bool grazes;
 

@@ -17,11 +17,11 @@ typedef struct {
     qdot_watch *w;
     const qdot_watch_part *p;
     size_t i;
-    double least; /* |g| up to which it counts as 0 */
+    double least; /* a smaller |g| counts as 0 */
     double at;
-    double zero; /* the time since which g is 0; NaN: it is not 0 */
-    double from; /* the point that was evaluated before `at` */
-    int *sign;   /* the last sign of g that was not 0 */
+    double zero; /* time since which g = 0; NaN: g is not 0 */
+    double from; /* the previous time of evaluation */
+    int *sign;   /* last sign of g that was not 0 */
 } walk;
 
 /* Locate the root between two times; g has the sign `way` at the second one. */
@@ -138,11 +138,11 @@ seek_least(walk *x, double *t, double g)
         return cross(x, t[1], p->b, sign);
     }
     if (fabs(t[1] - p->a) <= few_doubles * fabs(t[1]))
-        return QDOT_OK; /* g starts at this root */
+        return QDOT_OK; /* g is 0 at the start already: no new root */
     QDOT_TRY(is_at_zero(x, t[1], g, &touches));
     if (!touches)
         return QDOT_OK;
-    if (fabs(t[1] - p->b) <= few_doubles * fabs(t[1])) { /* what comes behind it decides */
+    if (fabs(t[1] - p->b) <= few_doubles * fabs(t[1])) { /* a zero at the end belongs to the next part */
         x->w->now.on[x->i] = true;
         return QDOT_OK;
     }
@@ -235,11 +235,11 @@ qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int no
     for (int j = nodes - 1; j >= 0; j--)
         QDOT_TRY(go(&x, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), g[j]));
     w->now.on[i] = false;
-    if (!isnan(x.zero) && fabs(p->at_end) <= x.least) { /* else it jumps at the end */
+    if (!isnan(x.zero) && fabs(p->at_end) <= x.least) { /* g stays 0 to the end, without a jump there */
         if (*x.sign != 0)
             QDOT_TRY(stay(&x, false));
         w->now.on[i] = true;
-    } else if (p->at_end == 0) { /* what comes behind it decides */
+    } else if (p->at_end == 0) { /* a zero exactly at the end belongs to the next part */
         w->now.on[i] = true;
     } else {
         QDOT_TRY(go(&x, p->b, p->at_end));

@@ -33,15 +33,16 @@ qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
     if (!*touch && (p->from_zero || fabs(v) > small_of_size * size))
         return QDOT_OK;
     QDOT_TRY(qdot_watch_value_at(w, t, w->g));
-    if (!p->from_zero && fabs(w->g[i] - v) > small_of_size * size) { /* beside a jump or a pole */
+    /* value and polynomial differ: a jump or pole is near */
+    if (!p->from_zero && fabs(w->g[i] - v) > small_of_size * size) {
         *touch = false;
         return QDOT_OK;
     }
-    if (w->g[i] != 0 && fabs(w->g[i]) <= DBL_MIN) { /* a sign is all that is known of it */
+    if (w->g[i] != 0 && fabs(w->g[i]) <= DBL_MIN) { /* an underflow: only the sign of g is known */
         *touch = false;
         return QDOT_OK;
     }
-    v = fmin(fabs(v), fabs(w->g[i])); /* beside a root of even order v is rounding of the polynomial */
+    v = fmin(fabs(v), fabs(w->g[i])); /* near a root of even order v is rounding of the polynomial: use the smaller */
     *touch |= v <= 0x1p-48 * size;
     if (*touch)
         return QDOT_OK;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 struct qdot_watch_turn {
-    qdot_tape *tape; /* of `turn`; NULL: f goes as g_i does */
-    double *in;      /* the inputs of the tape, then its work space */
+    qdot_tape *tape; /* the factor `turn` (repeated-zeros.h); NULL: f changes as g_i does */
+    double *in;      /* inputs of `tape`, followed by its work space */
     bool half;
 };
 

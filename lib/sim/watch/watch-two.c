@@ -32,7 +32,7 @@ qdot_watch_read_two(qdot_watch *w, double t)
 {
     if (w->reader.read_two && w->expanded)
         return w->reader.read_two(t, w->state_two, w->reader.user);
-    QDOT_TRY(w->reader.read(t, w->in, w->reader.user)); /* what is evaluated in two doubles is of t alone */
+    QDOT_TRY(w->reader.read(t, w->in, w->reader.user)); /* no state in two doubles: functions of t alone need none */
     for (size_t k = 0; k < 2 * w->n; k++)
         w->state_two[k] = (qdot_two){w->in[k], 0};
     return QDOT_OK;
@@ -104,7 +104,7 @@ value_two(qdot_watch *w, double t, const qdot_two *y, bool start, double *g)
     for (size_t i = 0; i < w->m; i++)
         if (is_of_two(w, i))
             g[i] = qdot_tape_two_output(w->two, i)[0].hi;
-        else if (is_nothing(w, i) && fabs(g[i]) > DBL_MIN) /* but rounding as a double */
+        else if (is_nothing(w, i) && fabs(g[i]) > DBL_MIN) /* the double consists of rounding only */
             g[i] = 0;
     return QDOT_OK;
 }
@@ -212,7 +212,7 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *a
     *any = false;
     if (!can_any(w))
         return QDOT_OK;
-    for (int end = 0; end < 2; end++) { /* at a pole the terms are large */
+    for (int end = 0; end < 2; end++) { /* near a pole the terms are large */
         const double t = end == 0 ? p->a : p->b;
 
         QDOT_TRY(w->reader.read(t, w->in, w->reader.user));

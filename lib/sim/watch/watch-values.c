@@ -93,12 +93,13 @@ underflows(qdot_watch *w, size_t i)
 
     if (fetestexcept(FE_UNDERFLOW) == 0)
         return false;
-    feclearexcept(FE_UNDERFLOW); /* it may be of anything since it was cleared */
+    feclearexcept(FE_UNDERFLOW); /* clear the flag, which earlier operations may have set */
     qdot_tape_eval(w->tape, w->in, w->raw, w->work);
     if (fetestexcept(FE_UNDERFLOW) == 0)
         return false;
     for (size_t k = 0; k < inputs; k++) {
-        const double by = fmax(DBL_EPSILON * fabs(w->in[k]), DBL_MIN); /* of points the result is one, too */
+        /* change each input by its rounding error, at least by DBL_MIN */
+        const double by = fmax(DBL_EPSILON * fabs(w->in[k]), DBL_MIN);
 
         w->bounds.span[k] = (qdot_interval){w->in[k] - by, w->in[k] + by};
     }
@@ -139,7 +140,7 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
         else if (fabs(g[i]) > QDOT_WATCH_MOST)
             g[i] = copysign(QDOT_WATCH_MOST, g[i]);
         else if (fabs(g[i]) < DBL_MIN && (g[i] != 0 || underflows(w, i)))
-            g[i] = copysign(DBL_MIN, g[i]); /* also of a 0: it keeps its sign */
+            g[i] = copysign(DBL_MIN, g[i]); /* keep the sign of values that underflow, by +-DBL_MIN */
     return QDOT_OK;
 }
 

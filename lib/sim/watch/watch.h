@@ -75,12 +75,12 @@ double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
                                the start was moved by a rounding of 1 */
-    bool exact;             /* y + low is no result of a run: no rounding moves it */
-    const int *before;      /* [m] the signs just before; 0: none, as at the start of a run */
+    bool exact; /* y + low is exact and not the result of an integration: no rounding error */
+    const int *before;      /* [m] signs just before; 0: unknown, as at the start of a run */
     const double *residual; /* [m] |g| up to which it counts as 0, if a root was located here;
                                or NULL */
-    const double *low;      /* [2n] the state less y; NULL: 0 */
-    const double *largest;  /* [2n] of |y| so far in the run; borrowed, it may grow; NULL: not known */
+    const double *low;      /* [2n] exact state minus y; NULL: 0 */
+    const double *largest; /* [2n] largest |y| so far in the run, borrowed, may still grow; NULL: unknown */
     size_t left;            /* functions below this have left their root with the state: they are 0
                                only where that is lost in the rounding of two doubles */
 } qdot_watch_known;
