@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "lang/workbench/complete.h"
 
-static qdot_session *session; /* readline's callbacks have no argument of ours */
+static qdot_session *session; /* global, because readline's callbacks get no argument */
 static const char *lines = "";
 
 /* The words found, handed to readline one by one. */
@@ -91,7 +91,7 @@ complete(const char *prefix, int start, int end)
     (void)end;
     rl_completion_append_character = '\0';
     if (p == QUOTED)
-        return NULL; /* file names, and their closing quote */
+        return NULL; /* readline then completes file names and their closing quote */
     rl_attempted_completion_over = 1;
     if (p == COMMENT || find_words(prefix, start) != QDOT_OK)
         return NULL;
@@ -115,7 +115,7 @@ qdot_completion_install(qdot_session *s)
     rl_basic_word_break_characters = " \t\n\"'`@$><=;|&{}()[]+-*/^,:.!%~#";
     rl_completer_quote_characters = "\"";
     rl_completion_word_break_hook = breaks;
-    rl_variable_bind("expand-tilde", "on"); /* the language knows no ~ */
+    rl_variable_bind("expand-tilde", "on"); /* ~ has no meaning in the language */
 }
 
 void

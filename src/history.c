@@ -15,7 +15,7 @@
 
 enum { ENTRIES = 10000, END_OF_LINE = 0x1E };
 
-static qdot_text path; /* of the file; empty: none */
+static qdot_text path; /* path of the history file; empty: none */
 
 /* Create the folders above `file` that are missing, as `mkdir -p` does. */
 static bool

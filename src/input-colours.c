@@ -4,7 +4,7 @@
  * colours, and the cursor goes back: readline needs to know nothing of it, and what it shifts or
  * leaves in place keeps its colour.
  */
-#define _XOPEN_SOURCE 700 /* wcwidth */
+#define _XOPEN_SOURCE 700 /* for wcwidth */
 #include "input-colours.h"
 
 #include <poll.h>
@@ -21,10 +21,10 @@
 #include "base/text.h"
 #include "lang/workbench/highlight.h"
 
-static const qdot_session *session; /* readline's callbacks have no argument of ours */
+static const qdot_session *session; /* global, because readline's callbacks get no argument */
 static const char *lines = "";
 
-enum { LONG_LINE = 200 }; /* bytes */
+enum { LONG_LINE = 200 }; /* longest line that is coloured, in bytes */
 
 static const char *const colours[] = {
     [QDOT_HIGHLIGHT_PLAIN] = "",          [QDOT_HIGHLIGHT_WORD] = QDOT_BOLD,
@@ -36,8 +36,8 @@ static const char *const colours[] = {
 /* --- positions of characters on the screen ---------------------------------------------- */
 
 typedef struct {
-    int columns, rows; /* of the terminal */
-    int x, row;        /* of the next character, from the row that the prompt begins in */
+    int columns, rows; /* size of the terminal */
+    int x, row;        /* position of the next character, row 0 is where the prompt begins */
 } place;
 
 /* The number of columns of the character at `text`, *bytes its length; negative: unknown. */
@@ -139,7 +139,7 @@ write_line(place p, const uint8_t *kinds)
 {
     const char *text = rl_line_buffer;
     uint8_t now = QDOT_HIGHLIGHT_PLAIN;
-    int row = p.row; /* of the cursor, which stays behind the last column of a full row */
+    int row = p.row; /* row of the cursor, which stays after the last column of a full row */
 
     for (size_t i = 0, bytes; text[i] != '\0'; i += bytes) {
         int columns;
@@ -211,11 +211,11 @@ paint_line(void)
     if (!step_over(&cursor, rl_line_buffer, (size_t)rl_point) ||
         !step_over(&end, rl_line_buffer, (size_t)rl_end) || end.row >= end.rows ||
         waits())
-        return; /* of what has left the screen nothing is known */
+        return; /* a part has scrolled off the screen and cannot be repainted */
     kinds = kinds_of_line(&before);
     if (kinds == NULL)
         return;
-    fputs("\0337", rl_outstream); /* keep where the cursor is */
+    fputs("\0337", rl_outstream); /* terminal code: save the cursor position */
     move(start.row - cursor.row, start.x);
     write_line(start, kinds + before);
     fputs("\0338", rl_outstream);
@@ -236,7 +236,7 @@ qdot_input_colours_install(const qdot_session *s)
     session = s;
     if (!qdot_terminal_has_colours(rl_outstream))
         return;
-    rl_initialize(); /* with a function of ours it would not ask what the terminal can do */
+    rl_initialize(); /* now, as with our redisplay function readline would not read the terminal's abilities */
     rl_redisplay_function = redisplay;
 }
 

@@ -25,7 +25,7 @@
 #include "signals.h"
 #include "stream.h"
 
-enum { DONE = 0, FAILED = 1, MISUSED = 2 }; /* exit statuses */
+enum { DONE = 0, FAILED = 1, MISUSED = 2 }; /* exit statuses of the program */
 
 static const char usage[] =
     "Usage: qdot [OPTION]... [FILE]...\n"
@@ -73,7 +73,7 @@ typedef struct {
 typedef struct {
     qdot_vec(task) tasks;
     bool interactive, json, quiet, no_init;
-    const char *print; /* --help, --version: what to print instead of doing anything else */
+    const char *print; /* text of --help or --version, printed instead of running anything */
 } options;
 
 static const struct option names[] = {
@@ -130,7 +130,7 @@ options_read(int argc, char **argv, options *o)
         default: return bad_usage();
         }
     }
-    for (; optind < argc; optind++) /* after `--` */
+    for (; optind < argc; optind++) /* arguments after `--` are file names */
         QDOT_TRY(qdot_vec_push(&o->tasks, ((task){argv[optind], false})));
     return QDOT_OK;
 }
@@ -203,7 +203,7 @@ keep_memory(void)
     mallopt(M_ARENA_MAX, 1);
     mallopt(M_TRIM_THRESHOLD, 1 << 26);
     mallopt(M_TOP_PAD, 1 << 20);
-    mallopt(M_MMAP_THRESHOLD, 1 << 22); /* else fixed low by the first of these */
+    mallopt(M_MMAP_THRESHOLD, 1 << 22); /* set explicitly, because the first mallopt call fixes it at a low value */
 #endif
 }
 

@@ -12,7 +12,7 @@
 #include "base/utf8.h"
 #include "lang/session/output.h"
 
-static FILE *collected, *out, *err; /* the session's files meanwhile */
+static FILE *collected, *out, *err; /* stream for answers while they are collected; the session's own streams */
 static char *text;
 static size_t length;
 
@@ -45,7 +45,7 @@ qdot_pager_begin(qdot_session *session)
     session->output->pages = session->output->out = collected;
     session->output->screen = out;
     if (isatty(fileno(err)))
-        session->output->err = collected; /* an error stays behind the answers before it */
+        session->output->err = collected; /* so that errors come after the answers before them */
     return true;
 }
 
@@ -78,14 +78,14 @@ is_longer_than_the_screen(void)
         lines += 1 + (n > 0 ? (columns_of(at, n) - 1) / columns : 0);
         at += n + 1;
     }
-    return lines >= rows; /* the prompt takes a line too */
+    return lines >= rows; /* the prompt takes one more line */
 }
 
 /* Show the collected answers; false: the command could not be started. */
 static bool
 show_pages(void)
 {
-    void (*before)(int) = signal(SIGPIPE, SIG_IGN); /* a pager may be left early */
+    void (*before)(int) = signal(SIGPIPE, SIG_IGN); /* the user may leave the pager early */
     FILE *pager;
     int status = -1;
 
@@ -97,7 +97,7 @@ show_pages(void)
         status = pclose(pager);
     }
     signal(SIGPIPE, before);
-    qdot_interrupt_clear(); /* a Ctrl-C was the pager's */
+    qdot_interrupt_clear(); /* the Ctrl-C was meant for the pager */
     return status != -1 && !(WIFEXITED(status) &&
                              (WEXITSTATUS(status) == 126 || WEXITSTATUS(status) == 127));
 }
@@ -112,6 +112,6 @@ qdot_pager_end(qdot_session *session)
     if (length > 0 && !(is_longer_than_the_screen() && show_pages()))
         (void)fwrite(text, 1, length, out);
     fflush(out);
-    free(text); /* from open_memstream */
+    free(text); /* allocated by open_memstream */
     text = NULL;
 }

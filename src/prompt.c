@@ -30,7 +30,7 @@
 /* --- reading a line ----------------------------------------------------------------- */
 
 static struct {
-    char *line; /* from readline, to be freed; NULL: the end of input */
+    char *line; /* line from readline, to be freed; NULL: end of input */
     bool ready;
 } answer;
 
@@ -39,7 +39,7 @@ take_line(char *line)
 {
     answer.line = line;
     answer.ready = true;
-    rl_callback_handler_remove(); /* gives the terminal back */
+    rl_callback_handler_remove(); /* resets the terminal */
 }
 
 /* Sleep until there is input or a signal; false: a signal. Signals can come only while
@@ -170,7 +170,7 @@ read_statement(const qdot_session *session, qdot_text *text)
     qdot_input_colours_continue("");
     qdot_text_clear(&prompt);
     if (text->n > 0 && text->at[text->n - 1] == '\n')
-        qdot_text_truncate(text, text->n - 1); /* no line came behind it */
+        qdot_text_truncate(text, text->n - 1); /* remove the newline: no further line came */
     /* also keep a statement that was given up: it may be recalled and corrected */
     if (!text->failed && text->n > 0)
         qdot_history_note(text->at);

@@ -18,7 +18,7 @@ on_interrupt(int signal_number)
         static const char text[] = "stopping soon (Ctrl-\\ ends qdot)\n";
 
         if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
-            return; /* nobody reads it */
+            return; /* stderr is closed: nothing else to do */
         return;
     }
     if (computing && qdot_interrupt_flag) {
@@ -38,11 +38,11 @@ qdot_signals_install(void)
     /* No SA_RESTART, so that functions that wait for input or for gnuplot return. */
     sigemptyset(&action.sa_mask);
     if (qdot_rank() > 0)
-        action.sa_handler = SIG_IGN; /* rank 0 ends it */
+        action.sa_handler = SIG_IGN; /* rank 0 ends this process */
     sigaction(SIGINT, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN); /* then write fails with EFBIG */
+    signal(SIGXFSZ, SIG_IGN); /* writing too large a file then fails with EFBIG */
     if (qdot_rank() == 0 && qdot_ranks_count() > 1)
-        sigaction(SIGTERM, &action, NULL); /* mpirun ends all, and gives a second to do so */
+        sigaction(SIGTERM, &action, NULL); /* mpirun sends it to end all ranks, and waits one second */
 }
 
 void

@@ -10,9 +10,9 @@
 typedef struct {
     qdot_boxes *to;
     qdot_vec(size_t)
-        open; /* where the boxes of each open node begin on the stack of finished ones */
-    qdot_vec(uint32_t) done; /* finished boxes of nodes that are open */
-    qdot_text spelled, copy; /* work space */
+        open; /* for each open node: index in `done` of its first finished box */
+    qdot_vec(uint32_t) done; /* finished boxes of nodes that are still open */
+    qdot_text spelled, copy; /* scratch texts */
 } reader;
 
 /* --- boxes of texts ------------------------------------------------------------------------- */

@@ -18,33 +18,33 @@
 typedef enum {
     QDOT_BOX_TEXT,
     QDOT_BOX_ROW,      /* children side by side */
-    QDOT_BOX_FRACTION, /* above, below */
+    QDOT_BOX_FRACTION, /* two children: numerator, denominator */
     QDOT_BOX_ROOT,
     QDOT_BOX_SUPER, /* base, superscript */
     QDOT_BOX_SUB,   /* base, subscript */
-    QDOT_BOX_TABLE  /* cells row by row */
+    QDOT_BOX_TABLE  /* cells of a table, row by row */
 } qdot_box_kind;
 
 /* The role of a text in its row. */
 typedef enum {
-    QDOT_BOX_NAME, /* a number, a name */
+    QDOT_BOX_NAME, /* a number or a name */
     QDOT_BOX_RELATION,
-    QDOT_BOX_SIGN, /* + - of two terms, and, or */
+    QDOT_BOX_SIGN, /* + or - between two terms, `and`, `or` */
     QDOT_BOX_TIMES,
-    QDOT_BOX_OVER, /* the / of a fraction in one line */
+    QDOT_BOX_OVER, /* the / of a fraction written on one line */
     QDOT_BOX_COMMA,
-    QDOT_BOX_END,  /* of a row of a matrix that is broken: a line ends */
+    QDOT_BOX_END,  /* end of a row of a matrix written on several lines */
     QDOT_BOX_WORD, /* a word of a text, with the blank after it */
-    QDOT_BOX_OPENING, /* brackets, as high as their row */
+    QDOT_BOX_OPENING, /* an opening bracket, as high as its row */
     QDOT_BOX_CLOSING
 } qdot_box_role;
 
 typedef struct {
     uint8_t kind, role;
-    uint8_t label; /* words, a name that an answer begins with */
-    uint32_t first, count;         /* of the children; of a text its bytes */
+    uint8_t label; /* belongs to the words or the name with which an answer begins */
+    uint32_t first, count; /* first child and number of children; for a text its first byte and length */
     uint32_t columns, above, below;
-    uint32_t across; /* cells of a row of a table; of SUB: columns of its base above the subscript */
+    uint32_t across; /* for a table: cells in a row; for a subscript: columns of the base above it */
 } qdot_box;
 
 typedef struct {
@@ -72,6 +72,6 @@ qdot_box_height(const qdot_box *b)
     return b->above + 1 + b->below;
 }
 
-enum { QDOT_BOX_GAP = 2 }; /* columns between those of a table */
+enum { QDOT_BOX_GAP = 2 }; /* blank columns between the columns of a table */
 
 #endif

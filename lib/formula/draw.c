@@ -18,7 +18,7 @@ typedef struct {
 
 typedef struct {
     const qdot_boxes *boxes;
-    cell *grid; /* [rows x columns] */
+    cell *grid; /* [rows x columns] the characters drawn */
     size_t columns, rows;
     qdot_vec(task) todo;
     qdot_status status;

@@ -141,7 +141,8 @@ qdot_formula_find_parts(const qdot_formula *f, qdot_formula_id id, qdot_formula_
         }
         for (qdot_formula_id c = 0; (c = qdot_formula_child(f, top, c)) != 0;)
             QDOT_TRY(qdot_vec_push(&parts->todo, c));
-        for (size_t to = parts->todo.n; from + 1 < to; from++) { /* the first one is taken first */
+        /* reverse the order, so that the first child is taken first */
+        for (size_t to = parts->todo.n; from + 1 < to; from++) {
             const qdot_formula_id c = parts->todo.at[--to];
 
             parts->todo.at[to] = parts->todo.at[from];
@@ -234,7 +235,7 @@ qdot_formula_add_latex(qdot_formula *f, qdot_formula_id parent, const char *text
             from = i + length;
             i = from - 1;
         } else if (text[i] == '\\' && i + 1 < n && !isalpha((unsigned char)text[i + 1])) {
-            i++; /* \{ is no brace */
+            i++; /* an escaped character, as \{, is no bracket */
         }
     }
     if (n > from)

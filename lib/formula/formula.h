@@ -30,28 +30,28 @@ typedef uint32_t qdot_formula_id;
 typedef enum {
     QDOT_FORMULA_SPAN,     /* children side by side, as if they were children of the parent */
     QDOT_FORMULA_ROW,      /* children side by side, as one unit */
-    QDOT_FORMULA_TEXT,     /* a leaf, with its role */
-    QDOT_FORMULA_SIGN,     /* a leaf, a row of sign.def */
-    QDOT_FORMULA_FRACTION, /* above, below */
+    QDOT_FORMULA_TEXT,     /* a text, with one of the roles below */
+    QDOT_FORMULA_SIGN,     /* a sign of sign.def */
+    QDOT_FORMULA_FRACTION, /* two children: numerator, denominator */
     QDOT_FORMULA_ROOT,     /* the square root of all children */
-    QDOT_FORMULA_POWER,    /* base, exponent */
+    QDOT_FORMULA_POWER,    /* two children: base, exponent */
     QDOT_FORMULA_INDEX,    /* base, subscript */
-    QDOT_FORMULA_ACCENT,   /* one child with n dots above */
+    QDOT_FORMULA_ACCENT,   /* one child with n dots above it */
     QDOT_FORMULA_PRIMES,   /* one child followed by n primes */
-    QDOT_FORMULA_BRACKET,  /* all children in brackets of a shape */
-    QDOT_FORMULA_TABLE,    /* cells, n in a row, in brackets */
-    QDOT_FORMULA_TENSOR,   /* base, indices above, indices below */
+    QDOT_FORMULA_BRACKET,  /* all children in brackets of the given shape */
+    QDOT_FORMULA_TABLE,    /* cells of a matrix or table, n in a row, in brackets */
+    QDOT_FORMULA_TENSOR,   /* three children: base, upper indices, lower indices */
     QDOT_FORMULA_CASES,    /* value, condition, value, condition, ..., value otherwise */
-    QDOT_FORMULA_APPLY     /* a function, its bracket */
+    QDOT_FORMULA_APPLY     /* two children: a function and its bracket */
 } qdot_formula_kind;
 
 /* The roles of a TEXT node. */
 typedef enum {
-    QDOT_TEXT_NAME,     /* a name; where formulas are drawn its letters for the eye, θ, its indices apart */
+    QDOT_TEXT_NAME,     /* a name; drawn with Greek letters (θ) and subscripts */
     QDOT_TEXT_NUMBER,   /* an integer or a decimal number without its sign */
     QDOT_TEXT_FUNCTION, /* the name of a function */
     QDOT_TEXT_LABEL,    /* the name of a thing, as it was typed */
-    QDOT_TEXT_WORDS     /* a text for people; in LaTeX what is LaTeX already */
+    QDOT_TEXT_WORDS     /* a text for people; in LaTeX it is LaTeX already */
 } qdot_formula_role;
 
 /* The kinds of a BRACKET node. */
@@ -67,9 +67,9 @@ typedef enum {
     QDOT_DUTY_NONE,
     QDOT_DUTY_COLON,
     QDOT_DUTY_RELATION,
-    QDOT_DUTY_TERMS, /* + - of two terms */
+    QDOT_DUTY_TERMS, /* + or - between two terms */
     QDOT_DUTY_ERROR,
-    QDOT_DUTY_LOGIC, /* and, or */
+    QDOT_DUTY_LOGIC, /* `and`, `or` */
     QDOT_DUTY_TIMES,
     QDOT_DUTY_COMMA
 } qdot_formula_duty;
@@ -84,27 +84,27 @@ typedef enum {
 
 /* Flags of nodes: variants of how a node is written. */
 enum {
-    QDOT_FORMULA_SLANTED = 1, /* FRACTION of numbers, an exponent: LaTeX writes it with a slash */
-    QDOT_FORMULA_RAISED = 2,  /* POWER in a line: the exponent is an integer, written by superscripts */
-    QDOT_FORMULA_BARE = 4,    /* ROOT in a line: √x, without brackets */
-    QDOT_FORMULA_FIXED = 8,   /* BRACKET: in LaTeX of the height of a line */
-    QDOT_FORMULA_SMALL = 16,  /* FRACTION: in LaTeX of the height of a line */
-    QDOT_FORMULA_LABEL = 32   /* of any: what an answer is called, before its value */
+    QDOT_FORMULA_SLANTED = 1, /* FRACTION of numbers, or an exponent: LaTeX writes it with a slash */
+    QDOT_FORMULA_RAISED = 2, /* POWER on one line: the integer exponent is written by superscript digits */
+    QDOT_FORMULA_BARE = 4,    /* ROOT on one line: √x, without brackets */
+    QDOT_FORMULA_FIXED = 8,   /* BRACKET: LaTeX keeps its height at one line */
+    QDOT_FORMULA_SMALL = 16,  /* FRACTION: LaTeX writes it in the height of a line */
+    QDOT_FORMULA_LABEL = 32   /* any node: part of the name of an answer, before its value */
 };
 
 typedef struct {
-    uint8_t kind, what, flags; /* what: role, sign, shape */
-    qdot_formula_id next;      /* the next child of the parent, of the last one the first; 0: in no list */
-    uint32_t child;            /* the last child, 0: none; of a TEXT where its bytes begin */
-    uint32_t n;                /* bytes, dots, primes, cells in a row */
+    uint8_t kind, what, flags; /* kind of the node; its role, sign or shape; flags */
+    qdot_formula_id next; /* next child of the parent; for the last child the first one; 0: in no list */
+    uint32_t child;            /* the last child, 0: none; for TEXT the index of its first byte */
+    uint32_t n;                /* number of bytes, dots, primes, or cells in a row */
 } qdot_formula_node;
 
 /* Start with `qdot_formula f = {0};`, free with qdot_formula_clear. */
 typedef struct {
-    qdot_vec(qdot_formula_node) nodes; /* [0] is nil */
-    qdot_text text;                    /* of the TEXT nodes */
+    qdot_vec(qdot_formula_node) nodes; /* nodes.at[0] is nil */
+    qdot_text text;                    /* the bytes of all TEXT nodes */
     bool failed;
-    uint32_t stamp; /* of the cache that has nodes of this formula (expr/printed) */
+    uint32_t stamp; /* stamp of the cache that refers to nodes of this formula (expr/printed) */
 } qdot_formula;
 
 void qdot_formula_clear(qdot_formula *f);
@@ -156,7 +156,7 @@ qdot_formula_child(const qdot_formula *f, qdot_formula_id parent, qdot_formula_i
 
 /* The parts of a row, from left to right. */
 typedef struct {
-    qdot_vec(qdot_formula_id) part, todo; /* todo: work space */
+    qdot_vec(qdot_formula_id) part, todo; /* the parts; nodes still to be looked at (scratch) */
 } qdot_formula_parts;
 
 /* Append the children of a node, those of SPANs in their place; a SPAN that is a label stays one part. Errors:

@@ -26,11 +26,11 @@ typedef struct {
     qdot_boxes boxes;
     const qdot_layout_request *request;
     size_t width, indent;
-    size_t labels; /* leading items that are names or words */
+    size_t labels; /* number of leading items that are names or words */
     size_t name;   /* of these, the first item of the name, after `spring s1: ` */
-    bool several;  /* relations outside brackets, and words: each is one of a list */
-    qdot_vec(item) todo;  /* a stack */
-    qdot_vec(item) items; /* in reading order */
+    bool several;  /* relations outside brackets, and words: each is one of several formulas */
+    qdot_vec(item) todo;  /* stack of nodes still to be written */
+    qdot_vec(item) items; /* the items in reading order */
     qdot_vec(qdot_draw_item) line;
     qdot_status status;
 } layout;

@@ -19,13 +19,13 @@
 #include "formula/formula.h"
 
 typedef struct {
-    size_t columns, lines; /* of what was drawn */
+    size_t columns, lines; /* size of what was drawn */
 } qdot_layout_size;
 
 typedef struct {
     size_t width;
-    size_t shown;            /* lines that are drawn; those beyond are only counted */
-    const char *paint, *end; /* codes of colour round words and labels that the formula begins with; NULL: none */
+    size_t shown;            /* largest number of lines drawn; further lines are only counted */
+    const char *paint, *end; /* colour codes before and after the leading words and labels; NULL: none */
 } qdot_layout_request;
 
 /* Append the lines of a formula (QDOT_NOTATION_DRAWN), each with its end. *size grows by what there is. Errors:

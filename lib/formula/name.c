@@ -27,8 +27,8 @@ is_digit(char c)
 /* A name in its parts: letters, the digits behind them, what stands behind `_`, an index in
  * brackets: theta1, omega_0, V_eff, A[1,2]. */
 struct parts {
-    const char *letter; /* a Greek one, or NULL */
-    bool greek;         /* all of it Greek letters, one or more: theta, deltatheta */
+    const char *letter; /* a Greek letter, or NULL */
+    bool greek;         /* the name consists of Greek letters only: theta, deltatheta */
     size_t letters, digits_at, digits, below_at, below, index_at, index;
 };
 
@@ -38,7 +38,7 @@ static int
 next_greek(const char *at, size_t length)
 {
     enum { LONGEST = 64 };
-    bool ends[LONGEST + 1] = {[0] = true}; /* of the last k letters: all Greek */
+    bool ends[LONGEST + 1] = {[0] = true}; /* ends[k]: the last k letters are Greek letters */
 
     if (length == 0 || length > LONGEST)
         return -1;
@@ -208,7 +208,7 @@ line_parts(const char *at, size_t length, char between, qdot_text *out)
         if (!first)
             qdot_text_char(out, between);
         if (all_digits(part, strlen(part)) || strchr(part, '[') != NULL)
-            qdot_text_add(out, part); /* a member's brackets stay */
+            qdot_text_add(out, part); /* x[1,2] keeps its brackets */
         else
             qdot_name_line(part, 0, qdot_name_index(part, &(qdot_name_digits){0}), out);
         qdot_free(part);

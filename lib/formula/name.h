@@ -13,9 +13,9 @@ const char *qdot_name_greek(const char *letter);
 /* An index that consists of digits: x_1 or x[1]. */
 typedef struct {
     size_t letters; /* number of letters before the subscript */
-    const char *at; /* the digits */
+    const char *at; /* the digits of the index */
     size_t n;
-    bool brackets; /* x[1] */
+    bool brackets; /* written with brackets: x[1] */
 } qdot_name_digits;
 
 /* Whether the only index of a name is digits after `_` or in brackets, so that it may be written as x₁. */

@@ -11,15 +11,15 @@
 
 /* A node whose children are being traversed. */
 typedef struct {
-    qdot_formula_id id, child; /* child: the latest one; 0: none yet */
-    uint32_t k;                /* its number */
+    qdot_formula_id id, child; /* the node, and its child visited last; 0: none yet */
+    uint32_t k;                /* index of that child */
 } qdot_formula_frame;
 
 typedef struct qdot_formula_walk qdot_formula_walk;
 
 struct qdot_formula_walk {
     const qdot_formula *formula;
-    qdot_vec(qdot_formula_frame) open; /* the nodes around the present one, outermost first */
+    qdot_vec(qdot_formula_frame) open; /* the nodes that contain the present one, outermost first */
     void *user;
     qdot_status (*enter)(qdot_formula_walk *walk, const qdot_formula_node *node);
     /* Called between child k - 1 and child k > 0 of a node, as between the two sides of a fraction; not within a

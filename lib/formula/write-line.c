@@ -104,7 +104,7 @@ line_leave(qdot_formula_walk *walk, const qdot_formula_node *node)
     switch (node->kind) {
     case QDOT_FORMULA_ROOT: qdot_text_add(w->out, node->flags & QDOT_FORMULA_BARE ? "" : ")"); break;
     case QDOT_FORMULA_BRACKET: qdot_text_add(w->out, closing[node->what]); break;
-    case QDOT_FORMULA_TABLE: /* one row must not look like a list */
+    case QDOT_FORMULA_TABLE: /* a matrix with one row must not look like a list */
         qdot_text_add(w->out, is_one_row(walk->formula, node) ? ";]" : "]");
         break;
     case QDOT_FORMULA_PRIMES: line_add_primes(w, node->n); break;

@@ -14,13 +14,13 @@ static const char *const signs[] = {
 
 typedef struct {
     qdot_text *out;
-    bool page;              /* the form for pages */
-    bool behind_times;      /* a sign of multiplication was written, and nothing since */
+    bool page;              /* write the form for HTML pages */
+    bool behind_times;      /* the last thing written was a multiplication sign */
     bool behind_name;       /* ... which stood behind a name of several letters */
     size_t name;            /* where such a name ended last */
-    qdot_vec(uint8_t) flat; /* of the open brackets: about one line */
+    qdot_vec(uint8_t) flat; /* for each open bracket: its content is about one line high */
     qdot_vec(
-        size_t) above; /* of the open tensors: where the indices above begin, and end */
+        size_t) above; /* for each open tensor: where its upper indices begin and end in `out` */
 } writer;
 
 /* The MathML tags around the children of a node, or around a text. */

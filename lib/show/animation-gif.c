@@ -15,7 +15,7 @@ typedef struct {
     const qdot_animation *a;
     double right[3], up[3];
     double lo[2], hi[2];
-    double size; /* of the whole, for the width of springs */
+    double size; /* size of the scene, which determines the width of springs */
 } view;
 
 typedef struct {

@@ -18,13 +18,13 @@
 enum { QDOT_ANIMATION_ARMS = 8 };
 
 typedef struct {
-    size_t at[3]; /* columns of x, y and, in space, z */
+    size_t at[3]; /* indices of the columns with x, y and, in space, z */
 } qdot_animation_point;
 
 typedef struct {
     const char *name;
     size_t point;
-    double size; /* of the dot; 1 for the heaviest particle */
+    double size; /* diameter of its dot; 1 for the heaviest particle */
 } qdot_animation_particle;
 
 typedef enum {
@@ -35,27 +35,27 @@ typedef enum {
 
 typedef struct {
     qdot_animation_kind kind;
-    size_t ends[2]; /* points */
+    size_t ends[2]; /* indices of the points at both ends */
 } qdot_animation_link;
 
 /* The solid of uniform density with its mass and moments: in the plane a disc or, where something
  * is fastened to it, a rectangle with its length that way; in space an ellipsoid. */
 typedef struct {
     const char *name;
-    size_t point; /* its centre */
+    size_t point; /* index of the point at its centre */
     size_t axes
-        [6];   /* columns of the first column of its rotation (plane), of the first two */
-    bool disc; /* plane: of radius half[0] */
-    double half[3];      /* half the length of its sides; half axes of the ellipsoid */
-    double turn[2];      /* rectangle: direction of its length in the body */
-    double principal[9]; /* space: its principal axes in the body, one after another */
-    size_t arms[QDOT_ANIMATION_ARMS]; /* points that an arm from the centre leads to */
+        [6];   /* columns of the rotation's first column (plane) or first two columns (space) */
+    bool disc; /* in the plane: a disc of radius half[0] */
+    double half[3];      /* half the side lengths; in space half axes of the ellipsoid */
+    double turn[2];      /* rectangle: direction of its long side in the body frame */
+    double principal[9]; /* in space: unit vectors of the principal axes in the body frame */
+    size_t arms[QDOT_ANIMATION_ARMS]; /* indices of points to which an arm from the centre is drawn */
     size_t n_arms;
 } qdot_animation_body;
 
 typedef struct {
-    char *name, *rate; /* owned */
-    size_t q, v;       /* columns */
+    char *name, *rate; /* names of coordinate and velocity; owned */
+    size_t q, v;       /* indices of the columns of coordinate and velocity */
 } qdot_animation_state;
 
 typedef struct {
@@ -65,26 +65,26 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    char *text; /* owned */
+    char *text; /* text of the fact; owned */
 } qdot_animation_fact;
 
 typedef struct {
-    char *title;        /* owned; NULL: none */
-    unsigned dimension; /* 2 or 3 */
-    double up[3];       /* of the picture in space, a unit vector */
+    char *title;        /* title, owned; NULL: none */
+    unsigned dimension; /* dimension of space, 2 or 3 */
+    double up[3];       /* upward direction of the picture in space, a unit vector */
     double t0, t1;      /* times of the first and last frame */
-    size_t frames;      /* 2 or more */
-    double speed;       /* units of t in a second */
-    double trail;       /* length of the trails, in units of t */
+    size_t frames;      /* number of frames, at least 2 */
+    double speed;       /* units of t shown in one second */
+    double trail;       /* length of the trails in units of t */
     size_t columns;
-    double *values; /* [columns * frames], column by column; owned */
+    double *values; /* [columns x frames] values, column by column; owned */
     qdot_vec(qdot_animation_point) points;
     qdot_vec(qdot_animation_particle) particles;
     qdot_vec(qdot_animation_link) links;
     qdot_vec(qdot_animation_body) bodies;
-    qdot_vec(qdot_animation_state) states;    /* for the phase portrait */
-    qdot_vec(qdot_animation_energy) energies; /* against t */
-    qdot_vec(qdot_animation_fact) facts;      /* lines below the picture */
+    qdot_vec(qdot_animation_state) states;    /* coordinates with a phase portrait */
+    qdot_vec(qdot_animation_energy) energies; /* energies, drawn against t */
+    qdot_vec(qdot_animation_fact) facts;      /* facts printed below the picture */
 } qdot_animation;
 
 void qdot_animation_clear(qdot_animation *a);

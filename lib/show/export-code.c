@@ -11,18 +11,18 @@
 #include "base/memory.h"
 #include "show/export-language.h"
 
-enum { LONGEST = 44 }; /* letters of a value within another */
+enum { LONGEST = 44 }; /* longest expression in characters that is written inside another one */
 
 /* The precedence of an expression's text. */
 enum { SUM, PRODUCT, WHOLE };
 
 typedef struct {
-    uint32_t op; /* QDOT_OP_COUNT: an input or a constant */
+    uint32_t op; /* the operation; QDOT_OP_COUNT: an input or a constant */
     uint32_t args[3];
     uint32_t uses;
     char *text;
     uint8_t binds;
-    bool second, truth; /* the cosine of a SINCOS; true or false */
+    bool second, truth; /* the cosine of a SINCOS; a truth value */
 } value;
 
 typedef struct {
@@ -30,7 +30,7 @@ typedef struct {
     const qdot_tape *tape;
     value *values;
     size_t n;
-    uint32_t *outputs; /* [tape->outputs] values */
+    uint32_t *outputs; /* [tape->outputs] index of the value of each output */
     qdot_text *out;
     size_t named;
 } writer;
@@ -43,7 +43,7 @@ operation_operands(uint32_t op)
     if (op == QDOT_OP_COUNT)
         return 0;
     if (op == QDOT_OP_ERF || op == QDOT_OP_ERFC || op == QDOT_OP_SOFTPLUS)
-        return 1; /* the other is their slope */
+        return 1; /* the second operand of the tape is only for the derivative */
     return qdot_operations[op].operands;
 }
 
@@ -58,7 +58,7 @@ read_tape(writer *w)
 {
     const qdot_tape *t = w->tape;
     size_t loaded = t->inputs + t->constants;
-    uint32_t *at = qdot_malloc(t->places * sizeof *at); /* the value in each place */
+    uint32_t *at = qdot_malloc(t->places * sizeof *at); /* [places] index of the value in each place */
 
     w->values = qdot_calloc(loaded + 2 * t->length + 1, sizeof *w->values);
     w->outputs = qdot_malloc(t->outputs * sizeof *w->outputs);
@@ -156,7 +156,8 @@ arithmetic(const writer *w, const value *v, qdot_text *out)
         add_operand(w, a, PRODUCT, out);
         return SUM;
     case QDOT_OP_ADD:
-        if (w->values[b].op == QDOT_OP_COUNT && *w->values[b].text == '-') { /* x + (-1.0) */
+        /* brackets around a negative constant: x + (-1.0) */
+        if (w->values[b].op == QDOT_OP_COUNT && *w->values[b].text == '-') {
             add_operand(w, a, SUM, out);
             qdot_text_format(out, " - %s", w->values[b].text + 1);
         } else {
@@ -176,7 +177,7 @@ arithmetic(const writer *w, const value *v, qdot_text *out)
         qdot_text_add(out, " - ");
         add_operand(w, c, PRODUCT, out);
         return SUM;
-    default: /* NMADD */
+    default: /* the operation NMADD */
         add_operand(w, c, SUM, out);
         qdot_text_add(out, " - ");
         infix(w, a, PRODUCT, "*", b, WHOLE, out);
@@ -240,7 +241,7 @@ declare(writer *w, const char *word, bool truth, const char *text)
 
     add_formatted(&line, truth ? w->frame->language->truth : w->frame->language->number, word);
     if (line.failed) {
-        w->out->failed = true; /* a format cut short has no place for the text */
+        w->out->failed = true; /* the format could not hold the text */
     } else {
         qdot_text_add(w->out, w->frame->indent);
         add_formatted(w->out, qdot_text_str(&line), text);

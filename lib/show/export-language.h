@@ -17,10 +17,10 @@
 #include "tape/instruction.h"
 
 struct qdot_export_language {
-    const char *comment; /* begins a line of comment */
-    bool exact_name;     /* the file's name must be a name of the language */
-    const char *reserved; /* words that are no names, a blank before and after each */
-    const char *nan;     /* what stands for no value */
+    const char *comment; /* characters that begin a comment line */
+    bool exact_name;     /* the file name must be a valid name in the language */
+    const char *reserved; /* words that cannot be names, a blank before and after each */
+    const char *nan;     /* expression for a missing value */
 
     /* printf: a named number, a named truth value (name, value). */
     const char *number, *truth;
@@ -29,10 +29,10 @@ struct qdot_export_language {
     /* printf: an element of an array (array, index), (array, row, column); entry NULL: rows are one
      * behind the other. */
     const char *element, *entry;
-    size_t first; /* index of the first element of an array */
-    const char *vector_shape, *matrix_shape; /* printf: rows, rows and columns of an array */
-    const char *result; /* printf: the value of a function that is one number */
-    const char *separator; /* between elements of a list in brackets */
+    size_t first; /* index of an array's first element: 0 or 1 */
+    const char *vector_shape, *matrix_shape; /* printf formats of array shapes: (rows), (rows, columns) */
+    const char *result; /* printf format that returns a function's single number */
+    const char *separator; /* separates the elements of a list in brackets */
 
     /* printf: a declared parameter (name, value, plain name). */
     const char *declared;

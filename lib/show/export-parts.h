@@ -19,26 +19,26 @@ typedef struct qdot_export_language qdot_export_language;
 
 /* A name of the scene and, of a parameter, its value (NaN: none). */
 typedef struct {
-    const char *name; /* plain: "theta[1]" */
+    const char *name; /* the plain name: "theta[1]" */
     double value;
 } qdot_export_name;
 
 /* Consecutive outputs of a tape as an array. */
 typedef struct {
-    const char *array; /* "M"; NULL: one number, the value of the function */
-    size_t rows, columns; /* columns 0: a vector */
+    const char *array; /* name of the array, as "M"; NULL: a single number, the function's value */
+    size_t rows, columns; /* size of the array; columns 0: a vector */
 } qdot_export_block;
 
 typedef struct {
-    const qdot_tape *tape; /* NULL: nothing to compute */
+    const qdot_tape *tape; /* the expressions; NULL: nothing to compute */
     size_t blocks;
     qdot_export_block block[4];
 } qdot_export_function;
 
 /* A surface at which the equations switch. */
 typedef struct {
-    const char *text; /* where they do: "x' = 0" */
-    bool steps;       /* the side is floor(u), else the sign of u */
+    const char *text; /* equation of the surface: "x' = 0" */
+    bool steps;       /* the side is floor(u), otherwise the sign of u */
     bool moves;       /* u does not depend on time alone */
 } qdot_export_surface;
 
@@ -50,25 +50,25 @@ typedef struct {
     bool stop;
     size_t n_targets;
     const size_t *targets;
-    const qdot_tape *effect; /* NULL: without targets */
+    const qdot_tape *effect; /* new values of the targets; NULL: no targets */
 } qdot_export_event;
 
 typedef struct {
-    const char *file;   /* the name of the file without folder and ending */
-    const char *origin; /* the scene in words: lines of a comment */
-    size_t n, m, k, s;  /* coordinates, rows of constraints, parameters, surfaces */
+    const char *file;   /* file name without folder and ending */
+    const char *origin; /* description of the scene, written as comment lines */
+    size_t n, m, k, s;  /* numbers of coordinates, constraint rows, parameters, surfaces */
     const qdot_export_name *q, *lambda, *parameters;
-    const double *start; /* [2n] */
+    const double *start; /* [2n] start state */
     double t0, t1, tol;
-    qdot_export_function equations; /* M, f; with constraints A, gamma */
+    qdot_export_function equations; /* M, f of M q'' = f; with constraints also A, gamma */
     qdot_export_function slopes;    /* d(residuals)/dy [(n + m) x 2n]; residuals: f + A^T lambda - M q'',
                                        gamma - A q'' */
-    qdot_export_function energy;    /* one number */
+    qdot_export_function energy;    /* the energy, one number */
     qdot_export_function positions; /* f [m] of constraints without derivatives, df/dt and f of those
                                        on velocities [m], else 0 */
-    qdot_export_function events;    /* left - right of each */
-    qdot_export_function switches;  /* u [s]; level: what switches of T - V [0 or 1] */
-    const int *orders;              /* [m] derivatives until q'' occurs: 2, 1, 0 */
+    qdot_export_function events;    /* left - right of each event */
+    qdot_export_function switches; /* u [s] of the surfaces; level: switching terms of T - V [0 or 1] */
+    const int *orders; /* [m] time derivatives of each constraint until q'' occurs: 2, 1 or 0 */
     const qdot_export_surface *surface;
     size_t n_events;
     const qdot_export_event *event;
@@ -78,8 +78,8 @@ typedef struct {
 typedef struct {
     const char *file, *origin;
     size_t k;
-    const qdot_export_name *arguments; /* [k] the inputs of the tape; those with a value last */
-    qdot_export_function value;        /* one block */
+    const qdot_export_name *arguments; /* [k] inputs of the tape; those with a value come last */
+    qdot_export_function value;        /* the expression as one array */
 } qdot_export_expression;
 
 #endif

@@ -10,12 +10,12 @@
 
 typedef struct {
     const qdot_export_language *language;
-    const qdot_export_system *system;    /* or */
-    const qdot_export_expression *value; /* the other is NULL */
+    const qdot_export_system *system;    /* the motion to be exported; NULL: an expression is */
+    const qdot_export_expression *value; /* the expression to be exported; NULL: a motion is */
     size_t inputs;
-    char **words;   /* [inputs] names in the language */
-    char **sources; /* [inputs] where they come from; NULL: arguments */
-    char *name;     /* of the function or the group of functions */
+    char **words;   /* [inputs] names of the inputs in the language */
+    char **sources; /* [inputs] expressions from which they are read; NULL: arguments */
+    char *name;     /* name of the function or the group of functions */
     char temporary[16];
     qdot_text *out;
 } qdot_export_writer;

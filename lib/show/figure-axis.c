@@ -124,7 +124,7 @@ choose_offset(qdot_figure_axis *a)
     } else {
         *exponent = '\0';
     }
-    if (strchr(number, '.') != NULL) { /* without zeros at the end */
+    if (strchr(number, '.') != NULL) { /* remove zeros at the end */
         size_t n = strlen(number);
 
         while (number[n - 1] == '0')
@@ -319,7 +319,7 @@ qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *a, bo
     qdot_figure_tic tics[QDOT_FIGURE_TICS];
     size_t n;
 
-    if (!a->log && a->step == 0) { /* beyond what doubles can divide */
+    if (!a->log && a->step == 0) { /* the step is too small for doubles: let gnuplot choose */
         qdot_text_format(script, "set %crange [*:*]\nset %ctics autofreq\n", name, name);
         return;
     }
@@ -420,7 +420,7 @@ qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axe
     qdot_text_format(script, "set label %d ", k + 2);
     axis_add_label(script, "xyz"[k], &axes[k], label);
     qdot_text_add(script, " at first ");
-    for (int i = 0; i < 3; i++) { /* to a thousandth of the axis */
+    for (int i = 0; i < 3; i++) { /* coordinates to a thousandth of the axis */
         const double part = pow(10, floor(log10(axes[i].most - axes[i].least)) - 3);
 
         qdot_text_add(script, i > 0 ? ", first " : "");

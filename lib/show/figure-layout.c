@@ -31,7 +31,7 @@ qdot_figure_is_space(const qdot_panel *panel)
 typedef struct {
     double least[3], most[3];
     size_t points;
-    bool course; /* x runs one way along every curve */
+    bool course; /* x is monotone along every curve */
 } extent;
 
 static void
@@ -52,7 +52,7 @@ range_contains(const qdot_figure_range *range, double value)
 static qdot_status
 panel_measure(const qdot_panel *panel, extent *e)
 {
-    double from = INFINITY, to = -INFINITY; /* of x, wherever y is */
+    double from = INFINITY, to = -INFINITY; /* range of x over the points at which y is finite */
 
     *e = (extent){.course = true};
     if (panel->map != NULL) {
@@ -150,7 +150,7 @@ qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zo
                  high = sin(QDOT_FIGURE_TILT * degree);
     const double part = 4.0 / 7, margins = 6.7, above = 6;
     const double name = (double)qdot_figure_label_width(&room->panel->axis[1]);
-    const double beside = 12 + 1.1 * fmax(name - 2, 0); /* a label right of it, on both sides */
+    const double beside = 12 + 1.1 * fmax(name - 2, 0); /* space for a label beside the box, on both sides */
     const double letter = room->points / 28.35;
     const double longest = fmax(side[0], side[1]);
     const double wide = (c * side[0] + s * side[1]) / longest;

@@ -6,9 +6,9 @@
 
 /* An axis as drawn: gnuplot gets (value - offset) / 10^power, between least and most. */
 typedef struct {
-    double least, most, step; /* as gnuplot gets them; step 0: gnuplot chooses range and tics */
+    double least, most, step; /* range and tic step in gnuplot's numbers; step 0: gnuplot chooses both */
     double offset;
-    char offset_text[64]; /* in gnuplot's markup; "": there is none */
+    char offset_text[64]; /* text of the offset in gnuplot's markup; "": none */
     int power;
     bool log;
     int times, over; /* step = times pi / over; over 0: a decimal number */
@@ -111,20 +111,20 @@ bool qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const d
 /* An image format; one without a terminal is written without gnuplot. */
 typedef struct {
     const char *ending;
-    double dots;  /* of its unit in a cm */
-    double line;  /* width of a line, in its units */
-    double point; /* its unit of letters in a point */
-    double lead;  /* height of a line of text in that of its letters */
+    double dots;  /* dots (units) per cm */
+    double line;  /* line width in units of the format */
+    double point; /* units per point of font size */
+    double lead;  /* line height in units of font size */
     const char *before, *behind; /* text before the terminal's name, and after a length */
-    const char *end;             /* what a whole image ends with, but for blanks */
+    const char *end;             /* last bytes of a complete image, apart from blanks */
 } qdot_figure_kind;
 
 /* A figure with the sizes and texts needed to draw it. */
 typedef struct {
     const qdot_figure *figure;
-    double width, height, points; /* cm, cm, points */
-    const qdot_figure_kind *kind; /* NULL: a window */
-    const char *data;             /* name of the file of data; NULL: within the script */
+    double width, height, points; /* size of the figure in cm; font size in points */
+    const qdot_figure_kind *kind; /* format of the image; NULL: a window */
+    const char *data;             /* name of the data file; NULL: data within the script */
     qdot_text *script;
 } qdot_figure_drawing;
 

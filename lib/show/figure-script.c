@@ -31,7 +31,7 @@ enum {
     COLOURS = sizeof colours / sizeof *colours,
     DASHES = sizeof dashes / sizeof *dashes,
     MARKS = sizeof marks / sizeof *marks,
-    MANY_MARKS = 24 /* on a curve */
+    MANY_MARKS = 24 /* largest number of marks on a curve */
 };
 
 const char *
@@ -146,7 +146,7 @@ room_of_tic(const qdot_figure_drawing *d, const qdot_figure_view *v, int k,
 {
     const double letter = d->points / 28.35;
 
-    if (v->length[2] > 0) /* along the edges of a box */
+    if (v->length[2] > 0) /* along the edges of a box in space */
         return (k == 2 ? 1.8 : 2.2) * letter;
     return (k == 1 ? 1.4 : 0.6 + 0.64 * (double)widest_number(a)) * letter;
 }
@@ -179,7 +179,7 @@ qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis
     const qdot_panel *panel = &d->figure->panels[i];
     const bool space = qdot_figure_is_space(panel);
     qdot_figure_view v;
-    double of_path; /* between the tics of a path, whose shorter axis has some too */
+    double of_path; /* tic spacing common to both axes of a path */
     int power = 0;
 
     QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
@@ -236,7 +236,7 @@ has_key_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
 static double
 spacing_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
-    const double line = 1.5 * d->points / 28.35, around = 3.6; /* of gnuplot, in cm */
+    const double line = 1.5 * d->points / 28.35, around = 3.6; /* gnuplot's line height and margin in cm */
 
     return fmax(0.5, fmin(1, (d->height - around) / (line * (double)panel->n)));
 }
@@ -331,9 +331,9 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
             !axes[k].log && axes[k].over == 0 && axes[k].offset_text[0] == '\0' && axes[k].power == 0;
 
         qdot_figure_add_axis(d->script, name, &axes[k], k == 0 && shared, &width);
-        if (d->kind == NULL && plain && !(k == 0 && shared)) /* one can zoom a window */
+        if (d->kind == NULL && plain && !(k == 0 && shared)) /* a window can be zoomed, so tics must adapt */
             qdot_text_format(d->script, "set %ctics autofreq\n", name);
-        if (n == 3) /* gnuplot's own labels leave boxes with unequal sides */
+        if (n == 3) /* gnuplot's own labels are misplaced if the sides of a box differ */
             qdot_figure_add_edge_label(d->script, k, axes, &panel->axis[k], width);
         else
             qdot_figure_add_axis_label(d->script, name, &axes[k],
@@ -453,7 +453,7 @@ rooms(const qdot_figure_drawing *d, size_t i, double *above, double *below)
 
     *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) +
                      (has_key_beside(d, panel) ? 0 : (double)key_rows(d, panel)));
-    if (key_rows(d, panel) == 0 && panel->axis[1].text != NULL) /* a label that is moved, 10^3 */
+    if (key_rows(d, panel) == 0 && panel->axis[1].text != NULL) /* space for a power of ten above the axis, as 10^3 */
         *above += line * 0.8;
     *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
 }
@@ -514,7 +514,7 @@ panel_place(const qdot_figure_drawing *d, size_t i, double *high)
         if (k < i)
             top -= below;
     }
-    if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot fits what it shows into its part */
+    if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot scales a box in space to its place by itself */
         qdot_text_add(d->script, "unset xlabel\nunset ylabel\nunset label 1\nunset margins\nset origin 0,");
         qdot_text_double(d->script, (top - free - below) / d->height, 6);
         qdot_text_add(d->script, "\nset size 1,");

@@ -17,7 +17,7 @@
 /* A text as it stands, or a formula in plain style, which is set with Greek letters, dots,
  * subscripts and powers: theta1' as θ̇₁, V_eff as V with its subscript. text NULL: none. */
 typedef struct {
-    const char *text; /* UTF-8, borrowed */
+    const char *text; /* the text in UTF-8, borrowed */
     bool formula;
 } qdot_figure_label;
 
@@ -28,7 +28,7 @@ typedef struct {
 } qdot_figure_range;
 
 typedef struct {
-    qdot_figure_label label;  /* in the key; one curve has no key */
+    qdot_figure_label label;  /* name in the legend; a single curve has no legend */
     size_t rows;
     const double *x, *y, *z;  /* [rows] borrowed; z NULL: in the plane */
     size_t look;              /* 1 + the place in the lists of colours, dashes and marks; 0: its own place */
@@ -38,36 +38,36 @@ typedef struct {
 
 /* Numbers over a grid, drawn as colours. */
 typedef struct {
-    qdot_figure_label label; /* of the numbers */
-    size_t n[2];             /* columns, rows */
-    double least[2], most[2]; /* where the first and last of them stand; even between */
-    const double *value;     /* [n[1] x n[0]] borrowed, along x the fastest; NaN: blank */
+    qdot_figure_label label; /* label of the values */
+    size_t n[2];             /* number of columns and rows */
+    double least[2], most[2]; /* x, y of the first and last column and row; evenly spaced */
+    const double *value;     /* [n[1] x n[0]] values, borrowed, x varies fastest; NaN: blank */
 } qdot_figure_map;
 
 enum { QDOT_FIGURE_LEGEND = 16 };
 
 /* One pair of axes; three of them if the first curve is in space. */
 typedef struct {
-    qdot_figure_label title, axis[3]; /* what is written along x, y, z */
-    const char *note;           /* under the title; NULL: none */
+    qdot_figure_label title, axis[3]; /* title; labels of the axes x, y, z */
+    const char *note;           /* text below the title; NULL: none */
     const qdot_curve *curves;
     size_t n;
-    qdot_figure_range range[2]; /* of x and y */
-    bool log[2];                /* x and y by powers of ten */
+    qdot_figure_range range[2]; /* ranges of x and y */
+    bool log[2];                /* logarithmic x, y axis */
     bool pi[2];                 /* x and y are angles, with tics at multiples of pi */
-    bool equal;                 /* one scale for all axes: paths */
-    bool marks;                 /* a mark at every point, joined by lines */
-    bool points;                /* points that are not joined */
-    const char *legend[QDOT_FIGURE_LEGEND]; /* names of the first curves in the key, in place of their labels */
+    bool equal;                 /* same scale on all axes, as for paths */
+    bool marks;                 /* draw a mark at every point, besides the line */
+    bool points;                /* draw points without a line */
+    const char *legend[QDOT_FIGURE_LEGEND]; /* names of the first curves in the legend, instead of their labels */
     size_t n_legend;
-    const qdot_figure_map *map; /* in place of curves; NULL: curves */
+    const qdot_figure_map *map; /* a map, drawn instead of curves; NULL: curves */
 } qdot_panel;
 
 typedef struct {
-    const qdot_panel *panels; /* [n] from the top; panels with the same abscissa share it */
+    const qdot_panel *panels; /* [n] panels from top to bottom; equal x axes are shared */
     size_t n;
-    double width, height; /* cm; 0: the usual size */
-    bool keep; /* leave NAME.gp and NAME.dat beside the file: the script and the data */
+    double width, height; /* size in cm; 0: the default size */
+    bool keep; /* keep the files NAME.gp (script) and NAME.dat (data) */
 } qdot_figure;
 
 /* What the axes of a panel show before anything is drawn: of x, y, z the least and the greatest
@@ -92,7 +92,7 @@ QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size
 typedef struct {
     size_t columns, rows;
     bool ascii;
-    bool colours; /* several curves differ in colours of a terminal; else in dashes, in ASCII in marks */
+    bool colours; /* distinguish curves by terminal colours; else by dashes, in ASCII by marks */
 } qdot_figure_sketching;
 
 /* A panel in characters, with the names of its axes and their ends, in as many digits as these need to differ. Errors:

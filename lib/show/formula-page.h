@@ -27,15 +27,15 @@ typedef struct {
 /* Start with `qdot_formula_page p = {.kind = ...};`, free with qdot_formula_page_clear. */
 typedef struct qdot_formula_page {
     qdot_page_kind kind;
-    const char *paint, *end; /* codes of colour round the names of answers; NULL: none */
+    const char *paint, *end; /* colour codes before and after the names of answers; NULL: none */
     qdot_text out;
-    qdot_status status; /* the first failure; what comes behind it is left out */
+    qdot_status status; /* the first failure, after which nothing is written */
     bool block;         /* a block of equations is open */
-    bool told;          /* ... and its last row is ended, by words */
-    qdot_text label;    /* what names the next row, in LaTeX */
-    qdot_text written;  /* work space: the present formula, its parts */
+    bool told;          /* its last row has been ended by words */
+    qdot_text label;    /* name of the next row in LaTeX */
+    qdot_text written;  /* scratch: LaTeX of the present formula and its parts */
     qdot_formula_parts parts;
-    qdot_vec(qdot_page_cut) cuts; /* of each part; last, of the end */
+    qdot_vec(qdot_page_cut) cuts; /* position of each part in `written`; last the end */
 } qdot_formula_page;
 
 void qdot_formula_page_clear(qdot_formula_page *page);

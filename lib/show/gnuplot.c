@@ -19,7 +19,7 @@ enum { IN, OUT, SAID, FDS };
 /* The child's standard streams, on file descriptors above 0, 1 and 2, so that none overwrites another. */
 typedef struct {
     int fd[FDS];
-    int from; /* our end of the child's output; -1: none */
+    int from; /* our end of the pipe from the child's output; -1: none */
 } plumbing;
 
 static qdot_status

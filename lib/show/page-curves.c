@@ -9,15 +9,15 @@
 /* Sizes in units in which the picture has the width WIDE. */
 enum {
     WIDE = 640,
-    LOW = 170, /* height of a course */
+    LOW = 170, /* height of a curve of one quantity over time */
     TALL = 330,
     LEFT = 64,
     RIGHT = 18,
     TOP = 10,
     BOTTOM = 26,
-    KEY = 22, /* height of a row of the key */
+    KEY = 22, /* height of a row of the legend */
     POINTS = 1500,
-    LOOKS = 8, /* colours with their dashes and marks */
+    LOOKS = 8, /* number of different colours, dashes and marks */
 };
 
 /* The ranges of the axes and where they are drawn; y upwards. */

@@ -11,10 +11,10 @@
 
 /* A curve: y [n] at equidistant times from t0 to t1; nothing is drawn at NaN. */
 typedef struct {
-    const char *label; /* of the key, which is there for two courses or more */
+    const char *label; /* name in the legend, which is drawn for two or more curves */
     double t0, t1;
     size_t n;
-    const double *y; /* borrowed */
+    const double *y; /* [n] values; borrowed */
 } qdot_page_course;
 
 /* Append a figure of courses [n] against t, with the caption `NAME against t`; nothing if they have
@@ -26,7 +26,7 @@ void qdot_page_courses(qdot_text *out, const char *name, size_t n,
 typedef struct {
     const char *label;
     size_t n;
-    const double *x, *y; /* borrowed */
+    const double *x, *y; /* [n] coordinates; borrowed */
 } qdot_page_points;
 
 /* Append a figure of curves [n] with logarithmic axes, a mark at every point; a point that is not

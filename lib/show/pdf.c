@@ -147,7 +147,7 @@ print_in(const char *folder, const char *path)
                           "--no-sandbox"};
     enum { OPTIONS = sizeof options / sizeof *options };
     char *arguments[OPTIONS + 4];
-    size_t n = OPTIONS - (geteuid() != 0); /* as root it has no sandbox */
+    size_t n = OPTIONS - (geteuid() != 0); /* leave out the last option, no sandbox, unless run by root */
     qdot_status status;
     pid_t child;
 

@@ -11,10 +11,10 @@ enum { ACROSS = 2, DOWN = 4, MARGIN = 11, END_TEXT = 32 };
 
 typedef struct {
     size_t columns, rows;
-    unsigned char *cells; /* the dots of braille, U+2800 + cell */
-    unsigned char *looks; /* of each cell: 1 + the look of the curve drawn there last */
-    size_t look;          /* of the present curve */
-    bool solid;           /* without gaps: marks differ */
+    unsigned char *cells; /* [rows x columns] braille dots: the character is U+2800 + cell */
+    unsigned char *looks; /* [rows x columns] 1 + style of the curve drawn there last; 0: none */
+    size_t look;          /* style of the present curve */
+    bool solid;           /* draw without gaps, as curves differ by marks */
     long last[2], along;  /* the last dot of a curve, and the number of dots before it */
 } grid;
 
@@ -246,7 +246,7 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
     add_label(&label, &panel->axis[0], how->ascii);
     free = (long)g->columns - (long)strlen(ends[0]) - (long)strlen(ends[1]);
     if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
-        qdot_text_truncate(&label, 0); /* the numbers say more */
+        qdot_text_truncate(&label, 0); /* no room: the numbers are more important than the label */
     free = (long)fmax((double)free - (double)qdot_utf8_columns(qdot_text_str(&label), label.n), 0);
     qdot_text_format(out, "%*s%s%*s%s%*s%s\n", (int)margin + 1, "", ends[0], (int)(free / 2 + 1), "",
                      qdot_text_str(&label), (int)(free - free / 2), "", ends[1]);

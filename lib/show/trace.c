@@ -9,7 +9,7 @@
 
 enum { ROUNDS = 14 };
 
-static const double bend = 0.06, shortest = 0.02; /* radians, cm */
+static const double bend = 0.06, shortest = 0.02; /* largest bend between chords in radians; shortest chord in cm */
 
 void
 qdot_trace_clear(qdot_trace *p)

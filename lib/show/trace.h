@@ -14,16 +14,16 @@
 /* The function to trace: from s [n] it computes the components [axes * n], all values of one before
  * the next. */
 typedef struct {
-    size_t axes; /* 2 or 3 */
+    size_t axes; /* number of components, 2 or 3 */
     qdot_status (*values)(void *user, size_t n, const double *s, double *values);
     void *user;
-    bool jumps; /* break the line where it jumps from above the view to below it, or back */
+    bool jumps; /* interrupt the line where it jumps across the visible range */
 } qdot_trace_source;
 
 /* The points of the curve, in the order of s; all arrays [n], owned. */
 typedef struct {
     size_t n;
-    double *s, *at[3]; /* at[2] NULL in the plane */
+    double *s, *at[3]; /* [n] parameter, coordinates; at[2] NULL in the plane */
 } qdot_trace;
 
 enum { QDOT_TRACE_MOST = 20001 };

@@ -603,7 +603,7 @@ qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
     }
     fflush(session->output->out);
     if (qdot_write(session, session->output->err, &text) != QDOT_OK)
-        fprintf(session->output->err, "error: %s\n", error.message); /* no memory for more */
+        fprintf(session->output->err, "error: %s\n", error.message); /* out of memory: print at least the message */
     if (session->output->json)
         error_json(session, source, at, &error);
     (void)qdot_fail_again(&error);

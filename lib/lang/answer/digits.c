@@ -44,7 +44,7 @@ meaningful_digits(mpfr_srcptr x, int digits, double error)
     double known, mantissa;
     long power;
 
-    if (isnan(error)) /* no more than a double would show */
+    if (isnan(error)) /* error unknown: show no more digits than a double has */
         return digits < 16 ? digits : 16;
     if (error == 0 || mpfr_zero_p(x))
         return digits;

@@ -7,7 +7,7 @@
 #include "formula/formula.h"
 #include "lang/session/parts.h"
 
-#define QDOT_EXPRESSION_OPERATIONS 10000000u /* the largest expression that is printed */
+#define QDOT_EXPRESSION_OPERATIONS 10000000u /* largest number of operations in an expression that is printed */
 
 /* Append e as a child of the parent. QDOT_ELIMIT, before any work: more than QDOT_EXPRESSION_OPERATIONS. */
 QDOT_MUST_CHECK qdot_status qdot_expression_add(qdot_session *session, qdot_expr e, qdot_notation_kind notation,

@@ -42,7 +42,7 @@ double_number(qdot_session *session, double value, double error, double size,
     if (session->output->json)
         qdot_number_text_json(number, value);
     else if (!isfinite(value))
-        qdot_text_add(number, "unknown"); /* a multiplier where a constraint has no direction */
+        qdot_text_add(number, "unknown"); /* a multiplier of a constraint whose gradient vanishes */
     else
         qdot_number_text(number, value,
                          isfinite(error) ? fmax(error, 2e-16) * size : NAN);
@@ -51,10 +51,10 @@ double_number(qdot_session *session, double value, double error, double size,
 /* A number of the end state: coordinate, velocity, parameter that events set, or multiplier. */
 typedef struct {
     qdot_expr symbol;
-    double value, error; /* relative to size */
+    double value, error; /* value and its error, relative to `size` */
     double size;         /* max(scale, |value|) */
     size_t exact;        /* the index of its exact value in report->exact */
-    bool first;          /* the first number of a line */
+    bool first;          /* begins a new line */
 } end_number;
 
 /* Number k: q_0, q_0', q_1 ..., then the parameters, then the multipliers. */

@@ -95,7 +95,7 @@ sheet_add_words(qdot_sheet *s, const char *text, size_t n)
         if (s->form == QDOT_SHEET_DRAWN) {
             word = strspn(text, " ");
             word += strcspn(text + word, " \n");
-            word = word < n ? word + 1 : n; /* with the blank behind it */
+            word = word < n ? word + 1 : n; /* to the end of the word, with the blank after it */
         }
         qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_WORDS, text, word);
         text += word;

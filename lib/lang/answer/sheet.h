@@ -20,22 +20,22 @@
 #include "lang/session/parts.h"
 
 typedef enum {
-    QDOT_SHEET_LINES, /* lines of text */
-    QDOT_SHEET_DRAWN, /* drawn on a terminal */
-    QDOT_SHEET_PAGE   /* a part of a page */
+    QDOT_SHEET_LINES, /* as lines of text */
+    QDOT_SHEET_DRAWN, /* drawn in two dimensions on a terminal */
+    QDOT_SHEET_PAGE   /* as a part of an HTML page */
 } qdot_sheet_form;
 
 typedef struct {
     qdot_session *session;
     qdot_sheet_form form;
-    qdot_style style; /* of its formulas, where they become text */
+    qdot_style style; /* style of formulas that are written as text */
     qdot_notation_kind notation;
     struct qdot_formula_page *page; /* the page to which its lines belong; NULL: equations of the present statement */
     qdot_formula formula;
-    qdot_formula_id lines, line, at; /* all lines, children of one node; the present one; where parts are appended */
-    size_t columns, rows;            /* of the terminal */
-    bool broken;                     /* its lines of text are broken to the width of a terminal */
-    bool whole;                      /* never cut where it is higher than the terminal */
+    qdot_formula_id lines, line, at; /* formula nodes: parent of all lines; present line; where parts are appended */
+    size_t columns, rows;            /* size of the terminal */
+    bool broken;                     /* lines of text are broken at the width of a terminal */
+    bool whole; /* never shorten the answer if it is higher than the terminal */
     uint64_t operations;             /* operations of its single formula, shown where it is cut; 0: not shown */
 } qdot_sheet;
 

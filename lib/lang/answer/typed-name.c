@@ -18,7 +18,7 @@ typedef struct {
     qdot_style style;
     const char *at, *start;
     qdot_text *out;
-    char closing[32]; /* what closes the brackets that are open */
+    char closing[32]; /* for each open bracket the character that closes it */
     size_t depth;
 } writer;
 
@@ -145,7 +145,7 @@ word(writer *w)
     w->at += n;
     name = declared_name(w, text, &index);
     primes = strspn(w->at + index, "'");
-    if (name == NULL && text[0] == 'd') { /* dT/dtheta' */
+    if (name == NULL && text[0] == 'd') { /* a derivative as dT/dtheta' */
         const qdot_name *q = declared_name(w, text + 1, &index);
 
         if (q != NULL && q->kind == QDOT_NAME_COORD) {
@@ -211,7 +211,7 @@ formula_power(writer *w)
 
     w->at++;
     if (w->style == QDOT_LATEX && *w->at == '(' && w->depth < sizeof w->closing) {
-        w->closing[w->depth++] = '}'; /* x^(1/3): the brackets are the group's */
+        w->closing[w->depth++] = '}'; /* x^(1/3): the brackets become LaTeX braces */
         qdot_text_add(w->out, "^{");
         w->at++;
         return;

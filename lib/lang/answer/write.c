@@ -62,7 +62,8 @@ qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
 qdot_status
 qdot_write_object(const qdot_session *session, FILE *file, qdot_text *object)
 {
-    const bool answer = session->output->console == NULL || file == session->output->console; /* no file of `to` */
+    /* false if the answer goes to a file by `to FILE` */
+    const bool answer = session->output->console == NULL || file == session->output->console;
 
     if (qdot_text_status(object) == QDOT_OK && answer && session->typed->under_way) {
         qdot_text_truncate(object, object->n - strlen("}\n"));

@@ -24,7 +24,7 @@ FILE *qdot_write_stream(const qdot_session *session);
 
 /* Whether answers are coloured at their present destination. */
 bool qdot_write_colours(const qdot_session *session);
-#define QDOT_NAME_COLOUR QDOT_CYAN /* of names and labels */
+#define QDOT_NAME_COLOUR QDOT_CYAN /* colour of names and labels */
 
 /* Append `before`, then the text as a JSON string. */
 void qdot_write_field(qdot_text *line, const char *before, const char *text);

@@ -27,7 +27,7 @@ QDOT_STATEMENT(abbreviate) = {
 
 typedef struct {
     const qdot_session *session;
-    qdot_expr atoms; /* of the value: a LIST of symbols and functions */
+    qdot_expr atoms; /* a LIST of the symbols and functions in the value */
 } names_in_use;
 
 static bool

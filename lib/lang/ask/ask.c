@@ -279,7 +279,7 @@ qdot_ask_expression(qdot_cursor *c)
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
     qdot_token_text(c->session, start, c->at, &name);
-    if (name.n > 200) { /* longer than it helps: by its number in the history */
+    if (name.n > 200) { /* too long for a name: use its number in the history */
         qdot_text_truncate(&name, 0);
         qdot_text_format(&name, "%%%zu", session->history->values.n + 1);
     }

@@ -220,7 +220,7 @@ decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison
 
 typedef struct {
     bool not, conserved, within, integrable;
-    bool turned; /* a > b is decided as b < a */
+    bool turned; /* the claim was a > b; decided as b < a */
     qdot_expr left, right;
     comparison how;
     double tol;
@@ -236,7 +236,7 @@ take_apart(qdot_record *r, const qdot_filled *part, question *q)
     static const comparison how[] = {
         [QDOT_EQ] = EQUAL, [QDOT_LT] = LESS, [QDOT_LE] = LESS_EQUAL};
 
-    if (e == QDOT_TRUE || e == QDOT_FALSE) { /* numbers, decided when they were read */
+    if (e == QDOT_TRUE || e == QDOT_FALSE) { /* a relation between numbers, decided when it was read */
         q->left = e == QDOT_TRUE ? QDOT_ZERO : QDOT_ONE;
         q->right = QDOT_ZERO;
         return QDOT_OK;

@@ -16,7 +16,7 @@ enum { MOST_RANK = 4 };
 /* The letter and the index positions that books use for a tensor function. */
 typedef struct {
     const char *call, *letter;
-    uint32_t upper; /* indices above, 0 or 1 */
+    uint32_t upper; /* number of upper indices, 0 or 1 */
 } letter;
 
 static const letter letters[] = {{"christoffel(", "Γ", 1}, {"riemann(", "R", 1}, {"ricci(", "R", 0}};
@@ -24,12 +24,12 @@ static const letter letters[] = {{"christoffel(", "Γ", 1}, {"riemann(", "R", 1}
 typedef struct {
     qdot_session *session;
     const char *name;
-    const letter *letter; /* NULL: it goes by its name */
-    bool linear;          /* indices in brackets */
+    const letter *letter; /* letter and indices as in books; NULL: use the name */
+    bool linear;          /* write indices in brackets, on one line */
     qdot_expr value, over;
     uint32_t rank, n;
     int mirror; /* symmetry in the last two indices: 1 symmetric, -1 antisymmetric, 0 neither */
-    bool zeros; /* not all components are listed */
+    bool zeros; /* components that are zero are not listed */
     qdot_sheet sheet;
 } tensor;
 

@@ -91,9 +91,9 @@ write_equal_to(derivation *d, qdot_expr value)
 
 /* A textbook symbol with the thing it belongs to: r[bob], drawn as r with a subscript. */
 typedef struct {
-    const char *letter;   /* as qdot_notation_add reads it */
-    const char *of;       /* a label or the name of a coordinate; NULL */
-    qdot_expr coordinate; /* nil: `of` is a label */
+    const char *letter;   /* the symbol as qdot_notation_add reads it */
+    const char *of;       /* subscript: a label or coordinate name; NULL: none */
+    qdot_expr coordinate; /* coordinate of the subscript; nil: `of` is a label */
     bool square;
 } symbol;
 

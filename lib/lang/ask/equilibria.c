@@ -93,7 +93,7 @@ print_interval(qdot_sheet *sheet, qdot_expr one, qdot_expr other, bool *both, qd
     *both = is_coordinate(pool, right) && other != QDOT_NIL && is_bound(pool, other) &&
             qdot_expr_arg(pool, other, 0) == right &&
             !is_coordinate(pool, qdot_expr_arg(pool, other, 1));
-    if (!*both && is_coordinate(pool, right)) /* u > lo */
+    if (!*both && is_coordinate(pool, right)) /* a lower bound: u > lo */
         return false;
     qdot_sheet_open(sheet);
     *status = qdot_sheet_expr(sheet, left);
@@ -308,7 +308,7 @@ equilibria_list(qdot_record *r)
     qdot_expr value;
     qdot_status status;
 
-    r->cursor.error_at = r->start[-1].start; /* the word */
+    r->cursor.error_at = r->start[-1].start; /* errors point at the word `equilibria` */
     QDOT_TRY(qdot_equilibria_find(session, &all));
     status = qdot_equilibria_list(session, &all, &value);
     if (status == QDOT_OK)

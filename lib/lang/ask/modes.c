@@ -95,7 +95,7 @@ modes_print(qdot_record *r)
 
     if (place != NULL)
         QDOT_TRY(modes_read_place(r, place, &at));
-    r->cursor.error_at = r->start[-1].start; /* the word */
+    r->cursor.error_at = r->start[-1].start; /* errors point at the word `modes` */
     QDOT_TRY(qdot_equilibria_modes_at(session, at, &modes));
     value = qdot_list(session->pool, (uint32_t)modes.n, modes.frequency);
     status = qdot_pool_check(session->pool);

@@ -184,7 +184,7 @@ write_check(assignment *a)
 {
     bool equation = a->chained || strcmp(a->name->text, "eom") != 0;
 
-    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) /* (x'' = -x) */
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) /* an equation in brackets: (x'' = -x) */
         equation |= qdot_token_is(k, "=");
     qdot_text_add(&a->line, equation ? "check " : "check residual(");
     qdot_token_text_written(a->session, a->name, a->equals, &a->line);
@@ -242,7 +242,7 @@ tell_coordinate(assignment *a, size_t primes)
 {
     const qdot_name *known = declared(a->session, a->name);
 
-    if (a->chained) { /* a = b = c, as a value */
+    if (a->chained) { /* a = b = c: the right side is an equation */
         qdot_text_add(&a->line, "(");
         qdot_token_text_written(a->session, a->name, a->behind, &a->line);
         qdot_text_char(&a->line, ')');
@@ -251,7 +251,7 @@ tell_coordinate(assignment *a, size_t primes)
     }
     if (primes == 2)
         return tell_acceleration(a);
-    if (qdot_token_is(a->name + 1, "(") || /* theta(t) = 2*t, theta[1] = 2 of no family */
+    if (qdot_token_is(a->name + 1, "(") || /* theta(t) = 2*t, or theta[1] = 2 without a family theta */
         (qdot_token_is(a->name + 1, "[") && strcmp(known->name, a->name->text) == 0 && primes == 0))
         qdot_text_format(&a->line, "%s %s = %s", a->moves ? "constraint" : "start", known->name,
                          qdot_text_str(&a->right));
@@ -451,7 +451,7 @@ tell_member(assignment *a)
     const qdot_name *q = qdot_definition_coordinate(a->session);
 
     if (strcmp(a->name->text, "p") == 0 && !a->moves) {
-        write_equation(a, "set"); /* a number for the momentum in H or R */
+        write_equation(a, "set"); /* a value for the momentum in H or R */
     } else {
         /* first a Lagrangian, as there are no equations of motion yet */
         if (!is_furnished(a->session->scene) && q != NULL)
@@ -496,7 +496,7 @@ is_foreign(const assignment *a)
     const qdot_token *right = a->equals + 1;
 
     for (const qdot_token *k = right; k < a->behind; k++)
-        if (qdot_token_is(k, ":") || qdot_token_is(k, "..")) /* x = 0:0.1:1 */
+        if (qdot_token_is(k, ":") || qdot_token_is(k, "..")) /* a range of another system: x = 0:0.1:1 */
             return true;
     return right->kind == QDOT_TOKEN_NAME && !qdot_cursor_knows(a->session, right->text) &&
            (qdot_token_is(right + 1, "(") || qdot_token_is(right + 1, "."));
@@ -531,7 +531,7 @@ check_definition(assignment *a)
 
     if (known != NULL && known->kind == QDOT_NAME_PARAM && !is_member_of_value(a))
         return is_foreign(a) ? QDOT_OK : tell_parameter(a, known);
-    if (known != NULL) /* a plain p beside p[x] */
+    if (known != NULL) /* a plain name p that is also used as p[x] */
         return known->name[0] == 'p' && known->name[1] == '\0' && is_member_of_value(a)
                    ? tell_member(a)
                    : QDOT_OK;

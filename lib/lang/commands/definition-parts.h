@@ -14,10 +14,10 @@
 typedef struct {
     qdot_cursor *c;
     qdot_session *session;
-    const qdot_token *name, *equals, *behind, *end; /* behind: the word `for`, or `end` */
-    qdot_text right, loop; /* " for k = 1..3", or nothing */
+    const qdot_token *name, *equals, *behind, *end; /* tokens: NAME, `=`, end of the right side (the word `for` or `end`), end */
+    qdot_text right, loop; /* the right side as text; the loop " for k = 1..3", or "" */
     qdot_text line;        /* the line that the user probably meant */
-    bool moves;            /* the right side holds coordinates, positions or the time */
+    bool moves;            /* the right side contains coordinates, positions or the time */
     bool accelerations;
     bool chained; /* the right side is itself an equation: a = b = c */
     bool primed;  /* the name on the left has primes */

@@ -115,7 +115,7 @@ write_gravity(assignment *a)
 {
     const uint32_t n = count_dimensions(a->session);
     const char *right = qdot_text_str(&a->right);
-    const bool down = *right == '-'; /* already */
+    const bool down = *right == '-'; /* the user already points gravity downwards */
     const bool whole = is_sum(a) && !down;
 
     if (qdot_definition_components(a) > 1 && n > 0 && n <= 3 && qdot_definition_components(a) != n)
@@ -148,7 +148,7 @@ static bool
 holds_vector(const assignment *a)
 {
     const qdot_session *s = a->session;
-    long depth = 0, arguments = 0; /* the depth of the outermost brackets of a function; 0: outside */
+    long depth = 0, arguments = 0; /* bracket depth at which a function's arguments begin; 0: outside of a function */
 
     for (const qdot_token *k = a->equals + 1; k < a->behind; k++) {
         const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
@@ -233,7 +233,8 @@ qdot_definition_statement(assignment *a, const qdot_statement *row)
     const qdot_token *right = a->equals + 1;
     bool stated = s->lagrangian != QDOT_NIL;
 
-    if (!qdot_statement_is_built(row) || a->name + 1 != a->equals) /* with arguments it is a function */
+    /* with arguments, as in gravity(x) = ..., it is a function */
+    if (!qdot_statement_is_built(row) || a->name + 1 != a->equals)
         return false;
     if ((stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0)) ||
         ((strcmp(word, "lagrangian") == 0 || strcmp(word, "hamiltonian") == 0) &&
@@ -256,6 +257,7 @@ qdot_definition_statement(assignment *a, const qdot_statement *row)
         return write_link(a, word);
     for (const qdot_token *k = right; k < a->behind && !row->alone; k++)
         if (qdot_token_is(k, "..") || k->kind == QDOT_TOKEN_STRING)
-            return write_statement(a, word, ""), true; /* run = 0..5, include = "x.lag" */
+            /* the statement was meant: run = 0..5, include = "x.lag" */
+            return write_statement(a, word, ""), true;
     return false;
 }

@@ -84,7 +84,7 @@ stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
     const size_t length = strlen(name);
 
     if (known != NULL && known->kind == QDOT_NAME_FUNCTION)
-        return true; /* its text may name anything */
+        return true; /* the function's text may contain any name */
     if (known != NULL)
         return known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol);
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)

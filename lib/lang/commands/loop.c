@@ -161,7 +161,7 @@ descend(qdot_loop *loop, qdot_cursor *c, bool *more)
         }
         drop_index(&index);
         QDOT_TRY(status);
-        QDOT_TRY(advance(loop, more)); /* an empty range: the next of the outer index */
+        QDOT_TRY(advance(loop, more)); /* empty range: go to the next value of the outer index */
         if (!*more)
             return QDOT_OK;
     }

@@ -7,12 +7,12 @@
 
 typedef struct {
     char *name;
-    const qdot_token *behind; /* the token after its range */
+    const qdot_token *behind; /* the token after the index's range */
     bool listed;              /* the index runs over a list; otherwise over at..last */
     long at, last;
     qdot_vec(qdot_expr) values;
     size_t next;
-    bool held; /* a declared parameter or coordinate, which has the value for the pass */
+    bool held; /* the index is a declared parameter or coordinate, set for each pass */
 } qdot_loop_index;
 
 typedef struct {
@@ -20,12 +20,12 @@ typedef struct {
     const qdot_source *source;
     const qdot_token *clause, *end; /* the first token after `for`; the token after the clause */
     qdot_vec(
-        qdot_loop_index) indices; /* outermost first; each is bound in session->names */
+        qdot_loop_index) indices; /* outermost first; each name is bound in session->names */
     size_t error_at;
     bool open; /* counted in session->loops */
 } qdot_loop;
 
-enum { QDOT_LOOP_PASSES = 10000000 }; /* the most passes of one index */
+enum { QDOT_LOOP_PASSES = 10000000 }; /* largest number of passes of one index */
 
 /* Bind the indices to the first pass, then to the next; *more: there is such a pass. A
  * range may depend on the indices before it. After an error or the last pass nothing

@@ -6,11 +6,11 @@
 #include "lang/syntax/record.h"
 
 typedef struct {
-    char *label;               /* the source text; owned */
+    char *label;               /* the expression as typed; owned */
     qdot_session *session;
-    qdot_run *run;             /* NULL: the latest */
-    bool mixed;                /* of several runs: `run` is the first of them */
-    bool vector;               /* a path */
+    qdot_run *run;             /* the run along which to evaluate; NULL: the latest */
+    bool mixed;                /* the expression combines several runs; `run` is the first */
+    bool vector;               /* a vector: the path of a point */
     qdot_runs_columns columns; /* the columns of its components */
 } qdot_operand;
 

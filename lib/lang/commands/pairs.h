@@ -7,7 +7,7 @@
 
 typedef struct {
     qdot_vec(qdot_expr) symbols, values;
-    qdot_vec(const qdot_token *) places; /* where each was named; NULL: nowhere */
+    qdot_vec(const qdot_token *) places; /* token at which each symbol was named; NULL: none */
 } qdot_pairs;
 
 void qdot_pairs_free(qdot_pairs *p);

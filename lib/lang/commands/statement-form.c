@@ -22,7 +22,7 @@ qdot_statement_behind_bracket(const qdot_token *open)
         if (step != 0 && depth == 0)
             return k + 1;
     }
-    return open; /* a statement cut by a `for` inside: not a bracket that closes */
+    return open; /* no closing bracket, as a `for` inside cuts the statement */
 }
 
 /* --- definitions of functions --------------------------------------------------------- */

@@ -215,7 +215,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
     char words[120] = "";
 
     QDOT_TRY(function ? tell_arguments(session, entry) : tell_velocity(c, start, entry));
-    if (hidden != NULL && hidden->least > 0) /* only name[...] is the language's */
+    if (hidden != NULL && hidden->least > 0) /* only name[...] is predefined, not the plain name */
         hidden = NULL;
     longer = hidden != NULL ? qdot_short_names_long(hidden) : NULL;
     if (longer != NULL)

@@ -212,7 +212,7 @@ qdot_assumed_add(qdot_record *r, const qdot_filled *part, qdot_assumed *f)
     qdot_expr e;
     const qdot_status named = qdot_record_bare_name(r, part, 0, &label);
 
-    if (named != QDOT_OK && named != QDOT_ETYPE) /* eom[x]: an index that is no integer belongs to no label */
+    if (named != QDOT_OK && named != QDOT_ETYPE) /* eom[x] with an index that is no integer: not a label */
         return named;
     if (named == QDOT_OK && label != NULL && qdot_names_find(session->names, label) == NULL) {
         bool found = strcmp(label, "eom") == 0;

@@ -6,9 +6,9 @@
 #include "lang/syntax/record.h"
 
 typedef struct {
-    qdot_vec(qdot_expr) relations, conditions; /* scalars that are 0; inequalities */
-    qdot_vec(qdot_expr) from, to; /* replacements, made before anything else */
-    bool motion, stated; /* `eom` was given; an equation was given that is not a constraint */
+    qdot_vec(qdot_expr) relations, conditions; /* expressions that are 0; inequalities (REL) */
+    qdot_vec(qdot_expr) from, to; /* replacements applied before everything else */
+    bool motion, stated; /* `eom` was assumed; an equation other than a constraint was assumed */
 } qdot_assumed;
 
 /* Add the facts of the scene to an empty set of facts. QDOT_ENOMEM. */

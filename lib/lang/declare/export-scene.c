@@ -19,12 +19,12 @@
 #include "sim/model/switch.h"
 
 enum {
-    LONGEST = 80, /* letters of a surface's text */
+    LONGEST = 80, /* longest text of a switching surface, in bytes */
     MOST_OPERATIONS = 200000,
-    MOST_SLOPES = 24 /* coordinates up to which the Jacobian is written */
+    MOST_SLOPES = 24 /* largest number of coordinates for which the Jacobian is exported */
 };
 
-#define LEAST_TOL 1e-13 /* what a method in doubles reaches in many steps */
+#define LEAST_TOL 1e-13 /* smallest tolerance that methods in doubles reach over many steps */
 
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
@@ -36,17 +36,17 @@ typedef struct {
     qdot_export_system x;
     expressions inputs, parameters;
     qdot_switches switches;
-    qdot_given_functions given; /* functions that have a value */
-    expressions held;          /* [m] left - right of the constraints, on the sides of the switches */
+    qdot_given_functions given; /* undefined functions to which the user has given a value */
+    expressions held; /* [m] left - right of each constraint, for the present sides of switches */
     expressions equations, slopes, energy, positions, events, u;
-    qdot_vec(qdot_event) acts;     /* of each event: what it sets, and to which values */
-    qdot_vec(expressions) effects; /* these values as they are exported */
+    qdot_vec(qdot_event) acts; /* the events with the quantities that they set and the new values */
+    qdot_vec(expressions) effects; /* the new values as exported expressions */
     qdot_vec(int) orders;
     qdot_vec(qdot_export_surface) surface;
     qdot_vec(char *) texts; /* texts of the switching surfaces and of the ends of domains */
     names q, lambda, values;
     qdot_vec(double) start;
-    bool massless; /* some coordinate has no mass: a velocity of the start may follow from its equation */
+    bool massless; /* a massless coordinate exists: its start velocity may follow from its equation */
     qdot_vec(qdot_export_event) event;
     qdot_vec(size_t) targets; /* the symbols that all events set */
 } description;
@@ -465,7 +465,8 @@ start_of_run(description *d, qdot_run *run)
     if (status == QDOT_OK)
         status = qdot_run_values(run, y.n, y.at, 1, &r->t0, d->start.at, NULL);
     qdot_free(y.at);
-    for (size_t i = 0; i < d->parameters.n && status == QDOT_OK; i++) { /* also `run ... with` */
+    /* parameter values, including those of `run ... with` */
+    for (size_t i = 0; i < d->parameters.n && status == QDOT_OK; i++) {
         double value;
 
         if (qdot_run_values(run, 1, &d->parameters.at[i], 1, &r->t0, &value, NULL) == QDOT_OK)

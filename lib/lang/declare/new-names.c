@@ -39,7 +39,7 @@ new_name_bound(qdot_cursor *c, qdot_new_name *x, const qdot_bound *b)
 static qdot_status
 new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
 {
-    const qdot_filled *value = part + 2; /* behind `=` */
+    const qdot_filled *value = part + 2; /* the part after `=` */
     qdot_session *session = r->cursor.session;
     qdot_bound bound;
     qdot_status status;
@@ -54,7 +54,7 @@ new_name_read(qdot_record *r, const qdot_filled *part, qdot_new_name *x)
     }
     if (value >= r->parts.at + r->parts.n || !qdot_filled_is(value, "VALUE"))
         return QDOT_OK;
-    session->evaluation->declares = false; /* numbers of runs as `set` takes them, with their errors */
+    session->evaluation->declares = false; /* read numbers as `set` does: results of runs keep their errors */
     status = qdot_record_scalar(r, value, &x->value);
     session->evaluation->declares = true;
     return status == QDOT_OK ? qdot_set_keep_measured(session, &x->value) : status;

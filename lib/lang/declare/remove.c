@@ -113,7 +113,7 @@ nothing_is_labelled(const qdot_scene *scene, const char *label)
     qdot_status status;
 
     for (size_t i = 0; i < KINDS; i++)
-        (void)qdot_vec_push(&words, kinds[i].word); /* a hint less without memory */
+        (void)qdot_vec_push(&words, kinds[i].word); /* if memory runs out the hint lacks this word */
     nearest = qdot_spelling_nearest(label, words.n, words.at);
     (void)qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
     words.n = 0;

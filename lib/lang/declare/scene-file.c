@@ -145,9 +145,9 @@ put_definition(qdot_session *s, const qdot_name *name, qdot_text *lost, qdot_tex
     bool is = false;
 
     if (qdot_measured_occurs(s, value))
-        return QDOT_OK; /* it reads a run: lang/declare/session-file */
+        return QDOT_OK; /* its value comes from a run: written by lang/declare/session-file */
     QDOT_TRY(put_first(s, name, value, name->over, out, &is));
-    if (!is && name->over != QDOT_NIL) /* its entries by numbers only */
+    if (!is && name->over != QDOT_NIL) /* try again with entries indexed by numbers */
         QDOT_TRY(put_first(s, name, value, QDOT_NIL, out, &is));
     if (is)
         return QDOT_OK;
@@ -299,7 +299,7 @@ qdot_scene_file_write(qdot_cursor *c, const qdot_token *name, qdot_scene_file wh
     qdot_text text = {0};
     qdot_status status;
 
-    if (dot != NULL && strchr(dot, '/') != NULL) /* of a folder */
+    if (dot != NULL && strchr(dot, '/') != NULL) /* the dot belongs to the name of a folder */
         dot = NULL;
     if (!qdot_scene_file_is(path)) {
         c->error_at = name->start;

@@ -25,8 +25,8 @@
 bool qdot_scene_file_is(const char *path);
 
 typedef enum {
-    QDOT_FILE_SCENE,   /* the scene, values, start and definitions */
-    QDOT_FILE_SESSION, /* and the style, the runs, and names that hold numbers of them */
+    QDOT_FILE_SCENE,   /* the scene, parameter values, start and definitions */
+    QDOT_FILE_SESSION, /* also style, runs, and names that contain results of runs */
     QDOT_FILE_HISTORY  /* the statements that were typed and succeeded */
 } qdot_scene_file;
 

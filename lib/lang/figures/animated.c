@@ -18,8 +18,8 @@
 enum {
     FEWEST = 1201,
     MOST = 20001,
-    MOST_NUMBERS = 2000000, /* of all columns */
-    MOST_STATES = 24,       /* coordinates with a phase portrait */
+    MOST_NUMBERS = 2000000, /* largest number of values in all columns */
+    MOST_STATES = 24,       /* largest number of coordinates with a phase portrait */
     A_SECOND = 60,
 };
 
@@ -29,10 +29,10 @@ typedef struct {
     qdot_run *run;
     qdot_animation *a;
     qdot_rods rods;
-    bool upright; /* in one dimension: drawn upwards, as there is gravity */
-    qdot_vec(qdot_expr) columns; /* of the animation */
-    qdot_vec(qdot_expr) places;  /* of its points, expanded */
-    qdot_vec(qdot_expr) once;    /* wanted at the first frame only */
+    bool upright; /* one-dimensional motion is drawn vertically, because there is gravity */
+    qdot_vec(qdot_expr) columns; /* expressions that are stored for each frame */
+    qdot_vec(qdot_expr) places;  /* positions of the points, expanded */
+    qdot_vec(qdot_expr) once;    /* expressions needed at the first frame only */
     double *first;               /* their values at the first frame */
 } builder;
 

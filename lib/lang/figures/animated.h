@@ -8,13 +8,13 @@
 
 /* Which part of a run is drawn, and how. */
 typedef struct {
-    double from, to;   /* times; NaN: where the run begins, ends */
-    const char *title; /* borrowed; NULL: none */
+    double from, to;   /* first and last time; NaN: the whole run */
+    const char *title; /* title of the animation, borrowed; NULL: none */
     double
-        trail; /* length of the trails in units of t; NaN: four seconds of the picture */
+        trail; /* length of trails in units of t; NaN: four seconds of the animation */
     double speed; /* units of t in a second; NaN: 1, or what makes the picture last about
                           20 s where that would be shorter than 4 s or longer than 60 s */
-    bool bare;         /* only states and energies: nothing is drawn */
+    bool bare;         /* no picture, only states and energies */
 } qdot_animated_options;
 
 /* Particles, bodies, rods (mech/study/rods.h), springs and dampers of the scene along the run,

@@ -44,7 +44,7 @@ default_path(const qdot_session *session, qdot_text *path)
         qdot_text_truncate(path, stem);
         qdot_text_format(path, "-%zu.svg", k);
         QDOT_TRY(qdot_text_status(path));
-        if (access(path->at, F_OK) != 0) /* where this cannot be known, writing says why */
+        if (access(path->at, F_OK) != 0) /* if the file cannot be examined, writing it gives the error */
             return QDOT_OK;
     }
     return qdot_fail(QDOT_ELIMIT, "there are too many numbered figures: remove some of `%s`", path->at);

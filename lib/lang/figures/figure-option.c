@@ -6,7 +6,7 @@
 
 #include "lang/session/bind.h"
 
-static const double least_size = 3, most_size = 100; /* cm */
+static const double least_size = 3, most_size = 100; /* smallest and largest size of a figure in cm */
 
 static qdot_status
 range_find(qdot_record *r, const qdot_filled *place, double least, double most, qdot_figure_range *range)

@@ -15,7 +15,7 @@ typedef struct {
 /* Options of one panel: from A to B, range A..B, log x|y|xy, ticks pi [x|y|xy], equal, points, title TEXT, labels TEXT, TEXT, legend TEXT, TEXT. */
 typedef struct {
     qdot_figure_range range[2];
-    bool logs, log[2]; /* logs: said */
+    bool logs, log[2]; /* axes with logarithmic scale; logs: the option was given */
     bool angles, pi[2]; /* angles: said; pi: of which axes, neither where that was not said */
     bool equal, points;
     const char *title, *labels[3], *legend[QDOT_FIGURE_LEGEND];

@@ -11,7 +11,7 @@
 
 /* Panels with the arrays that they use; freed in any case. */
 typedef struct {
-    qdot_panel *panels;  /* [n] */
+    qdot_panel *panels;  /* [n] the panels */
     qdot_curve *curves;
     double *numbers;
     size_t n;

@@ -13,7 +13,7 @@ enum { FIRST_POINTS = 401 };
 
 typedef struct {
     const char *name;
-    qdot_expr symbol; /* what the name means, or a symbol of its own */
+    qdot_expr symbol; /* symbol of that name, or a new one */
     double from, to;
 } variable;
 

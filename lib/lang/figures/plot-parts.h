@@ -12,13 +12,13 @@
 /* A curve and where its numbers come from: along a run (y of an operand, x of another or t), or
  * over a variable (a tape). */
 typedef struct {
-    char *label, *axis; /* in the key; along the ordinate */
+    char *label, *axis; /* name in the legend; label of the y axis */
     const qdot_operand *y;
-    qdot_operand x;  /* its strings and columns borrowed; session NULL: t is the abscissa */
-    size_t component; /* of y, where that is no path */
-    bool drift;      /* y's drift from `begin` on */
+    qdot_operand x;  /* abscissa; strings and columns borrowed; session NULL: the abscissa is t */
+    size_t component; /* for a vector y: index of its component */
+    bool drift;      /* draw y minus its value at `begin` */
     double begin;
-    qdot_tape *tape; /* owned */
+    qdot_tape *tape; /* for a curve over a variable: y as a tape; owned */
     double *work;
     qdot_trace_source source;
     qdot_trace points;
@@ -34,11 +34,11 @@ typedef struct {
 
 typedef struct {
     qdot_operands operands, versus;
-    qdot_vec(qdot_plot_item) items; /* beside operands */
-    qdot_vec(qdot_plot_curve *) curves; /* each owned */
-    qdot_vec(char *) passes;        /* ", l = 1"; owned */
-    qdot_vec(qdot_named_run) made;  /* a run for each pass; one use of each */
-    char *variable;                 /* the abscissa of `vs NAME = A..B`; NULL */
+    qdot_vec(qdot_plot_item) items; /* further curves besides `operands` */
+    qdot_vec(qdot_plot_curve *) curves; /* the curves, each owned */
+    qdot_vec(char *) passes;        /* text of each pass of a loop, as ", l = 1"; owned */
+    qdot_vec(qdot_named_run) made;  /* the run of each pass; one use of each is held */
+    char *variable;                 /* name of the abscissa of `vs NAME = A..B`; NULL: none */
     qdot_panel_choice choice;
 } qdot_plot_panel;
 

@@ -79,10 +79,10 @@ is_ordered(const qdot_row_table *t)
 /* The values of one of the last two names; `shown` places even between their ends, and which value stands at each: that
  * nearest to it, so that a cell of an uneven axis ends halfway to the next. */
 typedef struct {
-    size_t column, stride, n; /* of the table; rows from one value to the next; values */
+    size_t column, stride, n; /* column in the table; distance of two values in rows; number of values */
     size_t shown;
     double least, most;
-    size_t *of; /* [shown] */
+    size_t *of; /* [shown] index of the value at each place */
 } axis;
 
 /* Panels with the arrays that they use; n of each. */
@@ -91,7 +91,7 @@ typedef struct {
     qdot_curve *curves;
     qdot_figure_map *maps;
     double *numbers;
-    qdot_text *titles; /* [n] */
+    qdot_text *titles; /* [n] title of each panel */
     axis axis[2];
     size_t n;
     qdot_branch_drawing branches; /* used for branches, in place of the members above */

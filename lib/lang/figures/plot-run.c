@@ -159,7 +159,7 @@ read_loop(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_plot_pane
 {
     repeated r = {runs, p};
 
-    said->record->cursor.error_at = said->from[-1].from->start; /* `plot` */
+    said->record->cursor.error_at = said->from[-1].from->start; /* errors point at the word `plot` */
     QDOT_TRY(runs->begin(runs->user));
     QDOT_TRY(qdot_plot_loop_carry_out(said, said->from[-1].from, read_pass, &r));
     return p->operands.n > 0 ? QDOT_OK : qdot_fail(QDOT_EINVAL, "there is no curve to plot");

@@ -7,8 +7,8 @@
 
 /* How the latest run is repeated with the parameter values of a loop. */
 typedef struct {
-    qdot_status (*begin)(void *user); /* before the loop: can it be made once more? */
-    qdot_status (*make)(void *user);  /* it is the latest run until it is dropped */
+    qdot_status (*begin)(void *user); /* called before the loop: checks that the run can be repeated */
+    qdot_status (*make)(void *user);  /* makes a run, which is the latest one until it is dropped */
     void (*drop)(void *user);
     void *user;
 } qdot_plot_runs;

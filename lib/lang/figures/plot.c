@@ -68,7 +68,7 @@ qdot_plot_curve_add(qdot_plot_panel *p, const char *label, const char *axis,
 typedef struct {
     qdot_panel *panels;
     qdot_curve *curves;
-    qdot_text *labels; /* [2 * n]: of x and y of each panel */
+    qdot_text *labels; /* [2 n] labels of the x and y axis of each panel */
     size_t n;
 } frame;
 

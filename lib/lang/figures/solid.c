@@ -15,7 +15,7 @@ void
 qdot_solid_plane(double mass, double inertia, const double (*arms)[2], size_t n,
                  qdot_animation_body *b)
 {
-    const double square = inertia / mass; /* of the radius of gyration */
+    const double square = inertia / mass; /* square of the radius of gyration */
     double farthest = 0;
 
     b->disc = true;

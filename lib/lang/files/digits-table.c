@@ -14,7 +14,7 @@ enum { TIMES = 2 };
 typedef struct {
     qdot_table table;
     size_t n;
-    qdot_text *names; /* [n] of the columns behind the times */
+    qdot_text *names; /* [n] names of the columns after the time */
 } digits_table;
 
 int
@@ -126,7 +126,7 @@ add_row(qdot_session *session, qdot_table *t, const qdot_operands *list, const p
     if (status == QDOT_OK) {
         qdot_number_text(&text, x, 0);
         qdot_table_add_written(t, &text);
-        qdot_table_add_number(t, x + 0.0, 0); /* not -0 */
+        qdot_table_add_number(t, x + 0.0, 0); /* adding 0.0 turns -0 into 0 */
     }
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         status = add_values(session, t, &list->at[i], at, digits);

@@ -25,7 +25,7 @@ QDOT_STATEMENT(export) = {
 
 static const struct language {
     const char *word, *ending;
-    const qdot_export_language *source; /* NULL: LaTeX, a formula and no source text */
+    const qdot_export_language *source; /* writer of the language; NULL: LaTeX, which exports formulas, no program */
 } languages[] = {
 #define LANGUAGE(word, title, ending, language) {#word, ending, &qdot_export_##language},
 #include "show/export-languages.def"

@@ -7,7 +7,7 @@
 
 typedef struct {
     qdot_table table;
-    double *values; /* column by column */
+    double *values; /* all cells, column by column */
     char **labels;
 } qdot_grid;
 

@@ -18,7 +18,7 @@
 struct qdot_redirect_type {
     const char *ending;
     enum { AS_PRINTED, JSON, PAGE } kind;
-    qdot_style style; /* of the formulas of a page */
+    qdot_style style; /* style of formulas on a page */
 };
 
 static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PLAIN},
@@ -135,7 +135,7 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
     qdot_text page = {0};
 
     if (status == QDOT_OK)
-        status = qdot_sheet_flush(session); /* equations of the styles latex and mathml as text */
+        status = qdot_sheet_flush(session); /* write the collected equations of styles latex and mathml */
     else
         qdot_sheet_forget(session);
     complete = fclose(r->file) == 0;
@@ -156,6 +156,6 @@ qdot_redirect_end(qdot_redirect *r, qdot_status status)
         status = qdot_answer_file(session, r->path);
     qdot_text_clear(&page);
     qdot_formula_page_clear(&r->page);
-    free(r->text); /* from open_memstream */
+    free(r->text); /* allocated by open_memstream */
     return status;
 }

@@ -16,10 +16,10 @@
 
 typedef struct {
     qdot_session *session;
-    const char *path; /* borrowed */
-    FILE *file, *out, *console; /* collects the answers; the session's previous files */
+    const char *path; /* name of the file; borrowed */
+    FILE *file, *out, *console; /* stream that collects the answers; the session's earlier `out` and `console` */
     bool json;
-    qdot_style style; /* of the session before */
+    qdot_style style; /* the session's earlier style */
     const struct qdot_redirect_type *type;
     qdot_formula_page page;
     char *text;

@@ -58,7 +58,7 @@ qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status statu
         status = qdot_report_not_found(text);
     }
     qdot_formula_page_clear(&k->page);
-    free(k->text); /* from open_memstream */
+    free(k->text); /* allocated by open_memstream */
     return status;
 }
 

@@ -33,9 +33,9 @@ enum { LONGEST = 4000000 };
 typedef struct {
     qdot_cursor *c;
     qdot_session *session;
-    size_t n; /* runs; 0: none was made */
+    size_t n; /* number of runs on the page; 0: no run was made */
     const qdot_named_run *runs[QDOT_REPORT_RUNS];
-    bool work; /* with work and precision */
+    bool work; /* include a table of work and precision */
     qdot_text page;
 } page;
 

@@ -17,7 +17,7 @@ typedef struct {
     qdot_session *session;
     size_t n;
     const qdot_named_run *const *runs;
-    qdot_animation *pictures; /* [n] */
+    qdot_animation *pictures; /* [n] animation of each run */
     qdot_text *page;
 } sections;
 
@@ -149,7 +149,7 @@ add_pictures(const sections *s)
         add_name(s, i);
         for (size_t f = 0; f < a->facts.n; f++)
             qdot_free(a->facts.at[f].text);
-        a->facts.n = 0; /* they stand above */
+        a->facts.n = 0; /* the facts are already printed above the animation */
         qdot_animation_section(a, s->page);
     }
 }

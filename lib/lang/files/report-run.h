@@ -6,7 +6,7 @@
 #include "lang/session/parts.h"
 #include "lang/session/runs.h"
 
-enum { QDOT_REPORT_RUNS = 8 }; /* runs that one page compares: as many looks has a figure */
+enum { QDOT_REPORT_RUNS = 8 }; /* largest number of runs on one page, as a figure has so many line styles */
 
 /* Append the sections of runs [n], 1 <= n <= QDOT_REPORT_RUNS: for each its facts and its report, of
  * several also a table; the course of every coordinate, all runs in one figure; a moving picture of each,

@@ -62,7 +62,7 @@ exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size
            const double *times, const char *path)
 {
     qdot_expr *at = qdot_calloc(rows + 1, sizeof *at);
-    bool *beside = qdot_calloc(rows + 1, sizeof *beside); /* an event, on either side */
+    bool *beside = qdot_calloc(rows + 1, sizeof *beside); /* row k is just before or after an event */
     qdot_status status = at != NULL && beside != NULL ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
@@ -85,7 +85,7 @@ fill_before_events(qdot_run *run, const qdot_operands *list, qdot_grid *g)
     for (size_t k = 0; k < g->table.rows; k++) {
         if (!qdot_run_is_before_event(run, k))
             continue;
-        for (size_t i = 0; i < list->n; i++) /* one column each */
+        for (size_t i = 0; i < list->n; i++) /* one column for each expression */
             QDOT_TRY(qdot_run_point_values(run, 1, list->at[i].columns.at, k,
                                            g->values + (i + 1) * g->table.rows + k));
     }

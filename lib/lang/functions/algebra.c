@@ -22,7 +22,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
-enum { READ_SIZE = 300 }; /* operations */
+enum { READ_SIZE = 300 }; /* largest number of operations that a reader can take in */
 
 qdot_status
 qdot_algebra_give_short(qdot_session *s, qdot_expr result, qdot_expr *value)

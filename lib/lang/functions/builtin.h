@@ -7,24 +7,24 @@
 /* A function such as `diff`, `ds2`, `expand`; the rows are in lang/functions/builtin.c. */
 typedef struct {
     const char *name;
-    int least, most; /* arguments; most < 0: any number */
+    int least, most; /* least and largest number of arguments; most < 0: any number */
     qdot_status (*call)(qdot_session *session, uint32_t n, const qdot_expr *args,
                         qdot_expr *value);
-    const char *usage, *summary, *example; /* for help */
-    unsigned flags;                        /* QDOT_BUILTIN_... */
+    const char *usage, *summary, *example; /* texts for help */
+    unsigned flags;                        /* bits QDOT_BUILTIN_... */
     /* the coordinates (a LIST) by which the entries of the value are indexed, as metric(R)[r, phi]; or NULL */
     qdot_expr (*over)(qdot_session *session, uint32_t n, const qdot_expr *args);
 } qdot_builtin;
 enum {
-    QDOT_BUILTIN_UNBUILT = 1, /* a word of the language that this version does not have */
-    QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label: its carrier symbol */
-    QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, value(a.theta, 20) */
-    QDOT_BUILTIN_FORM = 8,    /* special syntax: sum, if */
-    QDOT_BUILTIN_SHORT = 16,  /* anything else of this name takes precedence */
-    QDOT_BUILTIN_RANGE = 32,  /* a range a..b may stand last: its ends are two more arguments */
-    QDOT_BUILTIN_PASSED = 64  /* while its arguments are read, session->passed keeps what must exist in them */
+    QDOT_BUILTIN_UNBUILT = 1, /* the name is reserved, but this version does not have the function */
+    QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label, given as its carrier symbol */
+    QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, as in value(a.theta, 20) */
+    QDOT_BUILTIN_FORM = 8,    /* arguments are not evaluated first: sum, if */
+    QDOT_BUILTIN_SHORT = 16,  /* a name declared by the user takes precedence */
+    QDOT_BUILTIN_RANGE = 32, /* the last argument may be a range a..b: it counts as two arguments */
+    QDOT_BUILTIN_PASSED = 64 /* while arguments are read, session->passed records what must be defined */
 };
 const qdot_builtin *qdot_builtin_find(const char *name);
-const qdot_builtin *qdot_builtin_at(size_t i); /* NULL past the end */
+const qdot_builtin *qdot_builtin_at(size_t i); /* returns NULL past the end */
 
 #endif

@@ -96,7 +96,7 @@ qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e)
         return QDOT_OK;
     now = exists_now(session, e->exists);
     QDOT_TRY(qdot_pool_check(session->pool));
-    if (now == QDOT_NIL) /* it does */
+    if (now == QDOT_NIL) /* the condition holds */
         return QDOT_OK;
     qdot_text_format(&text, "equilibria[%ld] exists when ", k);
     status = qdot_solve_print_conditions(session->pool, "", e->exists, &text);
@@ -224,7 +224,8 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     for (uint32_t i = 0; i < qdot_expr_count(pool, e->equations) && status == QDOT_OK; i++) {
         qdot_expr one = qdot_expr_arg(pool, e->equations, i);
 
-        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_COORD)) /* a multiplier */
+        /* the entry is a multiplier, not a coordinate */
+        if (!qdot_expr_is_class(pool, qdot_expr_arg(pool, one, 0), QDOT_COORD))
             continue;
         qdot_text_add(&place, first ? "modes about " : ", ");
         first = false;

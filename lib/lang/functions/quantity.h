@@ -8,7 +8,7 @@
  * eom[theta], p[theta], mass_matrix[a, b]; n = 0 for the bare name. */
 typedef struct {
     const char *name;
-    int least, most; /* indices allowed */
+    int least, most; /* least and largest number of indices */
     qdot_status (*get)(qdot_session *session, uint32_t n, const qdot_expr *index,
                        qdot_expr *value);
     const char *usage, *summary, *example;

@@ -33,8 +33,8 @@ enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS, DIGITS = 17 };
 typedef struct {
     qdot_session *session;
     size_t n;
-    qdot_expr name[MOST], x[MOST]; /* as it was written; the symbol instead */
-    qdot_expr f[MOST], F[MOST]; /* left - right; numbers of runs in it as exact numbers */
+    qdot_expr name[MOST], x[MOST]; /* [n] unknowns as written; the symbols that replace them */
+    qdot_expr f[MOST], F[MOST]; /* [n] left - right; the same with numbers from runs as exact rationals */
     bool measured;              /* the equations contain numbers of runs */
 } question;
 
@@ -188,7 +188,7 @@ numbers_of(const question *q, const qdot_zeros *z, size_t k, qdot_expr *numbers)
     QDOT_TRY(is_exact(q, z->at + k * q->n, &exact));
     for (size_t j = 0; j < q->n; j++) {
         error[j] = exact ? 0 : z->radius[k * q->n + j];
-        if (!exact) /* so many digits are shown */
+        if (!exact) /* show as many digits as are certain */
             error[j] += fabs(z->at[k * q->n + j]) * 1e-17;
     }
     QDOT_TRY(add_errors(q, z->at + k * q->n, error));
@@ -613,7 +613,7 @@ qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_e
         return QDOT_OK;
     status = qdot_zeros_find(session->pool, n, q.F, q.x, range, 0, &zeros);
     *known = status == QDOT_OK && zeros.complete;
-    if (status == QDOT_EDOMAIN) /* an equation holds identically */
+    if (status == QDOT_EDOMAIN) /* an equation is satisfied everywhere */
         status = QDOT_OK;
     if (status == QDOT_OK && *known)
         status = keep_defined(&q, domain, &zeros);

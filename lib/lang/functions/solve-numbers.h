@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_near(qdot_session *session, uint32_t n,
 /* Every zero of f in the window. *all: it is proved that there are no others; else notices tell which places are not
  * decided. *known false: zeros are not excluded far away or too many, or f holds what has no value; then none is given. */
 typedef struct {
-    qdot_expr value; /* a number with its error */
+    qdot_expr value; /* the zero, a number with its error */
     double at, radius;
 } qdot_solve_zero;
 typedef qdot_vec(qdot_solve_zero) qdot_solve_zeros;

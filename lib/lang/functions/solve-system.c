@@ -167,7 +167,7 @@ solve_special(const question *q, qdot_expr where, const qdot_simultaneous *gener
     for (size_t i = 0; i < q->n; i++)
         f[i] = qdot_subs(q->pool, q->f[i], n, from, to);
     status = qdot_pool_check(q->pool);
-    if (status == QDOT_EDOMAIN) /* the equations are not defined there */
+    if (status == QDOT_EDOMAIN) /* the equations are undefined there */
         return QDOT_OK;
     QDOT_TRY(status);
     domain = qdot_conditions_at(q->pool, q->domain, n, from, to, &q->facts);

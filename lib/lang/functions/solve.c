@@ -79,7 +79,7 @@ read_written(qdot_session *session, qdot_written *w)
 /* A list of solutions in the making. */
 typedef struct {
     qdot_vec(qdot_solve_zero) at;
-    bool constant; /* all are numbers: kept in their order */
+    bool constant; /* all entries are numbers, and stay in order */
 } solve_list;
 
 /* Insert a number into the sorted list, unless the same root is listed as a formula. */
@@ -179,7 +179,7 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written 
     whole = whole && !holds_others(session, f, x);
     for (uint32_t i = 0; i < qdot_expr_count(pool, factors) && !whole; i++)
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
-    if (rest == QDOT_ONE) /* each factor alone is solved, all of them together are not */
+    if (rest == QDOT_ONE) /* each factor was solved exactly, so nothing remains for numbers */
         rest = f;
     domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
     window = qdot_solve_tighten(pool, x, domain, qdot_solve_window(pool, x, false), facts);
@@ -187,12 +187,12 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written 
         window = qdot_window_turn(pool, window);
     QDOT_TRY(qdot_pool_check(pool));
     *recurs = *recurs || window.recurs;
-    if (!whole) /* a zero of these factors may be one of a divisor */
+    if (!whole) /* a zero of the remaining factors may be a zero of a divisor */
         domain =
             qdot_conditions_all(pool, domain, qdot_conditions_of_divisors(pool, f, x));
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve_line(session, rest, x, domain, &window, &zeros, known, &all);
-    all = all && written->apart == QDOT_NIL; /* where roots are 0 that were taken apart, their parts may have no value */
+    all = all && written->apart == QDOT_NIL; /* where a root that was split is 0, its parts may be undefined */
     exact = list->at.n;
     for (size_t i = 0; i < zeros.n && status == QDOT_OK; i++)
         status = solve_list_add(list, zeros.at[i]);

@@ -13,7 +13,7 @@
 #include "lang/source/token.h"
 
 typedef struct {
-    const qdot_token *from, *to; /* its tokens [from, to) */
+    const qdot_token *from, *to; /* the tokens from ... to - 1 of the expression */
     bool is_period;              /* of a condition: the time T of `returns after T` */
     qdot_postfix_list code;
 } qdot_compiled;

@@ -163,7 +163,7 @@ operand_start(const qdot_cursor *c, const qdot_token *last)
     long depth = 0;
 
     while (t > first + 1 && t->kind == QDOT_TOKEN_NUMBER && qdot_token_is(t - 1, "^") && t->start == t[-1].start)
-        t -= 2; /* x² */
+        t -= 2; /* go back over an exponent written as a sign: x² */
     while (t > first && qdot_token_is(t, "'"))
         t--;
     for (; t > first; t--) {
@@ -302,7 +302,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         return found(what, t); /* after an option word, not after an operand */
     if (word && t->kind == QDOT_TOKEN_NAME && !t->glued &&
         !qdot_cursor_knows(c->session, t->text)) {
-        found(what, t); /* `2 tol` among words is no product */
+        found(what, t); /* within words, as in `2 tol`, a missing `*` is not meant */
         return hint_word(what, t->text);
     }
     if (joins_parts(c, t)) {

@@ -9,13 +9,13 @@ typedef struct {
     qdot_session *session;
     const qdot_source *source;
     const qdot_token
-        *at;         /* the next token; tokens[i] with kind END ends every statement */
-    size_t error_at; /* byte where the last error is; set by every reader that fails */
+        *at;         /* the next token; every statement ends with a token END */
+    size_t error_at; /* position of the last error in bytes, set by every reader that fails */
 } qdot_cursor;
 
 bool qdot_cursor_is_op(const qdot_cursor *c, const char *op);
 bool qdot_cursor_is_word(const qdot_cursor *c, const char *word);
-bool qdot_cursor_accept_op(qdot_cursor *c, const char *op); /* and step over it */
+bool qdot_cursor_accept_op(qdot_cursor *c, const char *op); /* if the next token is `op`, step over it */
 bool qdot_cursor_accept_word(qdot_cursor *c, const char *word);
 bool qdot_cursor_is_end(const qdot_cursor *c);
 /* Fail at the next token: "expected WHAT, found `...`". With hint for a missing `*`, other systems'

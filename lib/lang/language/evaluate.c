@@ -47,7 +47,7 @@ sum(qdot_machine *m, size_t n)
     const qdot_slot *s = qdot_machine_top(m, n);
     qdot_expr value;
 
-    QDOT_TRY(qdot_machine_take(m, n)); /* the slots above the stack stay readable */
+    QDOT_TRY(qdot_machine_take(m, n)); /* the removed entries above the stack remain readable */
     value = m->args.at[0];
     if (qdot_machine_all_scalars(m))
         return qdot_machine_push(m, qdot_sum(m->pool, n, m->args.at));
@@ -499,10 +499,10 @@ evaluate_codes(qdot_cursor *c, const qdot_postfix_list *program, uint32_t first,
     }
     if (status != QDOT_OK && m.frames.n > 0)
         status = qdot_forms_too_many_terms(&m.frames.at[m.frames.n - 1], status);
-    for (size_t i = m.frames.n; i > 0; i--) /* only after a failure */
+    for (size_t i = m.frames.n; i > 0; i--) /* left over only after a failure */
         if (m.frames.at[i - 1].bound)
             qdot_names_pop(m.session->names);
-    while (m.passed != NULL) /* only after a failure */
+    while (m.passed != NULL) /* left over only after a failure */
         qdot_machine_pass_end(&m);
     qdot_free(m.stack.at);
     qdot_free(m.frames.at);

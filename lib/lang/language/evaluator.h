@@ -14,44 +14,44 @@
 /* --- postfix code: parsing and evaluating ------------------------------------------- */
 
 typedef enum {
-    QDOT_POSTFIX_NUMBER,     /* push the number of `token` */
-    QDOT_POSTFIX_NAME,       /* push what `token` means, with `primes` */
-    QDOT_POSTFIX_LABEL,      /* n indices popped; push the label as a carrier symbol */
-    QDOT_POSTFIX_HISTORY,    /* push %n, n = 0: the last */
-    QDOT_POSTFIX_INDEX_NAME, /* n indices popped; push token[...] with `primes` */
-    QDOT_POSTFIX_INDEX,      /* n indices and a value popped; push its entry */
-    QDOT_POSTFIX_CALL,       /* `to` indices and n arguments popped; push token(...) */
-    QDOT_POSTFIX_RANGE,      /* n popped, the last two the ends of a range of token(...) */
-    QDOT_POSTFIX_TERM,    /* the top is the right operand of `token` in a sum or product */
-    QDOT_POSTFIX_SUM,     /* n terms popped */
-    QDOT_POSTFIX_PRODUCT, /* n factors popped */
+    QDOT_POSTFIX_NUMBER,     /* push the number written at `token` */
+    QDOT_POSTFIX_NAME,       /* push the value of the name `token`, with `primes` */
+    QDOT_POSTFIX_LABEL,      /* pop n indices; push the label as a carrier symbol */
+    QDOT_POSTFIX_HISTORY,    /* push answer %n; n = 0: the latest */
+    QDOT_POSTFIX_INDEX_NAME, /* pop n indices; push token[...] with `primes` */
+    QDOT_POSTFIX_INDEX,      /* pop n indices and a value; push the value's entry */
+    QDOT_POSTFIX_CALL,       /* pop `to` indices and n arguments; push token(...) */
+    QDOT_POSTFIX_RANGE, /* pop n values, of which the last two are the limits of a range of token(...) */
+    QDOT_POSTFIX_TERM,    /* the top value is the right operand of `token` in a sum or product */
+    QDOT_POSTFIX_SUM,     /* pop n terms; push their sum */
+    QDOT_POSTFIX_PRODUCT, /* pop n factors; push their product */
     QDOT_POSTFIX_NEGATE,
     QDOT_POSTFIX_POWER,
-    QDOT_POSTFIX_RELATION, /* a b -> (a op b) */
-    QDOT_POSTFIX_CHAIN,    /* a b -> (a op b) b: the first part of a < b < c */
-    QDOT_POSTFIX_AND,      /* n popped */
+    QDOT_POSTFIX_RELATION, /* pop a, b; push the relation a op b */
+    QDOT_POSTFIX_CHAIN,    /* for a < b < c: pop a, b; push a op b, then b again */
+    QDOT_POSTFIX_AND,      /* pop n operands; push their conjunction */
     QDOT_POSTFIX_OR,
     QDOT_POSTFIX_NOT,
-    QDOT_POSTFIX_VECTOR,    /* n popped */
-    QDOT_POSTFIX_LIST,      /* n popped */
-    QDOT_POSTFIX_MATRIX,    /* n entries popped, `to` columns */
-    QDOT_POSTFIX_MEMBER,    /* the top refers to the run `token` */
-    QDOT_POSTFIX_JUMP,      /* to `to` */
-    QDOT_POSTFIX_SUM_BEGIN, /* a b popped; the loop over source token n, body at `to` */
-    QDOT_POSTFIX_SUM_NEXT,  /* the body's value popped; round again or go on */
-    QDOT_POSTFIX_IF_TEST,   /* the condition stays; false: nil pushed, go to `to` */
-    QDOT_POSTFIX_IF_ELSE,   /* condition true: both popped, value pushed, go to `to` */
-    QDOT_POSTFIX_IF_END,    /* condition, a, b popped; push if(...) */
-    QDOT_POSTFIX_PASS_BEGIN, /* session->passed keeps from here what must exist */
-    QDOT_POSTFIX_PASS_END    /* ... to here */
+    QDOT_POSTFIX_VECTOR,    /* pop n components; push a vector */
+    QDOT_POSTFIX_LIST,      /* pop n members; push a list */
+    QDOT_POSTFIX_MATRIX,    /* pop n entries; push a matrix with `to` columns */
+    QDOT_POSTFIX_MEMBER,    /* the top value refers to the run named `token` */
+    QDOT_POSTFIX_JUMP,      /* continue at instruction `to` */
+    QDOT_POSTFIX_SUM_BEGIN, /* pop limits a, b; begin a sum whose index is token n and whose body begins at `to` */
+    QDOT_POSTFIX_SUM_NEXT,  /* pop the body's value; repeat the body or continue */
+    QDOT_POSTFIX_IF_TEST,   /* the condition stays; if false push nil and continue at `to` */
+    QDOT_POSTFIX_IF_ELSE, /* if the condition is true: pop both, push the value, continue at `to` */
+    QDOT_POSTFIX_IF_END,    /* pop condition, a, b; push if(...) */
+    QDOT_POSTFIX_PASS_BEGIN, /* from here on session->passed records what must be defined */
+    QDOT_POSTFIX_PASS_END    /* until here session->passed records what must be defined */
 } qdot_postfix_kind;
 
 typedef struct {
-    uint8_t op; /* qdot_postfix_kind */
+    uint8_t op; /* the instruction, a qdot_postfix_kind */
     uint8_t primes;
     uint32_t n, to;
     uint32_t last;           /* of CALL and RANGE: where the code of the last argument begins; 0: there is one only */
-    const qdot_token *token; /* the token that an error points at */
+    const qdot_token *token; /* token at which an error points */
 } qdot_postfix;
 
 typedef struct {
@@ -60,8 +60,8 @@ typedef struct {
 
 /* How far an expression extends. */
 typedef enum {
-    QDOT_PARSE_VALUE, /* relations and logic too */
-    QDOT_PARSE_SIDE   /* up to a relation, `and`, `or` */
+    QDOT_PARSE_VALUE, /* a value, also with relations, `and`, `or` */
+    QDOT_PARSE_SIDE   /* a value up to a relation, `and`, `or` */
 } qdot_parse_extent;
 
 /* Parse one expression at the cursor and step over it; append the code to *program. */
@@ -104,10 +104,10 @@ QDOT_MUST_CHECK qdot_status qdot_resolve_undefined(qdot_session *session,
 typedef struct {
     const qdot_token *token;
     unsigned primes;
-    uint32_t indices, n;       /* how many indices, then arguments */
-    const qdot_expr *values;   /* [indices + n] */
-    const char *const *labels; /* [indices + n]: of positions of particles and bodies, else NULL */
-    const char *run;           /* that the arguments name; NULL: none */
+    uint32_t indices, n;       /* number of indices and of arguments */
+    const qdot_expr *values;   /* [indices + n] their values */
+    const char *const *labels; /* [indices + n] labels of particles or bodies whose positions they are, else NULL */
+    const char *run;           /* name of the run to which the arguments refer; NULL: none */
 } qdot_call;
 /* Evaluate a call. *over: as for qdot_resolve_name. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_call *call,

@@ -5,7 +5,7 @@
 
 #include "lang/language/pattern.h"
 
-enum { LONGEST = 400 }; /* tokens of a statement that are compared with the patterns */
+enum { LONGEST = 400 }; /* longest statement, in tokens, that is compared with the patterns */
 
 typedef enum { WHOLE, BEGIN, PART } extent;
 

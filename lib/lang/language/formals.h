@@ -10,8 +10,8 @@ QDOT_MUST_CHECK qdot_status qdot_formals_read_names(qdot_cursor *c,
                                                     const qdot_token ***names, size_t *n);
 /* Arguments of a function while they hide outer names. */
 typedef struct {
-    qdot_expr list; /* of FORMAL symbols */
-    const qdot_token **names; /* [n], owned */
+    qdot_expr list; /* a LIST of the FORMAL symbols */
+    const qdot_token **names; /* [n] tokens of the argument names, owned */
     size_t n, entered;
 } qdot_formals;
 

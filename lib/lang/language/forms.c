@@ -97,7 +97,7 @@ sum_by_formula(qdot_machine *m, uint32_t *pc)
         return qdot_fail(QDOT_EFAILED, "no formula is known");
     status = qdot_closed_sum(m->pool, m->args.at[0], f->symbol, f->k, f->last, &value);
     if (status != QDOT_OK && status != QDOT_EFAILED)
-        f->symbol = QDOT_NIL; /* a formula is known: its error is the one to tell */
+        f->symbol = QDOT_NIL; /* evaluate by numbers no more: the formula's error is reported */
     QDOT_TRY(status);
     qdot_names_pop(m->session->names);
     *pc = f->resume;

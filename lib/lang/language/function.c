@@ -244,7 +244,7 @@ apply_inside(mapping *m, qdot_expr arg, qdot_expr *value)
     qdot_status status;
 
     if (m->s->evaluation->passed != NULL)
-        m->s->evaluation->passed->spoiled = true; /* what was met on the way need not exist */
+        m->s->evaluation->passed->spoiled = true; /* parts evaluated here need not be defined in the result */
     if (qdot_expr_kind(m->s->pool, arg) == QDOT_LIST) {
         status = apply_to_members(m, arg, value);
     } else {

@@ -25,7 +25,7 @@ QDOT_MUST_CHECK qdot_status qdot_function_read(qdot_cursor *c, qdot_name *entry)
 /* An argument of a call. */
 typedef struct {
     qdot_expr value;
-    const char *label; /* of the particle or body whose position it is; NULL: of none */
+    const char *label; /* label of the particle or body whose position the argument is; NULL: none */
 } qdot_argument;
 
 /* The function `entry` with `primes` of n arguments. One argument for which the body has no

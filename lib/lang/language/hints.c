@@ -21,7 +21,7 @@ qdot_hints_nearest(qdot_session *session, const char *name)
 
     qdot_labels_add(session->scene, &list);
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
-        (void)qdot_vec_push(&list, qdot_quantity_at(i)->name); /* a hint less without memory */
+        (void)qdot_vec_push(&list, qdot_quantity_at(i)->name); /* if memory runs out the hint lacks this word */
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
         if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_SHORT))
             (void)qdot_vec_push(&list, qdot_builtin_at(i)->name);
@@ -66,7 +66,7 @@ bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t si
  * ones first. */
 static const struct {
     const char *prefix, *ending, *primes;
-    bool sure; /* seldom the name of anything else */
+    bool sure; /* such a name is rarely anything else */
 } derivatives[] = {{"", "_ddot", "''", true}, {"", "_dot", "'", true}, {"", "ddot", "''", true},
                    {"", "dot", "'", true},    {"d", "_dt", "'", true}, {"d", "dt", "'", true},
                    {"", "_prime", "'", true}, {"", "prime", "'", true}, {"v_", "", "'", false},
@@ -194,7 +194,7 @@ hint_unknown_name(qdot_cursor *c, const qdot_token *token, const char *member, b
                          : qdot_hints_nearest(c->session, member != NULL ? member : name);
     if (nearest != NULL && strlen(name) < CLEAR && qdot_builtin_find(nearest) != NULL &&
         qdot_names_find(c->session->names, nearest) == NULL)
-        nearest = NULL; /* a short name alone is seldom the slip of a function's */
+        nearest = NULL; /* a short name is rarely a misspelt function */
     if ((nearest == NULL || strstr(name, nearest) != NULL) && hint_derivative(c, name, false))
         return QDOT_ENAME;
     if (nearest != NULL)
@@ -262,7 +262,7 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
          (next->kind == QDOT_TOKEN_NAME && qdot_cursor_knows(c->session, next->text)))) {
         const size_t to = qdot_cursor_operand_end(c, next);
 
-        if (to == next->start + next->length) /* θ is theta */
+        if (to == next->start + next->length) /* a Greek letter stands for its spelled name: θ is theta */
             return qdot_hint("write %s(%.80s)", name, next->text);
         if (to - next->start <= 80)
             return qdot_hint("write %s(%.*s)", name, (int)(to - next->start), c->source->text + next->start);

@@ -8,9 +8,9 @@
 
 /* A name that looks like a derivative: its coordinate and its usual notation. */
 typedef struct {
-    char base[64];      /* theta of thetadot, v_theta */
-    const char *primes; /* ' or '' */
-    bool family;        /* theta[k] */
+    char base[64];      /* name of the coordinate: theta in thetadot, v_theta */
+    const char *primes; /* the usual notation of the derivative: ' or '' */
+    bool family;        /* the coordinate is a member of a family, theta[k] */
 } qdot_derivative_name;
 
 /* Whether `name` is how others write the velocity or acceleration of a declared name. sure: thetadot, theta_ddot; else

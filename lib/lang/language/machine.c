@@ -66,7 +66,7 @@ qdot_machine_pass_end(qdot_machine *m)
     m->session->evaluation->passed = frame->outer;
     m->passed = frame->below;
     if (frame->outer != NULL)
-        frame->outer->spoiled = true; /* such a function takes its arguments apart */
+        frame->outer->spoiled = true; /* the outer call takes its arguments apart, too */
     qdot_free(frame->passed.value.at);
     qdot_free(frame->passed.root.at);
     qdot_free(frame);

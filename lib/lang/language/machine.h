@@ -9,22 +9,22 @@
 /* A value on the stack. */
 typedef struct {
     qdot_expr value;
-    qdot_expr over;         /* coordinates that index its entries, or nil */
-    const char *run;        /* it refers to this run, or NULL */
+    qdot_expr over;         /* a LIST of coordinates that index the entries; nil: none */
+    const char *run;        /* name of the run to which the value refers; NULL: none */
     const char *label;      /* the particle or body whose position it is, or NULL */
-    const qdot_token *sign; /* the + - * / before it, or NULL for the first */
+    const qdot_token *sign; /* the operator + - * / before it; NULL for the first operand */
 } qdot_slot;
 
 /* A sum(...) that is being evaluated. */
 typedef struct {
     const char *index;
     const qdot_token *place; /* its place in the text */
-    bool varies;             /* terms depend on more than the index (language/partial-sum) */
+    bool varies;             /* the terms depend on more than the index (language/partial-sum) */
     long first, k, last;
-    uint32_t resume; /* code after it */
-    size_t terms;    /* where its terms begin */
-    bool bound;      /* the index is bound at present */
-    qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
+    uint32_t resume; /* index of the instruction after the sum */
+    size_t terms;    /* index in `terms` of its first term */
+    bool bound;      /* the index has a value at present */
+    qdot_expr symbol; /* symbol of the index, for a sum by a formula; nil: the index is a number */
 } qdot_sum_frame;
 
 /* The data that a call of a function of type QDOT_BUILTIN_PASSED records while its arguments are evaluated. */
@@ -41,12 +41,12 @@ typedef struct {
     const qdot_postfix_list *program;
     qdot_vec(qdot_slot) stack;
     qdot_vec(qdot_sum_frame) frames;
-    qdot_vec(qdot_expr) terms; /* of all unfinished sums */
-    qdot_vec(qdot_expr) args;  /* scratch */
-    qdot_vec(const char *) labels; /* of the arguments of the present call */
-    const qdot_token *blame;   /* the token that an error points at */
-    bool belongs;              /* the run of the following MEMBER has been used */
-    qdot_passed_frame *passed; /* the innermost open one; NULL */
+    qdot_vec(qdot_expr) terms; /* terms of all sums that are not complete */
+    qdot_vec(qdot_expr) args;  /* scratch for arguments */
+    qdot_vec(const char *) labels; /* labels of the arguments of the present call */
+    const qdot_token *blame;   /* token at which an error points */
+    bool belongs;              /* the run named by the next MEMBER instruction has been used */
+    qdot_passed_frame *passed; /* innermost open record; NULL: none */
 } qdot_machine;
 
 static inline qdot_slot *

@@ -23,10 +23,10 @@ typedef enum {
     OP_PRODUCT,
     OP_NEGATE,
     OP_POWER,
-    OP_ROOT, /* √ before an operand */
-    OP_MEMBER, /* `a.` before an operand */
-    IN_GROUP,  /* ( ) of an operand: a vector if it holds a comma */
-    IN_LIST,   /* [ ]: a list or, with `;`, a matrix */
+    OP_ROOT, /* √ before its operand */
+    OP_MEMBER, /* the run `a.` before its operand */
+    IN_GROUP,  /* brackets ( ) of an operand: a vector if they contain a comma */
+    IN_LIST,   /* brackets [ ]: a list, or with `;` a matrix */
     IN_INDEX_NAME,
     IN_INDEX,
     IN_LABEL,
@@ -36,14 +36,14 @@ typedef enum {
 } waiting_kind;
 
 typedef struct {
-    uint8_t kind; /* waiting_kind */
+    uint8_t kind; /* the operator or bracket, a waiting_kind */
     uint8_t primes;
-    bool ranged; /* of IN_CALL: its last argument is a range */
-    bool passed; /* of IN_CALL: between PASS_BEGIN and PASS_END */
-    const qdot_token *token; /* the operator's last sign; what opened the bracket */
-    const qdot_token *name;  /* of IN_SUM: its index */
-    const qdot_token *power; /* of IN_CALL: sin²(x) is sin(x)^2; NULL */
-    uint32_t count;          /* operands or arguments complete so far */
+    bool ranged; /* for IN_CALL: its last argument is a range */
+    bool passed; /* for IN_CALL: between the instructions PASS_BEGIN and PASS_END */
+    const qdot_token *token; /* the operator's sign, or the opening bracket */
+    const qdot_token *name;  /* for IN_SUM: token of the sum's index */
+    const qdot_token *power; /* for IN_CALL: exponent of sin²(x), which means sin(x)^2; NULL: none */
+    uint32_t count;          /* number of complete operands or arguments */
     uint32_t columns, indices, at;
     uint32_t last; /* of IN_CALL: where the code of the present argument begins, from the second on */
 } waiting;
@@ -53,8 +53,8 @@ typedef struct {
     qdot_postfix_list *program;
     qdot_parse_extent extent;
     qdot_vec(waiting) stack;
-    size_t depth; /* open brackets */
-    bool operand; /* an operand comes next */
+    size_t depth; /* number of open brackets */
+    bool operand; /* an operand is expected next */
     bool done;
 } parser;
 
@@ -250,7 +250,7 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
     QDOT_TRY(waiting_push(p, IN_CALL, name));
     top(p)->primes = (uint8_t)n_primes;
     top(p)->indices = indices;
-    if (qdot_token_is(p->c->at, ")")) { /* no arguments */
+    if (qdot_token_is(p->c->at, ")")) { /* a call without arguments */
         p->c->at++;
         p->stack.n--;
         p->depth--;
@@ -500,7 +500,7 @@ row(parser *p)
         return fail_at(p, p->c->at, QDOT_ETYPE);
     }
     p->c->at++;
-    if (qdot_token_is(p->c->at, "]")) { /* [a, b;], a matrix of one row */
+    if (qdot_token_is(p->c->at, "]")) { /* [a, b;] is a matrix with a single row */
         waiting whole = *w;
 
         p->c->at++;

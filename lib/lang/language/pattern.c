@@ -17,7 +17,7 @@
 
 typedef struct {
     const qdot_session *session;
-    const qdot_token *to; /* the end of the statement */
+    const qdot_token *to; /* end of the statement */
     bool whole;
     qdot_pattern_match *m;
 } matcher;
@@ -125,7 +125,7 @@ is_kind(const matcher *x, char kind, const qdot_token *t)
         return name != NULL && name->kind == QDOT_NAME_COORD;
     case 'm': return name == NULL && momentum_of(s, t->text) != NULL;
     case 'f': return name == NULL && qdot_foreign_word(t->text) != NULL;
-    default: /* v, i */
+    default: /* the kinds v and i */
         row = name == NULL ? qdot_quantity_find(t->text) : NULL;
         return row != NULL && (kind == 'v') == (row->most == 0);
     }

@@ -13,10 +13,10 @@ enum { QDOT_PATTERN_HELD = 9 };
 
 typedef struct {
     const qdot_token *from, *to; /* the matching tokens; `to` is after the last one */
-    const qdot_token *place;     /* where the caret belongs */
-    size_t n;                    /* placeholders */
+    const qdot_token *place;     /* token at which the error points */
+    size_t n;                    /* number of placeholders */
     struct {
-        char kind; /* its letter; '(' for one of several tokens */
+        char kind; /* letter of the placeholder; '(' if it matches several tokens */
         const qdot_token *from, *to;
     } held[QDOT_PATTERN_HELD];
 } qdot_pattern_match;

@@ -530,7 +530,7 @@ may_be_family(const qdot_session *s, const char *name)
 
     if (entry != NULL &&
         (entry->kind == QDOT_NAME_INDEX || entry->kind == QDOT_NAME_ARGUMENT))
-        return false; /* an argument hides the family */
+        return false; /* a function argument hides the family of that name */
     if (qdot_names_is_family(s->names, name))
         return true;
     if (entry != NULL)

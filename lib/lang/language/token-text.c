@@ -107,7 +107,7 @@ static void
 write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to,
              bool indices, qdot_text *out)
 {
-    int depth = 0, member = 0; /* brackets; those of x[1,2], or 0 */
+    int depth = 0, member = 0; /* bracket depth; depth of the brackets of an index x[1,2], or 0 */
 
     for (const qdot_token *k = from; k < to; k++) {
         bool binary = k > from && sign_follows_operand(k - 1) && is_spaced(k);

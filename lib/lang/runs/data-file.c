@@ -100,7 +100,7 @@ add_parameters(const qdot_session *session, qdot_run *run, facts *to)
             continue;
         status = qdot_run_values(run, 1, &name->value, 1, &t0, &x, NULL);
         QDOT_TRY(qdot_grave(status));
-        if (status == QDOT_OK) /* else it has no value */
+        if (status == QDOT_OK) /* skipped if it has no value */
             QDOT_TRY(add_number(to, name->name, x));
     }
     return QDOT_OK;

@@ -185,6 +185,6 @@ qdot_error_time_tell(qdot_session *session, const qdot_error_study *of)
         return tell_file(session, of, path);
     QDOT_TRY(tell_table(session, of));
     if (of->interrupted && path == NULL)
-        return QDOT_OK; /* no figure is made for a user who interrupted the run */
+        return QDOT_OK; /* no figure after an interruption, as the user does not want to wait */
     return tell_figure(session, of);
 }

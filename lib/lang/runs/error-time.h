@@ -9,17 +9,17 @@
 #include "table/table.h"
 
 typedef struct {
-    const char *name; /* points of one name stand together */
+    const char *name; /* name of the method; points with one name must follow each other */
     double time, error;
 } qdot_error_point;
 
 typedef struct {
     const char *title;
-    const char *abscissa, *ordinate; /* labels */
+    const char *abscissa, *ordinate; /* axis labels */
     const qdot_text *note;
     const char *none; /* the message if no point can be drawn */
     size_t n;
-    const qdot_error_point *points; /* [n] those without an error or a time are left out */
+    const qdot_error_point *points; /* [n] points; those without error or time are skipped */
     const qdot_figure_choice *figure;
     const qdot_panel_choice *panel;
 } qdot_error_time;
@@ -32,17 +32,17 @@ QDOT_MUST_CHECK qdot_status qdot_error_time_tolerance(qdot_record *r, double *to
 
 /* The answer of `workprecision` or `longtime`: methods left out, a table and a figure, or a file. */
 typedef struct {
-    const char *name; /* of the answer */
-    const void *study; /* what the functions take */
+    const char *name; /* name of the answer */
+    const void *study; /* the result of the study, given to the functions below */
     const qdot_methods_left_out *left_out;
     bool interrupted;
-    qdot_status (*table)(const void *study, qdot_table *t); /* fills a table {0} for people */
-    void (*words)(const void *study, qdot_text *out);       /* below it */
+    qdot_status (*table)(const void *study, qdot_table *t); /* fills an empty table for people */
+    void (*words)(const void *study, qdot_text *out);       /* writes the text below the table */
     qdot_status (*data)(const void *study, qdot_table *t);  /* fill the table for a .csv file */
     qdot_status (*rows)(qdot_session *session, const void *study); /* writes the rows as JSON */
-    qdot_error_time figure; /* without n, points, note, which these write: */
+    qdot_error_time figure; /* the figure; n, points and note are filled in by `points` */
     size_t most_points;
-    size_t (*points)(const void *study, qdot_error_point *points); /* writes the points; returns how many */
+    size_t (*points)(const void *study, qdot_error_point *points); /* writes the points and returns their number */
     void (*note)(const void *study, qdot_text *out);
 } qdot_error_study;
 QDOT_MUST_CHECK qdot_status qdot_error_time_tell(qdot_session *session, const qdot_error_study *of);

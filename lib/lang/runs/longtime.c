@@ -230,7 +230,7 @@ longtime_measure(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_longtime_measure(session->scene, &order.request, &l);
     if (l.interrupted)
-        qdot_interrupt_clear(); /* the interruption has been handled: the rows so far are reported */
+        qdot_interrupt_clear(); /* the interruption is handled here: report the rows measured so far */
     if (status == QDOT_OK)
         status = longtime_tell(session, &l, &chosen);
     if (status == QDOT_OK && l.interrupted)

@@ -24,10 +24,10 @@ QDOT_STATEMENT(plot) = {
 
 typedef struct {
     qdot_session *session;
-    char *text;           /* the text of the latest run's options, "0..20 tol 1e-9"; owned */
-    qdot_source *source;  /* the same with its tokens */
-    qdot_record record;   /* of these */
-    qdot_run_options run; /* as the values in force have them */
+    char *text;           /* limits and options of the latest run, "0..20 tol 1e-9"; owned */
+    qdot_source *source;  /* `text` split into tokens */
+    qdot_record record;   /* `text` parsed as the options of `run` */
+    qdot_run_options run; /* the options with the present parameter values */
     qdot_trial trial;     /* of one pass */
 } again;
 

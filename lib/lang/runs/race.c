@@ -74,7 +74,7 @@ print_race(const qdot_race *race, const qdot_table *t, qdot_text *out)
                                                             : "minimal coordinates",
                              race->lane[i].reason);
     QDOT_TRY(qdot_text_status(out));
-    qdot_text_truncate(out, out->n - 1); /* the last line's end */
+    qdot_text_truncate(out, out->n - 1); /* remove the final newline */
     return QDOT_OK;
 }
 
@@ -153,7 +153,7 @@ race_hold(qdot_record *r)
         status = qdot_race_hold(session->scene, &order.request, &race);
         if (status == QDOT_OK) {
             if (race.interrupted)
-                qdot_interrupt_clear(); /* the interruption has been handled: the rows so far are reported */
+                qdot_interrupt_clear(); /* the interruption is handled here: report the rows measured so far */
             status = race_answer(session, &race, &figure, &panel);
             if (status == QDOT_OK && race.interrupted)
                 status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");

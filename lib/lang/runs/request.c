@@ -229,7 +229,7 @@ refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
 
     for (uint32_t i = 0; i < n; i++) {
         const qdot_expr one =
-            scalar ? e : qdot_expr_arg(pool, e, 4 * i); /* of the diagonal */
+            scalar ? e : qdot_expr_arg(pool, e, 4 * i); /* diagonal entry i of a 3 x 3 matrix */
         const qdot_expr bound = qdot_subs(pool, one, o->request.n_values,
                                           o->request.symbols, o->request.values);
         double value;

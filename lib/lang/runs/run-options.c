@@ -65,7 +65,7 @@ with_find_one(qdot_record *r, const qdot_filled *part, qdot_pairs *with)
 static qdot_status
 with_find(qdot_record *r, const qdot_filled *first, const qdot_filled *to, qdot_pairs *with)
 {
-    for (const qdot_filled *part = first; part < to; part += 4) { /* NAME = VALUE , */
+    for (const qdot_filled *part = first; part < to; part += 4) { /* four parts for each: NAME, `=`, VALUE, `,` */
         QDOT_TRY(with_find_one(r, part, with));
         if (part + 3 >= to || !qdot_filled_is(part + 3, ","))
             break;

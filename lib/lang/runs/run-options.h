@@ -16,12 +16,12 @@
 typedef struct {
     qdot_expr from, to;
     double tol;
-    long digits; /* 0: doubles */
+    long digits; /* requested number of digits; 0: a run in doubles */
     const char *method, *name;
     const qdot_token *method_at;
     qdot_run_treatment treatment;
     qdot_pairs with;
-    qdot_text text; /* of the statement, without its name */
+    qdot_text text; /* text of the statement without its name */
 } qdot_run_options;
 
 /* What the parts [from, to) of a statement say: limits, where they begin with T0..T1, options and

@@ -41,7 +41,7 @@ run_integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
     if (run == NULL)
         return status;
     if (status == QDOT_EINTR)
-        qdot_interrupt_clear(); /* the interruption has been handled: the run so far is kept and reported */
+        qdot_interrupt_clear(); /* the interruption is handled here: keep and report the run so far */
     if (o->name == NULL)
         qdot_runs_next_name(session, name, sizeof name);
     QDOT_TRY(qdot_runs_keep(session, o->name != NULL ? o->name : name,

@@ -180,7 +180,7 @@ workprecision_measure(qdot_record *r)
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);
     if (w.interrupted)
-        qdot_interrupt_clear(); /* the interruption has been handled: the rows so far are reported */
+        qdot_interrupt_clear(); /* the interruption is handled here: report the rows measured so far */
     if (status == QDOT_OK)
         status = workprecision_tell(session, &w, &chosen);
     if (status == QDOT_OK && w.interrupted)

@@ -152,7 +152,7 @@ measured_evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measu
     qdot_vec(double) in = {0};
     qdot_tape *tape = NULL;
     double *out = NULL;
-    bool rounded = false; /* a number among them is a double */
+    bool rounded = false; /* some of the numbers are doubles, not exact */
     qdot_status status = qdot_vec_push(&outputs, e);
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -270,7 +270,7 @@ qdot_session_in_domain(qdot_session *session, qdot_expr symbol, qdot_expr value)
 
     if ((s.lo == QDOT_NIL && s.hi == QDOT_NIL) ||
         qdot_session_number(session, value, &x, NULL) != QDOT_OK)
-        return QDOT_OK; /* no number yet */
+        return QDOT_OK; /* the value is not a number yet */
     if (s.lo != QDOT_NIL && qdot_session_number(session, s.lo, &bound, NULL) == QDOT_OK &&
         (x < bound || (s.lo_open && x == bound)))
         return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g",

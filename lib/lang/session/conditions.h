@@ -9,8 +9,8 @@
 
 /* The scene, parameter values, start and limits of a run; not how it was integrated. */
 typedef struct {
-    uint64_t version; /* of the scene */
-    qdot_vec(qdot_expr) symbols, values; /* of parameters */
+    uint64_t version; /* version of the scene */
+    qdot_vec(qdot_expr) symbols, values; /* parameters and their values */
     qdot_vec(qdot_expr) q0, v0;
     qdot_vec(bool) q_named, v_named;
     bool exactly;

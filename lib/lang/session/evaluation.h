@@ -9,9 +9,9 @@
 /* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
-    qdot_vec(qdot_expr) root; /* of powers among them, base and exponent in turn */
-    bool spoiled;      /* a function that may take its argument apart (subs) was called */
-    unsigned branches; /* open branches of ifs: subexpressions there need not be defined */
+    qdot_vec(qdot_expr) root; /* powers among them: base and exponent alternately */
+    bool spoiled; /* a function like subs, which takes its argument apart, was called: the list is not valid */
+    unsigned branches; /* depth of if(...) branches: parts inside need not be defined */
 } qdot_passed;
 
 /* A parameter or coordinate with a value for the present pass of a loop (lang/session/held). */
@@ -21,16 +21,16 @@ typedef struct {
 } qdot_held;
 
 typedef struct qdot_evaluation {
-    bool declares;     /* the present statement declares part of a scene */
-    const char *claim; /* while a check is answered, its text; else NULL */
-    const char *taken; /* short name of a value that it read (lang/functions/short-names); NULL */
+    bool declares;     /* the statement declares a part of the scene */
+    const char *claim; /* text of the check that is being answered; else NULL */
+    const char *taken; /* short name of a value that was read (lang/functions/short-names); NULL: none */
     qdot_text_list told; /* notices that the present statement has given */
     unsigned calls;    /* depth of nested function calls */
-    bool placed;       /* the present error already names its place in a body */
-    qdot_vec(qdot_held) held; /* by the loops under way, innermost last */
-    size_t loops;      /* open loops: what they refer to must outlive them */
-    qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (language/partial-sum) */
-    qdot_passed *passed; /* while the sides of a check are read; else NULL */
+    bool placed;       /* the error message already names a place in a function's body */
+    qdot_vec(qdot_held) held; /* parameters and coordinates set by open loops, innermost last */
+    size_t loops;      /* number of open loops, whose sources must be kept */
+    qdot_vec(struct qdot_partial_sum) partial_sums; /* values of sums reused by the outermost loop (language/partial-sum) */
+    qdot_passed *passed; /* records subexpressions of a check's sides; NULL: no check */
 } qdot_evaluation;
 
 #endif

@@ -7,9 +7,9 @@
 
 typedef struct qdot_function_body {
     unsigned uses;
-    qdot_source *source;             /* kept alive */
-    const qdot_token *from, *to;     /* its tokens, `to` after the last */
-    qdot_vec(const char *) captured; /* indices of loops around the definition */
+    qdot_source *source;             /* the source text, which is kept as long as this */
+    const qdot_token *from, *to;     /* the tokens from ... to - 1 of the body */
+    qdot_vec(const char *) captured; /* names of the loop indices around the definition */
 } qdot_function_body;
 
 /* A function body: the tokens [from, to) of a source, with reference count 1; NULL if out of memory. */

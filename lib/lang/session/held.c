@@ -49,7 +49,7 @@ qdot_held_end(qdot_session *session)
     bool starts;
     size_t n, i;
 
-    if (session->evaluation->held.n == 0) /* a `reset` inside of the loop */
+    if (session->evaluation->held.n == 0) /* a `reset` within the loop has removed it */
         return;
     held = session->evaluation->held.at[--session->evaluation->held.n];
     starts = qdot_expr_is_class(session->pool, held.symbol, QDOT_COORD);

@@ -6,9 +6,9 @@
 #include "lang/session/parts.h"
 
 typedef struct qdot_history {
-    qdot_vec(qdot_expr) values;  /* %1 is values.at[0] */
-    qdot_vec(qdot_expr) over;    /* coordinates their entries go by; nil, or shorter: none */
-    qdot_expr series, series_in; /* the latest series(...) and the LIST of what it is in, or nil */
+    qdot_vec(qdot_expr) values;  /* the answers: %1 is values.at[0] */
+    qdot_vec(qdot_expr) over; /* for each answer a LIST of coordinates that index its entries; nil: none */
+    qdot_expr series, series_in; /* the latest series(...) and a LIST of its variables; nil: none */
 } qdot_history;
 
 /* Add a value to the history: `%` from now on. over: the LIST of coordinates its entries go by, or

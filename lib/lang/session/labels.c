@@ -10,7 +10,7 @@ static void
 words_add(qdot_words *list, const char *word)
 {
     if (word != NULL)
-        (void)qdot_vec_push(list, word); /* a hint less, if there is no memory */
+        (void)qdot_vec_push(list, word); /* if memory runs out the hint lacks this word */
 }
 
 void

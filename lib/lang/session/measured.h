@@ -9,9 +9,9 @@
 /* A number from a run; a FORMAL symbol represents it in expressions. */
 typedef struct {
     qdot_expr symbol;
-    double value, error; /* error NaN: unknown */
-    int digits;          /* > 0: of a run with `digits`, whose number is */
-    qdot_expr exact;     /* ... this rational; digits 0: nil, or the value that `set` has of it */
+    double value, error; /* value and its error; error NaN: unknown */
+    int digits;          /* > 0: from a run with `digits` */
+    qdot_expr exact; /* with digits: the exact rational; otherwise nil, or the value that `set` uses */
     bool plain;          /* no digits were requested: with --json it is a number, not a string */
     qdot_origin origin;
 } qdot_measured;

@@ -36,8 +36,8 @@ QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const cha
 /* Times along a run, and the arrays for the values there. */
 typedef struct {
     size_t n;
-    const double *times, *lows; /* [n]; lows: what the exact times are beyond these, NULL: 0 */
-    double *values, *errors;    /* [n]; errors NULL: not wanted */
+    const double *times, *lows; /* [n] times; exact times minus these, NULL: 0 */
+    double *values, *errors; /* [n] values and errors at these times; errors NULL: not requested */
 } qdot_samples;
 /* Evaluate an expression of several runs; parts that name no run belong to `run` (NULL: the latest). */
 QDOT_MUST_CHECK qdot_status qdot_member_values(qdot_session *session, const char *run,

@@ -13,14 +13,14 @@
 #include "tape/tape.h"
 
 struct qdot_mixture {
-    qdot_expr e;                       /* with the values of `set` */
+    qdot_expr e;                       /* the expression, with parameter values inserted */
     qdot_vec(qdot_run *) runs;         /* every run once */
-    qdot_vec(qdot_run_member) members; /* also the latest run, if something that moves names no run */
-    qdot_vec(qdot_expr) symbols;       /* of the members */
+    qdot_vec(qdot_run_member) members; /* the values along runs; includes the latest run if a symbol names no run */
+    qdot_vec(qdot_expr) symbols;       /* the symbols that stand for the members */
     qdot_tape *tape;                   /* the tape that computes e from the symbols */
     size_t room;                 /* allocated length of values and errors */
-    double *values, *errors;     /* [symbols x times] */
-    double *in;                  /* [symbols], work space of the tape */
+    double *values, *errors;     /* [symbols x times] values of the members and their errors */
+    double *in;                  /* [symbols] inputs, then work space of the tape */
 };
 
 void

@@ -26,11 +26,11 @@ typedef struct family {
 struct qdot_names {
     entry **slots;
     family **families;
-    size_t n_slots; /* of both tables; a power of 2 */
+    size_t n_slots; /* number of slots in each table, a power of 2 */
     size_t n_families;
     qdot_vec(entry *) order;
-    qdot_vec(qdot_name) bound; /* innermost last */
-    size_t seen_from;          /* those before it are hidden */
+    qdot_vec(qdot_name) bound; /* temporary bindings, innermost last */
+    size_t seen_from;          /* bindings before this index are hidden */
     size_t settled;            /* entries of `order` that have not changed since */
 };
 
@@ -585,7 +585,7 @@ qdot_status
 qdot_names_push_argument(qdot_names *names, const char *name, qdot_expr value,
                          const char *label)
 {
-    if (strcmp(name, "t") != 0) /* an argument t stands for the time */
+    if (strcmp(name, "t") != 0) /* an argument named t means the time */
         QDOT_TRY(check_reserved(name));
     return bound_push(names, (qdot_name){.name = (char *)name,
                                    .kind = QDOT_NAME_ARGUMENT,

@@ -10,25 +10,25 @@
 #include "lang/session/function-body.h"
 
 typedef enum {
-    QDOT_NAME_PARAM,    /* value: the symbol */
-    QDOT_NAME_COORD,    /* value: the symbol */
-    QDOT_NAME_UFUN,     /* ufun: its id; value: the function of its declared arguments */
-    QDOT_NAME_VALUE,    /* value: any value */
+    QDOT_NAME_PARAM,    /* a parameter; value: its symbol */
+    QDOT_NAME_COORD,    /* a coordinate; value: its symbol */
+    QDOT_NAME_UFUN, /* an undefined function; ufun: its id; value: it applied to its declared arguments */
+    QDOT_NAME_VALUE,    /* a defined name; value: any expression */
     QDOT_NAME_FUNCTION, /* formals: a LIST of symbols; body: its text; value: a LIST of the
                          * values of body->captured */
-    QDOT_NAME_INDEX,    /* value: that of the present pass of a loop or sum; hides outer names */
-    QDOT_NAME_ARGUMENT  /* value: the argument of a call; hides outer names */
+    QDOT_NAME_INDEX,    /* a loop or sum index; value: its present number; hides outer names */
+    QDOT_NAME_ARGUMENT  /* an argument of a function; value: that of the call; hides outer names */
 } qdot_name_kind;
 
 typedef struct {
     char *name;
     qdot_name_kind kind;
     qdot_expr value, formals;
-    qdot_expr over; /* VALUE: the coordinates (a LIST) that index its entries, or nil */
+    qdot_expr over; /* for VALUE: a LIST of coordinates that index its entries; nil: none */
     uint32_t ufun;
-    qdot_function_body *body;   /* of a FUNCTION, a VALUE */
-    const char *label; /* of an ARGUMENT: the particle or body whose position it is, or NULL */
-    char *file; /* where it was declared */
+    qdot_function_body *body;   /* for FUNCTION and VALUE: the defining text */
+    const char *label; /* for ARGUMENT: label of the particle or body whose position it is; NULL: none */
+    char *file; /* file in which the name was declared */
     uint32_t line;
 } qdot_name;
 

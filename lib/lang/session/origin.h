@@ -6,19 +6,19 @@
 #include "sim/run/run.h"
 
 typedef enum {
-    QDOT_ORIGIN_OTHER, /* of several runs, or of none */
-    QDOT_ORIGIN_VALUE, /* e at a time */
-    QDOT_ORIGIN_RANGE, /* e over a range: `range`, between ends */
-    QDOT_ORIGIN_EVENT  /* the time of an event */
+    QDOT_ORIGIN_OTHER, /* from several runs, or from no run */
+    QDOT_ORIGIN_VALUE, /* value of e at a time */
+    QDOT_ORIGIN_RANGE, /* extremum or mean of e between two times */
+    QDOT_ORIGIN_EVENT  /* time of an event */
 } qdot_origin_kind;
 
 typedef struct {
     qdot_origin_kind kind;
     qdot_range_kind range;
-    qdot_expr e, time; /* as they were written, numbers of runs in them as symbols */
+    qdot_expr e, time; /* expression and time as written; numbers from runs are symbols in them */
     double ends[2];
-    qdot_expr said[2]; /* the ends as they were written, nil: those of the run */
-    const char *run, *event; /* borrowed, for the statement; run NULL: the latest */
+    qdot_expr said[2]; /* the times of the range as written; nil: those of the run */
+    const char *run, *event; /* names of run and event, borrowed during the statement; run NULL: the latest */
 } qdot_origin;
 
 #endif

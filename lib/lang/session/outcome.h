@@ -6,9 +6,9 @@
 
 typedef struct qdot_outcome {
     bool failed;        /* the latest text or file stopped at an error */
-    bool refuted;       /* a check was refuted: exit 1 at the end */
-    size_t verdicts[3]; /* number of checks by qdot_verdict */
-    bool quit;          /* after `quit` */
+    bool refuted;       /* some check was refuted: the program exits with 1 */
+    size_t verdicts[3]; /* number of checks for each qdot_verdict */
+    bool quit;          /* `quit` was given */
 } qdot_outcome;
 
 #endif

@@ -17,14 +17,14 @@ typedef enum { QDOT_COLOURS_ANSWERS = 1, QDOT_COLOURS_ERRORS = 2 } qdot_colours;
 typedef struct qdot_output {
     FILE *out, *err;
     qdot_style style;
-    bool flat; /* formulas stand in one line on a terminal too */
-    struct qdot_formula_page *page;  /* what answers become a page of, for a file; NULL: none */
-    struct qdot_formula_page *block; /* of the present statement: its equations (lang/answer/sheet); NULL: none yet */
+    bool flat; /* formulas are written on one line, also on a terminal */
+    struct qdot_formula_page *page;  /* page that collects answers for a file; NULL: none */
+    struct qdot_formula_page *block; /* page with the present statement's equations (lang/answer/sheet); NULL: none yet */
     bool json, timing;
-    FILE *console; /* where notices go; NULL: with the answers */
+    FILE *console; /* stream of notices; NULL: as the answers */
     bool console_json;
-    FILE *pages, *screen; /* out is `pages` while answers for the terminal `screen` are collected */
-    unsigned colours;     /* qdot_colours */
+    FILE *pages, *screen; /* `out` is `pages` while answers to the terminal `screen` are collected */
+    unsigned colours;     /* bits qdot_colours: streams that show colours */
 } qdot_output;
 
 #endif

@@ -12,26 +12,26 @@
 typedef struct qdot_session {
     /* Fields that `reset` clears. */
     qdot_pool *pool;
-    struct qdot_scene *scene;              /* mech/scene/things.h */
-    struct qdot_names *names;              /* names.h */
-    struct qdot_values *values;            /* of `set`, `start`, `scale`: values.h */
-    struct qdot_history *history;          /* %1, %2, ...: history.h */
-    struct qdot_run_list *runs;            /* runs.h */
-    struct qdot_row_table_list *tables;    /* of many runs: row-tables.h */
-    struct qdot_kept_studies *studies;     /* of work and precision: conditions.h */
-    struct qdot_measured_list *measured;   /* numbers of runs within expressions: measured.h */
-    struct qdot_member_list *members;      /* a.EXPR within expressions: member.h */
-    struct qdot_evaluation *evaluation;    /* of the present statement: evaluation.h */
-    struct qdot_text_list *told;           /* notices that are given once: text-list.h */
+    struct qdot_scene *scene;              /* the declared scene: mech/scene/things.h */
+    struct qdot_names *names;              /* declared and defined names: names.h */
+    struct qdot_values *values;            /* values given by `set`, `start`, `scale`: values.h */
+    struct qdot_history *history;          /* answers %1, %2, ...: history.h */
+    struct qdot_run_list *runs;            /* the runs by name: runs.h */
+    struct qdot_row_table_list *tables;    /* tables of many runs by name: row-tables.h */
+    struct qdot_kept_studies *studies;     /* stored studies of work and precision: conditions.h */
+    struct qdot_measured_list *measured;   /* numbers from runs used in expressions: measured.h */
+    struct qdot_member_list *members; /* values a.EXPR along runs used in expressions: member.h */
+    struct qdot_evaluation *evaluation;    /* state of the present statement: evaluation.h */
+    struct qdot_text_list *told;           /* notices that are given only once: text-list.h */
     struct qdot_text_list *remarks;        /* lines with remarks of files of sessions that were read
                                               (lang/declare/session-remarks.h) */
     /* Fields that `reset` keeps. */
-    struct qdot_output *output;            /* where answers go, and in what form: output.h */
-    struct qdot_outcome *outcome;          /* of what was read so far: outcome.h */
-    struct qdot_typed *typed;              /* the statement under way, and all before it: typed.h */
-    struct qdot_text_list *including;      /* files being read, for include cycles and relative paths */
-    struct qdot_undo *undo;                /* NULL: no statement yet */
-    void (*undo_free)(struct qdot_undo *undo); /* set with it */
+    struct qdot_output *output;            /* streams and form of answers: output.h */
+    struct qdot_outcome *outcome;          /* results of all statements so far: outcome.h */
+    struct qdot_typed *typed;              /* the present statement and all before it: typed.h */
+    struct qdot_text_list *including; /* files being read, to detect cycles and resolve relative paths */
+    struct qdot_undo *undo;                /* records for `undo`; NULL: no statement yet */
+    void (*undo_free)(struct qdot_undo *undo); /* frees `undo`; set together with it */
 } qdot_session;
 
 #endif

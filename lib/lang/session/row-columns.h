@@ -11,12 +11,12 @@
 #include "table/table.h"
 
 typedef struct {
-    qdot_table table; /* its cells are those of the rows, borrowed; its parameters are facts */
-    qdot_text *labels; /* [n_labels] of errors */
+    qdot_table table; /* its cells are borrowed from the row table; parameters are its facts */
+    qdot_text *labels; /* [n_labels] labels of the error columns */
     size_t n_labels;
     qdot_table_fact *parameters;
     double *numbers; /* row numbers, from 0 */
-    size_t *order;   /* the rows that are done */
+    size_t *order;   /* indices of the rows that are complete */
 } qdot_row_columns;
 
 /* The number of number columns in files, without the row number. */

@@ -15,20 +15,20 @@
 
 typedef struct qdot_row_table {
     char *name;
-    size_t n, n_swept;       /* columns, those swept first */
-    bool scattered;          /* rows are points by themselves: random draws, a section */
-    bool measured;           /* rows are measured ones: drawn as points over the first column */
-    qdot_function_body *members; /* of a sweep: what it ran over, and its run, up to the colon */
-    char **labels;           /* [n] */
+    size_t n, n_swept;       /* number of columns; how many, the first, were swept */
+    bool scattered;          /* rows are independent points: random draws or a Poincaré section */
+    bool measured;           /* rows are measured data, drawn as points over the first column */
+    qdot_function_body *members; /* for a sweep: its text up to the colon, variables and run */
+    char **labels;           /* [n] labels of the columns */
     size_t n_parameters;     /* parameters that had the same value in all rows */
-    char **parameters;       /* [n_parameters] their names */
-    double *parameter_values; /* [n_parameters] */
+    char **parameters;       /* [n_parameters] names of these parameters */
+    double *parameter_values; /* [n_parameters] values of these parameters */
     size_t rows, room;
-    double *values, *errors; /* [rows x n] NaN: no number, or unknown error */
+    double *values, *errors; /* [rows x n] values (NaN: none) and their errors (NaN: unknown) */
     char **reasons;          /* [rows] why a row failed; NULL: it did not */
     const char *note;        /* the texts in `reasons` are no failures, but this of the rows: "type"; or
                                 NULL */
-    size_t drawn;            /* of branches: the columns behind the parameter that are drawn */
+    size_t drawn;            /* for branches: how many columns after the parameter are drawn */
     struct qdot_row_table *marks; /* the rows are branches (unknowns/branches), these the points marked on
                                      them, one use of which is held; NULL: they are none */
     unsigned uses;

@@ -91,7 +91,7 @@ unknown_run(const qdot_session *session, const char *name)
     qdot_status status;
 
     for (size_t i = 0; i < session->runs->n; i++)
-        (void)qdot_vec_push(&words, session->runs->at[i].name); /* a hint less without memory */
+        (void)qdot_vec_push(&words, session->runs->at[i].name); /* if memory runs out the hint lacks this word */
     (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
     status = qdot_labels_hint(name, &words);
     qdot_free(words.at);

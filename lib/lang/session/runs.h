@@ -9,13 +9,13 @@
 
 /* Shared by the session and the states that `undo` keeps. */
 typedef struct {
-    char *name; /* "a", "run1" */
-    char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
+    char *name; /* name of the run: "a", "run1" */
+    char *text; /* the statement without the name: "run 0..20 tol 1e-9" */
     qdot_run *run;
     qdot_conditions *conditions; /* values under which the run was made; NULL: not recorded */
     unsigned *uses;
 } qdot_named_run;
-void qdot_named_run_release(qdot_named_run *run); /* give up one use; the last one frees it */
+void qdot_named_run_release(qdot_named_run *run); /* give up one use; the last one frees the run */
 
 typedef struct qdot_run_list {
     qdot_vec(qdot_named_run);

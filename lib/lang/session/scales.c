@@ -46,7 +46,7 @@ qdot_scales_check(qdot_session *session, qdot_expr symbol, qdot_expr value)
     double number;
 
     if (qdot_expr_kind(session->pool, qdot_session_bind(session, value)) != QDOT_NUM)
-        return qdot_pool_check(session->pool); /* its parameters have no values yet */
+        return qdot_pool_check(session->pool); /* its parameters have no values yet: checked later */
     return number_of(session, symbol, value, &number);
 }
 

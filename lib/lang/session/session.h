@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "lang/session/parts.h"
 
-qdot_session *qdot_session_new(FILE *out, FILE *err); /* NULL: no memory */
+qdot_session *qdot_session_new(FILE *out, FILE *err); /* returns NULL if memory runs out */
 void qdot_session_free(qdot_session *session);
 
 /* Append the path of a file that is read, `name` as the present script says it: "dir/other.lag" for

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 
 typedef struct qdot_text_list {
-    qdot_vec(char *); /* each its own */
+    qdot_vec(char *); /* the texts, each owned */
 } qdot_text_list;
 
 /* Free the texts; the list is empty then. */

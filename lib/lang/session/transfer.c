@@ -16,7 +16,7 @@ carry_symbol(const qdot_pool *from, qdot_pool *to, qdot_expr e)
     qdot_expr made, lo = QDOT_NIL, hi = QDOT_NIL;
 
     if (e == QDOT_T || s.class == QDOT_CONST)
-        return e; /* the same ids in every pool */
+        return e; /* constants and t have the same id in every pool */
     switch (s.class) {
     case QDOT_COORD:
         if (s.order > 0)

@@ -15,12 +15,12 @@
 
 typedef struct qdot_typed {
     size_t texts;   /* number of nested texts being carried out */
-    size_t number;  /* number of the present statement; 0: there was none yet */
-    uint32_t line;  /* the line where the statement begins, for JSON */
+    size_t number;  /* number of the present statement; 0: none yet */
+    uint32_t line;  /* line where the statement begins, for JSON */
     bool under_way;
-    bool told;      /* for JSON: report the end of the statement with its status */
-    bool refuted;   /* whether a check had been refuted before the statement */
-    qdot_text all;  /* statements that succeeded, a line each or as many as they had */
+    bool told;      /* for JSON: the end of the statement must be reported */
+    bool refuted;   /* a check had been refuted before this statement */
+    qdot_text all;  /* the statements that succeeded, as typed */
 } qdot_typed;
 
 #endif

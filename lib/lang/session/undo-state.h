@@ -42,7 +42,7 @@ typedef struct {
 typedef struct {
     qdot_undo_array part[QDOT_UNDO_PARTS];
     qdot_undo_single single;
-    qdot_vec(const qdot_name *) names; /* no copy: those of the session, in order */
+    qdot_vec(const qdot_name *) names; /* the session's own names, in order; not copied */
 } qdot_undo_state;
 
 /* The address of part k of the session (of names: the list in *state); the items of a part; the

@@ -13,7 +13,7 @@
 #include "lang/session/values.h"
 
 enum { TEXT_LIMIT = 160 };
-static const size_t most_bytes = (size_t)256 << 20; /* of all records */
+static const size_t most_bytes = (size_t)256 << 20; /* largest memory for all records, in bytes */
 
 /* A change: the items [at, at + n[0]) of a part became [at, at + n[1]). */
 typedef struct {
@@ -25,24 +25,24 @@ typedef struct {
 /* The changes made by one statement; in pairs, [0] is the state before it and [1] the state after it. */
 typedef struct {
     char *text;
-    bool joined; /* undone together with the record before it */
-    uint64_t version[2]; /* of the scene */
+    bool joined; /* undone together with the previous record */
+    uint64_t version[2]; /* version of the scene before and after */
     qdot_vec(change) changes;
     qdot_undo_single single[2];
     size_t history[2];   /* numbers of answers before and after the statement */
     size_t bytes;        /* approximate size of what only this record keeps */
-    qdot_session *other; /* of `reset`: the session on the other side of it */
-    qdot_undo_state *there;        /* ... and its qdot_undo_state */
+    qdot_session *other; /* for `reset`: the session on the other side of it */
+    qdot_undo_state *there;        /* for `reset`: the qdot_undo_state of that session */
 } record;
 
 typedef qdot_vec(record) records;
 
 struct qdot_undo {
-    qdot_undo_state now; /* as the latest statement left it */
+    qdot_undo_state now; /* state after the latest statement */
     bool known;          /* `now` is up to date */
     records done, undone;
-    size_t floor;     /* records that the text under way cannot take back */
-    bool moved;       /* the statement under way is `undo` or `redo` */
+    size_t floor;     /* number of records that the present text cannot undo */
+    bool moved;       /* the present statement is `undo` or `redo` */
     size_t under_way; /* number of nested statements in progress */
     size_t bytes;     /* total size of the records in `done` */
     uint64_t version; /* version of the scene after the previous statement */
@@ -244,7 +244,8 @@ qdot_undo_begin(qdot_session *s)
     s->undo->moved = false;
     s->undo->version = s->scene->version;
     if (s->undo->known) {
-        s->undo->now.single = qdot_undo_single_of(s); /* a style from outside is no statement's */
+        /* a style set from outside does not count as a change by the statement */
+        s->undo->now.single = qdot_undo_single_of(s);
     } else if (session_compare(s, &r) == QDOT_OK) {
         s->undo->known = true;
     } else {
@@ -259,7 +260,7 @@ static char *
 one_line(const char *text, size_t length)
 {
     qdot_text line = {0};
-    int open = 0; /* brackets within a line */
+    int open = 0; /* number of open brackets within a line */
     char *copy;
 
     for (size_t i = 0; i < length; i++) {

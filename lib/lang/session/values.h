@@ -12,12 +12,12 @@ typedef struct {
 } qdot_start_error;
 
 typedef struct qdot_values {
-    qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
-    qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    qdot_vec(qdot_expr) set_symbols, set_values; /* parameters and their latest values by `set` */
+    qdot_vec(qdot_expr) start_symbols, start_values; /* coordinates q or velocities q', and their start values */
     qdot_vec(qdot_expr) start_open; /* start values that constraints may change while `find` varies others */
-    qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
-    qdot_vec(qdot_start_error) start_errors; /* of the latest `start RUN`; one counts while the start has that value */
-    bool start_exactly; /* the latest `start` had `exactly` */
+    qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t, and their scales by `scale` */
+    qdot_vec(qdot_start_error) start_errors; /* errors of start values from `start RUN`; each valid while its value is unchanged */
+    bool start_exactly; /* the latest `start` had the word `exactly` */
 } qdot_values;
 
 /* From now on the symbol (a parameter, a momentum) or undefined function (applied to formal symbols

@@ -23,21 +23,21 @@
 typedef struct {
     const qdot_token *place;
     char *label;
-    qdot_expr symbol; /* a parameter, a coordinate, a velocity */
+    qdot_expr symbol; /* its symbol: a parameter, coordinate or velocity */
 } qdot_slope_name;
 
 typedef qdot_vec(qdot_slope_name) qdot_slope_names;
 
 typedef struct {
-    qdot_session *session; /* borrowed */
+    qdot_session *session; /* the session; borrowed */
     qdot_slope_names names;
-    qdot_conditions *conditions; /* borrowed: of the run */
-    qdot_run *run;               /* borrowed */
+    qdot_conditions *conditions; /* conditions of the run; borrowed */
+    qdot_run *run;               /* the run whose results are differentiated; borrowed */
     qdot_run_request request;
-    qdot_variation_by *by;     /* [names] */
-    qdot_expr *values, *start; /* [names x values], [names x 2n] derivatives of parameter values and start */
-    qdot_expr *settled;        /* [2n] the run's start, on its constraints */
-    double *scales;            /* [2n] of the request, where the run shows that 1 is none; else NULL */
+    qdot_variation_by *by;     /* [names] directions of differentiation */
+    qdot_expr *values, *start; /* derivatives of parameter values [names x values] and of the start [names x 2n] */
+    qdot_expr *settled;        /* [2n] start of the run, on its constraints */
+    double *scales; /* [2n] scales for the request, if the run shows that 1 does not fit; else NULL */
     qdot_variation variation;
 } qdot_slopes;
 

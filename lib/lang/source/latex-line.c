@@ -73,7 +73,7 @@ add_call(reader *r, const char *name, qdot_text *out)
     qdot_text_add(out, name);
     if (r->at < r->to && *r->at == '(')
         return;
-    if (r->at < r->to && *r->at == '^') { /* \sin^2 x */
+    if (r->at < r->to && *r->at == '^') { /* an exponent before the argument: \sin^2 x */
         r->at++;
         argument(r, &text);
     }

@@ -12,10 +12,10 @@
 
 typedef struct {
     qdot_source *source;
-    size_t i;   /* the next byte */
+    size_t i;   /* index of the next byte */
     bool blank; /* a blank was read since the last token */
     qdot_vec(qdot_token) tokens;
-    qdot_vec(uint32_t) open; /* tokens that opened a bracket */
+    qdot_vec(uint32_t) open; /* indices of tokens that opened a bracket still open */
 } lexer;
 
 /* Spellings of operators; longer ones first if one is the beginning of another. */

@@ -5,9 +5,9 @@
 #include "expr/id.h"
 #include "lang/source/token.h"
 
-#define QDOT_LEX_TOKENS 10000000u  /* tokens of one source */
+#define QDOT_LEX_TOKENS 10000000u  /* largest number of tokens in one source */
 #define QDOT_LEX_PRIMES 200u       /* primes after one name */
-#define QDOT_LEX_BRACKETS 1000000u /* open brackets */
+#define QDOT_LEX_BRACKETS 1000000u /* largest depth of brackets */
 
 /* Fill source->tokens from source->text. On failure *at is the position of the error. */
 QDOT_MUST_CHECK qdot_status qdot_lex(qdot_source *source, size_t *at);

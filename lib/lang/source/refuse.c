@@ -9,7 +9,7 @@
 #include "lang/source/latex-line.h"
 #include "lang/source/letters.h"
 
-enum { SHOWN = 120 }; /* bytes of a line in a hint */
+enum { SHOWN = 120 }; /* longest line in a hint, in bytes */
 
 /* Typographic characters that are not accepted, with what to write for them. */
 static const struct {
@@ -132,7 +132,7 @@ refuse_at(const char *text, size_t at)
     }
     for (name = at; name > 0 && is_of_name(text[name - 1]);)
         name--;
-    if (name == at) /* a handle, or a macro: @variables x y */
+    if (name == at) /* a function handle, or a macro like @variables x y */
         return strncmp(text + at, "@param", 6) == 0
                    ? qdot_hint("parameters are declared by `param`, as in param m, g")
                : strncmp(text + at, "@var", 4) == 0
@@ -302,7 +302,7 @@ qdot_refuse(const char *text, size_t at)
         return refuse_question(text, at);
     if (c == '@')
         return refuse_at(text, at);
-    if (c == '~') { /* a ~ b is an equation elsewhere, ~a not a */
+    if (c == '~') { /* in other languages a ~ b is an equation, and ~a means not a */
         size_t from, to, before;
 
         line_of(text, at, &from, &to);

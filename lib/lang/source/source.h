@@ -18,7 +18,7 @@ QDOT_MUST_CHECK qdot_status qdot_source_new(const char *name, const char *text,
                                             size_t length, qdot_source **source,
                                             size_t *at);
 qdot_source *qdot_source_keep(const qdot_source *source); /* count one more use */
-void qdot_source_free(qdot_source *source);               /* give up one use */
+void qdot_source_free(qdot_source *source); /* give up one use; the last one frees it */
 
 /* Where a byte is: line and column from 1 (columns count characters), the line in the whole input. */
 void qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line,

@@ -9,30 +9,30 @@
 #include "base/memory.h"
 
 typedef enum {
-    QDOT_TOKEN_END,     /* end of the statement: newline, `;`, end of the source */
-    QDOT_TOKEN_NUMBER,  /* "9.81" */
-    QDOT_TOKEN_NAME,    /* Greek letters spelled: "theta1" */
-    QDOT_TOKEN_STRING,  /* text without its quotes */
+    QDOT_TOKEN_END,     /* end of a statement: newline, `;`, or end of the source */
+    QDOT_TOKEN_NUMBER,  /* a number as "9.81" */
+    QDOT_TOKEN_NAME,    /* a name as "theta1", with Greek letters spelled out */
+    QDOT_TOKEN_STRING,  /* the text of a string without its quotes */
     QDOT_TOKEN_OPERATOR /* ( ) [ ] { } , ; : . .. ' + - * / ^ = == < <= > >= % ... */
 } qdot_token_kind;
 
 typedef struct qdot_token {
     uint8_t kind;
-    bool glued;             /* no blank before it */
+    bool glued;             /* no blank precedes the token */
     bool shown;             /* its statement has signs or numbers beyond ASCII, as ½, ², √ and the dot of θ̇: it is
                              * written as the screen shows formulas */
     const char *text;       /* NUL-terminated, in the source's arena */
-    uint32_t start, length; /* bytes in the source */
+    uint32_t start, length; /* position and length in the source, in bytes */
 } qdot_token;
 
 typedef struct qdot_source {
     unsigned uses; /* number of uses; the last one frees it */
     char *name;
-    char *text; /* NUL-terminated copy */
+    char *text; /* NUL-terminated copy of the source text */
     size_t length;
-    uint32_t lines_before; /* of the same input, before this text */
+    uint32_t lines_before; /* number of lines of the same input before this text */
     qdot_arena *arena;
-    qdot_vec(qdot_token) tokens; /* the last is END */
+    qdot_vec(qdot_token) tokens; /* the tokens; the last one is END */
 } qdot_source;
 
 static inline bool

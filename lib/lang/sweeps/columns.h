@@ -11,7 +11,7 @@
 #include "lang/syntax/record.h"
 
 typedef struct {
-    qdot_vec(const qdot_compiled *) at; /* of the record */
+    qdot_vec(const qdot_compiled *) at; /* the expressions; owned by the record */
 } qdot_columns;
 
 /* Take every hole EXPR of the statement. x starts as {0}; free it in any case, before the record. */

@@ -50,7 +50,7 @@ qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double 
 {
     for (size_t i = 0; i < m->axes.at.n; i++)
         QDOT_TRY(set_value(session, m, k, i, &swept[i]));
-    return qdot_run_options_put(session, &m->run); /* which columns read, too */
+    return qdot_run_options_put(session, &m->run); /* also for the columns, which may contain these parameters */
 }
 
 /* Make the run of member k up to `to` and pass it to `use`; the session keeps it meanwhile. */

@@ -36,22 +36,22 @@ QDOT_STATEMENT(poincare) = {
 };
 
 typedef struct {
-    qdot_expr g; /* left - right */
+    qdot_expr g; /* left - right of the surface's equation */
     int way;
     qdot_columns columns;
     const qdot_token *run_at; /* the word `run`; NULL: not given */
     qdot_run_options run;
     bool limited;
-    double limits[2]; /* of the times, if so */
-    const qdot_row_table *sweep; /* whose runs; NULL: one run */
+    double limits[2]; /* limits of time, if `limited` */
+    const qdot_row_table *sweep; /* the sweep whose runs are used; NULL: one run */
     const char *name;
-    qdot_record swept;    /* the sweep's statement */
-    qdot_members members; /* of the sweep */
+    qdot_record swept;    /* the statement of that sweep */
+    qdot_members members; /* the members of that sweep */
     qdot_row_table *table;
-    size_t beyond;    /* points past the horizon of their run */
+    size_t beyond;    /* number of points after the horizon of their run */
     size_t failed;
-    size_t n_lost; /* runs whose crossings are not known from a time on, */
-    double lost;   /* the last such time */
+    size_t n_lost; /* number of runs in which crossings are unknown after some time */
+    double lost;   /* the latest such time */
 } poincare;
 
 /* --- the operands of the section -------------------------------------------------------- */
@@ -292,7 +292,7 @@ go_over_members(qdot_cursor *c, poincare *p, bool *interrupted)
     for (size_t k = 0; k < p->members.axes.members && status == QDOT_OK; k++) {
         status = qdot_members_run(c, &p->members, k, swept, use_member, &m);
         if (status == QDOT_EINTR && p->table->rows > 0) {
-            qdot_interrupt_clear(); /* the interruption has been handled: the points found are kept */
+            qdot_interrupt_clear(); /* the interruption is handled here: keep the points found so far */
             *interrupted = true;
             status = QDOT_OK;
             break;
@@ -399,7 +399,7 @@ poincare_make(qdot_record *r)
     if (status == QDOT_OK) {
         qdot_row_table *table = p.table;
 
-        p.table = NULL; /* the session owns the table from now on */
+        p.table = NULL; /* now owned by the session */
         status = qdot_row_tables_keep(c->session, table);
         if (status == QDOT_OK)
             status = poincare_tell(c->session, &p, table);

@@ -19,14 +19,14 @@
 typedef enum { QDOT_AXIS_LADDER, QDOT_AXIS_LIST, QDOT_AXIS_NORMAL, QDOT_AXIS_UNIFORM } qdot_axis_kind;
 
 typedef struct {
-    const qdot_filled *place; /* its name */
+    const qdot_filled *place; /* the name in the statement */
     char *label;
-    qdot_expr symbol; /* a parameter, a coordinate, a velocity */
+    qdot_expr symbol; /* the symbol varied: a parameter, coordinate or velocity */
     qdot_axis_kind kind;
-    size_t n;             /* values; 0: random */
-    qdot_expr from, step; /* LADDER */
-    qdot_expr list;       /* LIST */
-    double a, b;          /* NORMAL: mean and deviation; UNIFORM: the ends */
+    size_t n;             /* number of values; 0: random values */
+    qdot_expr from, step; /* for LADDER: first value and increment */
+    qdot_expr list;       /* for LIST: the values */
+    double a, b;          /* NORMAL: mean and standard deviation; UNIFORM: the limits */
 } qdot_sweep_axis;
 
 typedef struct {
@@ -34,7 +34,7 @@ typedef struct {
     size_t members;
     bool random;
     unsigned long seed;
-    double *drawn; /* [members x axes] of random axes; NULL: none */
+    double *drawn; /* [members x axes] values of the random axes; NULL: none */
 } qdot_sweep_axes;
 
 /* The usage of the axes of a sweep. */

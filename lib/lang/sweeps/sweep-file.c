@@ -32,7 +32,7 @@ add_number(uint64_t *sum, double x)
 {
     uint64_t bits;
 
-    x = isnan(x) ? NAN : x; /* NaN has many representations */
+    x = isnan(x) ? NAN : x; /* use one bit pattern for all NaNs */
     memcpy(&bits, &x, sizeof bits);
     for (int k = 0; k < 64; k += 8) {
         const unsigned char byte = (unsigned char)(bits >> k);
@@ -150,7 +150,8 @@ sum_read(const qdot_hdf5_columns *from)
 static qdot_status
 file_check(const qdot_hdf5_columns *from, const char *path, const char *said, const qdot_row_table *t)
 {
-    const size_t n = 1 + qdot_row_columns_count(t) + 1, length = strlen(said); /* rows, numbers, reasons */
+    /* number of columns: row numbers, values, reasons */
+    const size_t n = 1 + qdot_row_columns_count(t) + 1, length = strlen(said);
     const char *text = qdot_text_str(&from->text);
     bool good = from->at.n == n && strncmp(text, said, length) == 0
                 && (text[length] == '\0' || text[length] == '\n');

@@ -354,7 +354,7 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
         return qdot_text_status(why);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR)
         return status;
-    qdot_text_add(why, qdot_last_error()->message); /* a single run reports more about it */
+    qdot_text_add(why, qdot_last_error()->message); /* add the reason; a single run would report more */
     if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* the failure is reported once */
         return QDOT_ENOMEM;
     return qdot_text_status(why);
@@ -389,7 +389,7 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
 /* Members as numbers, with the indices of their rows. */
 typedef struct {
     size_t n, *row;
-    double *y, *parameters; /* [n x 2 coordinates], [n x varied] */
+    double *y, *parameters; /* starts [n x 2 coordinates]; varied parameters [n x varied] */
     qdot_ensemble_result *results;
 } members;
 
@@ -456,7 +456,7 @@ run_together(qdot_sweep_lanes *x, const size_t *rows, size_t count)
         if (status == QDOT_OK)
             first.row[first.n++] = rows[k];
         else if (status != QDOT_ENOMEM && status != QDOT_EINTR)
-            status = QDOT_OK; /* a single run reports what is wrong with its values */
+            status = QDOT_OK; /* continue: a single run reports what is wrong with its values */
     }
     if (status == QDOT_OK && first.n > 0)
         status = run_members(x, x->least, &first, &again);

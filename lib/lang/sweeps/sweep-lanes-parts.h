@@ -11,31 +11,31 @@
 
 typedef struct {
     enum { QDOT_LANES_AT_END, QDOT_LANES_EVENT, QDOT_LANES_WAY } kind;
-    size_t event, k; /* of `events`; the occurrence less 1 */
-    size_t output;   /* at the end, of the tape */
+    size_t event, k; /* index of the event in `events`; number of the occurrence, from 0 */
+    size_t output;   /* at the end: index of the tape's output */
 } qdot_sweep_lanes_column;
 
 struct qdot_sweep_lanes {
     qdot_sweep *s;
     qdot_ensemble *ensemble;
-    size_t least, companions; /* of all members; of those that are run or read */
+    size_t least, companions; /* number of companions for each member; for members whose results are read */
     qdot_ensemble_watching watching;
     qdot_ensemble_bounds bounds;
     qdot_vec(qdot_ensemble_event) events;
-    qdot_vec(const char *) names; /* of them */
+    qdot_vec(const char *) names; /* names of the events */
     qdot_sweep_lanes_column *columns;
-    size_t outputs, n, places; /* expressions; coordinates */
-    size_t ways;               /* columns that read the way of a run */
-    qdot_run *run;             /* each member in turn, for these; NULL: there are none */
-    qdot_tape *tape;           /* of `outputs` columns */
-    double *in, *work, *out;   /* inputs; work space, twice that of the tape; [passes x outputs] */
+    size_t outputs, n, places; /* number of expressions; of coordinates; of values at each place */
+    size_t ways;               /* number of columns that need the whole course of a run */
+    qdot_run *run; /* holds each member in turn for such columns; NULL: no such column */
+    qdot_tape *tape;           /* outputs: the expressions of the columns */
+    double *in, *work, *out; /* inputs; scratch, twice that of the tape; [passes x outputs] values */
     qdot_vec(qdot_expr) varied;
-    qdot_vec(size_t) axis; /* of varied parameters */
+    qdot_vec(size_t) axis; /* index of the axis of each varied parameter */
     double t1;
-    const qdot_ensemble_result *results; /* of the members that are read */
-    bool unsure;           /* of the latest of them: it is to have two companions */
-    bool *made;            /* [members] */
-    char **reasons;        /* [members] */
+    const qdot_ensemble_result *results; /* results of the members being read */
+    bool unsure; /* the error of the member read last is unsure: repeat it with two companions */
+    bool *made;            /* [members] the row is complete */
+    char **reasons;        /* [members] why the member failed; NULL: it did not */
 };
 
 /* Set the values of member k (also written to `swept`) and make its request. */

@@ -43,7 +43,7 @@ member_errors(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
     const size_t n = x->outputs;
 
-    for (size_t pass = x->companions + 1; pass-- > 0;) /* the run's own inputs stay */
+    for (size_t pass = x->companions + 1; pass-- > 0;) /* the run comes last, so that its inputs remain */
         if (!member_evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
             return false;
     for (size_t i = 0; i < x->outputs; i++) {
@@ -138,7 +138,7 @@ read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, siz
         *error = qdot_ensemble_error_of(t[0], x->companions, t + 1);
         x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
         *error += DBL_EPSILON * fabs(t[0]);
-        *there = isfinite(*error); /* a single run compares the same times */
+        *there = isfinite(*error); /* no event without an error, as a single run would have */
         return QDOT_OK;
     }
     if (x->reasons[k] != NULL)

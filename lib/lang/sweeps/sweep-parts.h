@@ -10,23 +10,23 @@
 
 typedef struct {
     qdot_record *record;
-    qdot_cursor *c; /* of it */
+    qdot_cursor *c; /* cursor of `record` */
     qdot_members members;
     qdot_columns columns;
     const char *name;
-    long threads;     /* processes at work at once; 0: as many as there are processors */
-    const char *path; /* of the file that keeps the rows; NULL: none */
+    long threads;     /* number of parallel processes; 0: one for each processor */
+    const char *path; /* name of the file that stores the rows; NULL: none */
     const qdot_token *path_at;
-    qdot_file_lock lock; /* of it */
+    qdot_file_lock lock; /* lock of that file */
     qdot_text said;   /* the text by which the file identifies the sweep */
     qdot_row_table *table;
-    bool *done;       /* [members] */
-    size_t told;      /* rows that JSON has, the first of all */
-    size_t n_done, failed, resumed; /* rows; of those that are done */
+    bool *done;       /* [members] the row is complete */
+    size_t told;      /* number of rows already written as JSON */
+    size_t n_done, failed, resumed; /* number of complete rows; of failed rows; of rows taken from the file */
     bool interrupted;
-    double kept_at, keeping; /* when the file was written last, how long that took */
+    double kept_at, keeping; /* time of the last write to the file, and how long it took */
     size_t row;              /* the row that is being made */
-    struct qdot_sweep_lanes *lanes; /* that make rows side by side; NULL: none */
+    struct qdot_sweep_lanes *lanes; /* makes rows in vector lanes; NULL: not used */
 } qdot_sweep;
 
 /* What a sweep would do, in words: its members, whether they go by lanes, and, from a few of them that

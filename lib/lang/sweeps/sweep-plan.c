@@ -16,7 +16,7 @@ enum { BY_LANES = 32, ALONE = 4 };
 
 typedef struct {
     size_t rows, alone, failed;
-    double seconds; /* of one row */
+    double seconds; /* estimated seconds for one row */
 } sample;
 
 /* Run a few members to measure their cost. */

@@ -14,10 +14,10 @@ typedef struct {
 
 /* The head of a row in a message; the row's numbers, errors and reason [reason] follow. */
 typedef struct {
-    uint64_t row, reason; /* UINT64_MAX: none */
+    uint64_t row, reason; /* index of the row; length of its reason, UINT64_MAX: none */
 } row_head;
 
-enum { TOGETHER = 1 << 16 }; /* rows that are shared at once */
+enum { TOGETHER = 1 << 16 }; /* number of rows sent in one message */
 
 size_t
 qdot_sweep_processes(const qdot_sweep *s)

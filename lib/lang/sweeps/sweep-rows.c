@@ -283,14 +283,14 @@ begin_rows(qdot_sweep *s)
         s->resumed += s->done[k];
     }
     s->n_done = s->resumed;
-    return keep_rows(s, true); /* better report now a file that cannot be written */
+    return keep_rows(s, true); /* write now, so that an unwritable file is reported early */
 }
 
 qdot_status
 qdot_sweep_make_rows(qdot_sweep *s)
 {
     const size_t start = s->c->error_at;
-    qdot_text why = {0}; /* for `plan sweep` */
+    qdot_text why = {0}; /* why lanes are not used, for `plan sweep` */
     qdot_status status;
 
     QDOT_TRY(begin_rows(s));
@@ -304,7 +304,7 @@ qdot_sweep_make_rows(qdot_sweep *s)
     qdot_text_clear(&why);
     s->lanes = NULL;
     if (status == QDOT_EINTR && s->n_done > 0) {
-        qdot_interrupt_clear(); /* the interruption has been handled: the finished rows are kept */
+        qdot_interrupt_clear(); /* the interruption is handled here: keep the finished rows */
         s->interrupted = true;
         status = QDOT_OK;
     }

@@ -236,7 +236,7 @@ note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *ta
         if (status == QDOT_OK)
             status = qdot_row_tables_note_parameters(session, table, n, open);
         else
-            status = qdot_grave(status); /* its row says why */
+            status = qdot_grave(status); /* the member's row tells why */
         qdot_trial_end(&trial);
     }
     qdot_free(swept);
@@ -252,7 +252,7 @@ sweep_carry_out(qdot_cursor *c, qdot_sweep *s)
 
     QDOT_TRY(note_parameters(c->session, &s->members, table));
     QDOT_TRY(qdot_sweep_make_rows(s));
-    s->table = NULL; /* the session owns the table from now on */
+    s->table = NULL; /* now owned by the session */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
     QDOT_TRY(sweep_tell(c->session, s, table, qdot_wall_now() - begun));
     if (!names_start(c->session, &s->members))

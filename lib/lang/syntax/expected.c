@@ -16,7 +16,7 @@
 
 typedef struct {
     const char *statement, *before, *what, *hint;
-    bool name; /* for a name that stands there */
+    bool name; /* the row is for a name at this place */
 } expected_row;
 
 static const expected_row rows[] = {

@@ -16,13 +16,13 @@ enum { QDOT_EXPECTED_TEXT = 160, QDOT_EXPECTED_NODES = 32 };
 
 typedef struct {
     const qdot_usage *usage;
-    const qdot_token *token; /* the one that does not fit */
-    int node[QDOT_EXPECTED_NODES]; /* what may come, options that are taken too */
+    const qdot_token *token; /* the token that does not fit */
+    int node[QDOT_EXPECTED_NODES]; /* nodes that may follow, including options already given */
     bool taken[QDOT_EXPECTED_NODES];
     int n;
-    bool given; /* the token is the word of an option that is taken */
-    bool hole;  /* a hole may stand there, or is that of an option that is taken */
-    bool open;  /* a hole may stand there */
+    bool given; /* the token begins an option that has already been given */
+    bool hole;  /* an expression may follow here, or belongs to an option already given */
+    bool open;  /* an expression may follow here */
 } qdot_expected;
 
 /* Add the words and signs that may come at this node of the usage. */

@@ -254,7 +254,7 @@ read_call(const reader *m, const qdot_hole *hole, qdot_filled *part)
 static qdot_status
 read_body(const reader *m, qdot_filled *part)
 {
-    const qdot_filled *call = &m->r->parts.at[m->r->parts.n - 2]; /* before `=` */
+    const qdot_filled *call = &m->r->parts.at[m->r->parts.n - 2]; /* the part before `=`: NAME(arguments) */
     qdot_formals f;
     qdot_status status = qdot_record_formals(m->r, call, &f);
 
@@ -269,7 +269,8 @@ read_body(const reader *m, qdot_filled *part)
 static qdot_status
 read_text(const reader *m, const qdot_usage_node *node)
 {
-    if (m->c->at->kind == QDOT_TOKEN_NAME && strcmp(node->before, "title") == 0) { /* title The pendulum */
+    /* a title without quotes: title The pendulum */
+    if (m->c->at->kind == QDOT_TOKEN_NAME && strcmp(node->before, "title") == 0) {
         m->c->error_at = m->c->at->start;
         return qdot_fail(QDOT_ESYNTAX, "`%s` needs a text in quotes", node->before);
     }

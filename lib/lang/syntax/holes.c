@@ -25,7 +25,7 @@ qdot_hole_find(const char *statement, const char *before, const char *text)
 
     while (!hole_fits(rows[i].statement, statement) || !hole_fits(rows[i].before, before) ||
            !hole_fits(rows[i].text, kind))
-        i++; /* the last row fits any hole */
+        i++; /* ends at the last row, which fits any hole */
     return i;
 }
 

@@ -8,30 +8,30 @@
 
 /* How the tokens of a hole are parsed; their meaning is evaluated when the statement is carried out. */
 typedef enum {
-    QDOT_HOLE_SIDE,       /* an expression up to a relation, `and`, `or` */
+    QDOT_HOLE_SIDE,       /* an expression up to a relation, `and` or `or` */
     QDOT_HOLE_VALUE,      /* an expression, which may contain relations, `and`, `or` */
     QDOT_HOLE_CONDITION,  /* SIDE = SIDE, `returns after SIDE`, or several joined by `and` */
     QDOT_HOLE_EQUATION,   /* SIDE = SIDE, or one expression that is an equation */
-    QDOT_HOLE_COMPARISON, /* the same, also with == < <= > >= */
+    QDOT_HOLE_COMPARISON, /* as QDOT_HOLE_EQUATION, also with == < <= > >= */
     QDOT_HOLE_RANGE,      /* SIDE..SIDE */
-    QDOT_HOLE_VALUES,     /* SIDE..SIDE, or SIDE */
-    QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), as many as the hole names */
-    QDOT_HOLE_CURVE,      /* SIDE, and if that is drift(SIDE, ...) these as well */
-    QDOT_HOLE_NAME,       /* name or name[SIDE, ...] */
-    QDOT_HOLE_ROWS,       /* the name of a table of rows that there is */
-    QDOT_HOLE_DOMAIN,     /* the same of a new name, with its bounds: SIDE < name < SIDE */
-    QDOT_HOLE_COORDINATE, /* the same with primes */
+    QDOT_HOLE_VALUES,     /* SIDE..SIDE, or a single SIDE */
+    QDOT_HOLE_TUPLE,      /* (SIDE, SIDE), with as many entries as the hole names */
+    QDOT_HOLE_CURVE,      /* SIDE; drift(SIDE, ...) with its further arguments */
+    QDOT_HOLE_NAME,       /* name, or name[SIDE, ...] */
+    QDOT_HOLE_ROWS,       /* the name of an existing table of rows */
+    QDOT_HOLE_DOMAIN,     /* a new name with its bounds: SIDE < name < SIDE */
+    QDOT_HOLE_COORDINATE, /* a name with its bounds, and with primes */
     QDOT_HOLE_CALL,       /* name(name, ...) */
-    QDOT_HOLE_BODY,       /* an expression in the names of the call before it */
+    QDOT_HOLE_BODY, /* an expression that may contain the arguments of the NAME(...) before it */
     QDOT_HOLE_WORD,       /* a single name */
     QDOT_HOLE_TOPIC,      /* a single name, a text in quotes or % */
     QDOT_HOLE_TEXT        /* a text in quotes */
 } qdot_hole_class;
 
 typedef struct {
-    const char *statement, *before, *text; /* the row serves these only; NULL: any */
+    const char *statement, *before, *text; /* statement, word before and text of the holes served; NULL: any */
     qdot_hole_class class;
-    const char *expected; /* what belongs there, in words */
+    const char *expected; /* description of what belongs there, for messages */
 } qdot_hole;
 
 /* The row of a hole of that statement, after that word of its usage; every hole has one. */

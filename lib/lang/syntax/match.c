@@ -17,8 +17,8 @@
 
 typedef struct {
     int node;
-    uint32_t from;  /* the place of the part before */
-    uint64_t taken; /* options */
+    uint32_t from;  /* index in `places` of the previous part */
+    uint64_t taken; /* bits of the options already given */
 } place;
 
 typedef struct {
@@ -97,7 +97,7 @@ go_on(matcher *m, const qdot_filled *part, const qdot_usage_node *hole)
         if (hole != NULL ? node->kind != QDOT_USAGE_HOLE || node_class(node) != node_class(hole)
                          : !qdot_usage_node_is(node, part->from))
             continue;
-        m->r->parts.at[m->r->parts.n - 1].node = node; /* till the end tells which */
+        m->r->parts.at[m->r->parts.n - 1].node = node; /* one of the possible nodes; the end of the statement decides */
         QDOT_TRY(match_add_place(m, node->next, (uint32_t)i, m->places.at[i].taken));
     }
     return QDOT_OK;
@@ -278,7 +278,7 @@ unknown_name(const matcher *m)
 {
     for (size_t k = 0; k < m->r->parts.n; k++) {
         const qdot_filled *part = &m->r->parts.at[k];
-        int depth = 0; /* the index of a sum means something within its brackets */
+        int depth = 0; /* an index of a sum has a meaning only within its brackets */
 
         if (part->node->kind != QDOT_USAGE_HOLE || !qdot_hole_is_expression(part->node))
             continue;
@@ -311,7 +311,7 @@ trace_back(matcher *m)
     missing = clause_missing(m->u, m->r->parts.at[m->r->parts.n - 1].node->alternative, taken);
     if (missing == NULL)
         return QDOT_OK;
-    unknown = unknown_name(m); /* the clause would not help */
+    unknown = unknown_name(m); /* an unknown name: the hint at a missing clause would not help */
     if (unknown != NULL) {
         m->c->error_at = unknown->start;
         return qdot_hints_unknown(m->c, unknown, NULL);
@@ -379,7 +379,7 @@ qdot_match_operands_to(const qdot_cursor *c, const qdot_token *end, const qdot_s
     const uint8_t kind = last->kind;
     qdot_status status;
 
-    last->kind = QDOT_TOKEN_END; /* meanwhile */
+    last->kind = QDOT_TOKEN_END; /* temporarily, restored below */
     status = qdot_match_operands(c, row, record);
     last->kind = kind;
     return status;

@@ -202,7 +202,7 @@ qdot_record_name(qdot_record *r, const qdot_filled *part, const char **name)
         long value = 0;
 
         if (one->from < part->name || one->from >= part->primes)
-            continue; /* a bound */
+            continue; /* tokens of a bound, not of the name */
         status = qdot_compiled_integer(&r->cursor, one, &value);
         if (status == QDOT_OK)
             status = qdot_vec_push(&index, value);

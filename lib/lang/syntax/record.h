@@ -21,14 +21,14 @@
 #include "lang/syntax/row.h"
 #include "lang/syntax/usage.h"
 
-enum { QDOT_RECORD_INDICES = 8 }; /* the most of a bare name */
+enum { QDOT_RECORD_INDICES = 8 }; /* largest number of indices of a name */
 
 /* A word, a sign or a filled hole of the statement. */
 typedef struct {
     const qdot_usage_node *node;
-    const qdot_token *from, *to; /* its tokens */
-    size_t first, n;             /* its expressions among record->compiled */
-    const qdot_token *name;      /* of a name; its bounds may stand before it */
+    const qdot_token *from, *to; /* the tokens from ... to - 1 of this part */
+    size_t first, n; /* its expressions are compiled[first] ... compiled[first + n - 1] */
+    const qdot_token *name;      /* for a name: its token, as bounds may precede it */
     const qdot_token *primes;    /* the token after the name; the primes of a coordinate are [primes, to) */
 } qdot_filled;
 
@@ -41,9 +41,9 @@ typedef struct {
 
 typedef struct qdot_record {
     const qdot_statement *row;
-    qdot_cursor cursor; /* session, source; where an error is; behind the statement */
+    qdot_cursor cursor; /* session and source; position of an error; position after the statement */
     const qdot_token *start; /* the token after the statement's word, which is start[-1] */
-    qdot_vec(qdot_filled) parts; /* as they were written; the first is the statement's word */
+    qdot_vec(qdot_filled) parts; /* the parts as typed; the first is the statement's word */
     qdot_vec(qdot_compiled) compiled;
     qdot_usage *usage; /* compiled for this record alone; NULL: shared with other records */
 } qdot_record;

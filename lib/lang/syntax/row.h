@@ -19,9 +19,9 @@ struct qdot_record;
 typedef struct {
     const char *word, *group;
     const char *usage, *summary, *example;
-    const char *form; /* in place of the usage in the hint that a clause is missing; NULL */
-    bool alone; /* a value of the language that prints more if it is the whole statement */
-    qdot_status (*handler)(struct qdot_record *r); /* NULL: it is not built yet */
+    const char *form; /* shown instead of `usage` in the hint at a missing clause; NULL: none */
+    bool alone; /* is also a value, which prints more if it is the whole statement */
+    qdot_status (*handler)(struct qdot_record *r); /* carries the statement out; NULL: not built in this version */
 } qdot_statement;
 
 /* Define the row of a statement, at the beginning of its file: QDOT_STATEMENT(run) = {.word = "run", ...}; */

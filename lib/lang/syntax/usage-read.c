@@ -11,7 +11,7 @@ add_state(qdot_usage *u, int node, bool inside, uint64_t taken)
             u->state[i].taken == taken)
             return;
     if (u->states >= QDOT_USAGE_STATES)
-        return; /* offers less */
+        return; /* too many states: fewer continuations are offered */
     u->state[u->states++] = (qdot_usage_state){node, inside, taken};
     if (inside) {
         if (u->operand)
@@ -53,7 +53,7 @@ continues_expression(const qdot_usage *u, const qdot_usage_node *hole, const qdo
         qdot_token_is(token, ":") || qdot_token_is(token, "|"))
         return false;
     if (qdot_token_is(token, "=") && u->node[hole->next].kind == QDOT_USAGE_SIGN)
-        return false; /* NAME = VALUE */
+        return false; /* an equals sign of the usage, as in NAME = VALUE */
     if (!u->operand || is_connective(token))
         return true;
     if (token->kind == QDOT_TOKEN_OPERATOR && strchr("([", token->text[0]) != NULL)
@@ -98,7 +98,7 @@ usage_take(qdot_usage *u, const qdot_token *token)
     qdot_usage_state old[QDOT_USAGE_STATES];
     const int n = u->states;
     const bool operand = u->operand, after = operand_ends_with(token);
-    bool word = false; /* a word of the usage counts as such, not as the beginning of an operand */
+    bool word = false; /* the token is a word of the usage, and so does not begin an expression */
 
     memcpy(old, u->state, sizeof *old * (size_t)n);
     u->states = 0;

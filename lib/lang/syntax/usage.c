@@ -18,15 +18,15 @@ enum { PIECES = 160, TO_END = -1 };
 
 typedef struct {
     qdot_usage *u;
-    const char *word; /* the statement's */
+    const char *word; /* first word of the statement */
     piece piece[PIECES];
     int n;
-    char before[QDOT_USAGE_TEXT]; /* the last word compiled */
+    char before[QDOT_USAGE_TEXT]; /* the last word that was compiled */
     unsigned options;
-    int depth;          /* depth of brackets around the present piece */
-    int tail, tail_end; /* the alternatives that end the present piece; equal: none */
+    int depth;          /* bracket depth at the present piece */
+    int tail, tail_end; /* range of nodes: alternatives at the end of the present piece; empty if equal */
     int alternative;
-    int again;          /* node behind the statement's word, where `[| plot ...]` goes on */
+    int again;          /* node after the statement's word, where `[| plot ...]` continues */
     bool failed;
 } compiler;
 
@@ -154,7 +154,7 @@ static void
 compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separator)
 {
     const int start = c->u->n;
-    int last = -1; /* jump to the end */
+    int last = -1; /* node that jumps to the end */
 
     for (;;) {
         const int end = piece_find(c, from, to, kind, separator);
@@ -175,8 +175,8 @@ compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separato
 enum { MEMBERS = 24 };
 typedef struct {
     struct {
-        int from, to;   /* its pieces */
-        int first;      /* of alternatives of which one must be there; -1: an option */
+        int from, to;   /* range of its pieces */
+        int first;      /* first of several alternatives, one of which is required; -1: an option */
     } at[MEMBERS];
     int n;
 } members;
@@ -288,7 +288,7 @@ compile_members(compiler *c, const members *m)
     char before[QDOT_USAGE_TEXT];
 
     for (int k = 0; k <= m->n; k++)
-        (void)emit(c, QDOT_USAGE_FORK, ""); /* the last to the end */
+        (void)emit(c, QDOT_USAGE_FORK, ""); /* the last member leads to the end */
     strcpy(before, c->before);
     for (int k = 0; k < m->n && !c->failed; k++) {
         const uint64_t own = (uint64_t)1 << (c->options++ & 63);
@@ -420,7 +420,7 @@ compile_sequence(compiler *c, int i, int to)
             compile_list(c, i, comma);
             i = comma + 2;
         } else if (p->kind == WORD && i + 1 < to && c->piece[i + 1].kind == MORE &&
-                   strcmp(p->text, c->word) == 0) { /* the statement begins again */
+                   strcmp(p->text, c->word) == 0) { /* the statement's word again: a second form begins */
             (void)emit(c, QDOT_USAGE_WORD, p->text);
             fork = emit(c, QDOT_USAGE_FORK, "");
             c->u->node[fork].next = c->again;

@@ -45,30 +45,31 @@ typedef struct {
         QDOT_USAGE_END
     } kind;
     char text[QDOT_USAGE_TEXT], before[QDOT_USAGE_TEXT];
-    int next, other;  /* nodes; other < 0 but for a FORK: none */
-    int hole;         /* HOLE: its row of holes.def */
-    int alternative;  /* of those of the whole that begin with the statement's word */
-    uint64_t enters;  /* FORK: the option that `next` begins; it may be taken once */
-    uint64_t needs;   /* FORK of a clause: the clauses of which one must be there */
-    uint64_t later;   /* FORK of an option among clauses: the clauses written behind it */
-    uint64_t forgets; /* FORK: the options of an item of a list, which begins anew */
+    int next, other; /* indices of the following nodes; other: second branch of a FORK, < 0: none */
+    int hole;         /* for HOLE: index of its row in holes.def */
+    int alternative;  /* index of the form of the statement to which the node belongs */
+    uint64_t enters; /* for FORK: bit of the option that begins at `next`, which may be given once */
+    uint64_t needs;   /* for FORK of a clause: bits of clauses, one of which is required */
+    uint64_t later; /* for FORK of an option among clauses: bits of the clauses written after it */
+    uint64_t forgets; /* for FORK of a list: bits of options that each new item may have again */
 } qdot_usage_node;
 
 /* A state of the automaton: before the node, or (inside) within the hole that the node is. */
 typedef struct {
     int node;
     bool inside;
-    uint64_t taken; /* options */
+    uint64_t taken; /* bits of the options already given */
 } qdot_usage_state;
 
 typedef struct {
-    const char *word; /* the statement's */
+    const char *word; /* first word of the statement */
     qdot_usage_node node[QDOT_USAGE_NODES];
     int n;
-    qdot_usage_state state[QDOT_USAGE_STATES]; /* what the tokens so far allow */
+    qdot_usage_state state[QDOT_USAGE_STATES]; /* states that are possible after the tokens so far */
     int states;
     bool operand; /* the last token ends an operand */
-    bool (*suits)(const void *user, const qdot_usage_node *hole, const qdot_token *token); /* NULL: any token may begin it */
+    /* whether a token may begin a hole; NULL: any token may */
+    bool (*suits)(const void *user, const qdot_usage_node *hole, const qdot_token *token);
     const void *user;
 } qdot_usage;
 

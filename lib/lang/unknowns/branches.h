@@ -17,9 +17,9 @@
 /* The branches found by `continue`, with the names of their unknowns. */
 typedef struct {
     const qdot_continuation *found;
-    const char *const *names; /* [found->width] of the unknowns, p, and what stands behind it */
-    const size_t *columns;    /* [n_columns] which of these are columns, beside p; */
-    size_t n_columns, n_told, n_drawn; /* the first n_told are told in words, n_drawn drawn */
+    const char *const *names; /* [found->width] names of unknowns, parameter, further quantities */
+    const size_t *columns; /* [n_columns] indices of the quantities shown as columns, besides p */
+    size_t n_columns, n_told, n_drawn; /* of the columns the first n_told appear in the text, the first n_drawn in the figure */
     bool orbits;
 } qdot_branches;
 

@@ -23,11 +23,11 @@ typedef struct {
     const qdot_continue_wish *w;
     qdot_orbit_of of;
     qdot_run_request request;
-    const char *run;   /* its name, borrowed */
-    qdot_expr *values; /* of its parameters */
-    double *z;         /* [2n] */
+    const char *run;   /* name of the run, borrowed */
+    qdot_expr *values; /* values of the run's parameters */
+    double *z;         /* [2n] start state of the orbit */
     qdot_continuation found;
-    char (*text)[NAME_ROOM]; /* [width] names */
+    char (*text)[NAME_ROOM]; /* [width] names made here */
     const char **names;
     size_t *columns;
 } job;
@@ -135,7 +135,7 @@ name_columns(job *j, qdot_branches *b)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < width; i++)
         j->names[i] = j->text[i];
-    for (size_t i = 0; i < 2 * n; i++) /* by no symbol of a velocity: after Ctrl-C there is none */
+    for (size_t i = 0; i < 2 * n; i++) /* written as text: after Ctrl-C no symbol can be made */
         snprintf(j->text[i], NAME_ROOM, "%s%s", qdot_expr_symbol(s->pool, s->coordinates.at[i % n])->name,
                  i < n ? "" : "'");
     strcpy(j->text[2 * n], "T");

@@ -13,10 +13,10 @@
 
 typedef struct {
     bool orbit;
-    qdot_expr parameter; /* nil: the energy of an orbit */
-    const qdot_token *place, *range_at; /* of its name, of A..B */
+    qdot_expr parameter; /* the parameter that is varied; nil: the energy of an orbit */
+    const qdot_token *place, *range_at; /* tokens of the parameter and of its range A..B */
     double least, most;
-    const char *name, *marks; /* of the tables; marks owned */
+    const char *name, *marks; /* names of the tables of branches and of bifurcations; `marks` owned */
     char *own;
 } qdot_continue_wish;
 

@@ -134,7 +134,7 @@ qdot_status
 qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const qdot_branches *b, qdot_status status)
 {
     if (b->found->interrupted)
-        qdot_interrupt_clear(); /* the interruption has been handled: what is known so far is reported */
+        qdot_interrupt_clear(); /* the interruption is handled here: report the branches found so far */
     if (status == QDOT_OK && b->found->branches.n > 0)
         status = qdot_branches_keep(session, b, w->name, w->marks);
     if (status == QDOT_OK && b->found->branches.n > 0 && w->parameter != QDOT_NIL)

@@ -12,12 +12,12 @@
 typedef struct {
     const qdot_find *f;
     size_t k, n;
-    qdot_expr *unknowns, *at; /* [k] symbols, the guesses */
-    const char **names;       /* [k] */
-    qdot_expr *values, *start; /* [n_values], [2n] */
-    bool *named;              /* [2n] */
-    qdot_request order;       /* of the run of the guess */
-    qdot_run_request free;    /* in the unknowns */
+    qdot_expr *unknowns, *at; /* [k] symbols of the unknowns; their guessed values */
+    const char **names;       /* [k] names of the unknowns */
+    qdot_expr *values, *start; /* [n_values] parameter values, [2n] start, in terms of the unknowns */
+    bool *named;              /* [2n] the start prescribes this value */
+    qdot_request order;       /* request of the run at the guess */
+    qdot_run_request free;    /* the same request with the unknowns as symbols */
     qdot_expr period;
 } guess;
 
@@ -58,7 +58,7 @@ make_request(guess *x)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_free_request(session, x->k, x->unknowns, &x->order.request, x->values, x->start, x->named,
                                &x->free));
-    for (size_t i = 0; i < x->k; i++) /* those of the statement, and parameters, are themselves in the period */
+    for (size_t i = 0; i < x->k; i++) /* unknowns of the statement and parameters stand for themselves in the period */
         if (!qdot_expr_is_class(session->pool, x->unknowns[i], QDOT_COORD))
             QDOT_TRY(qdot_session_put(session, x->unknowns[i], x->unknowns[i]));
     x->period = qdot_session_bind(session, qdot_sub(session->pool, to, from));

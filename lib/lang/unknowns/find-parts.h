@@ -13,22 +13,22 @@
 
 typedef struct {
     const qdot_token *from;
-    const qdot_compiled *side[2]; /* of the record; of a return both the time */
+    const qdot_compiled *side[2]; /* the two sides, owned by the record; for a return: the time, twice */
     bool returns;
 } qdot_find_condition;
 
 typedef struct {
     qdot_record *record;
-    qdot_cursor *c; /* of it */
+    qdot_cursor *c; /* cursor of `record` */
     qdot_slope_names unknowns;
-    qdot_vec(double) guess, low, high; /* bounds are infinite of a guess alone */
-    size_t pushed; /* names bound meanwhile: unknowns that are declared nowhere */
+    qdot_vec(double) guess, low, high; /* guessed values and bounds of the unknowns; infinite bounds with a guess only */
+    size_t pushed; /* number of unknowns not declared elsewhere, whose names are bound temporarily */
     qdot_vec(qdot_find_condition) conditions;
-    bool returns;             /* some condition is a return */
-    const qdot_token *run_at; /* the word `run` behind them; NULL: none */
-    qdot_run_options run;     /* its options, or those of the latest run */
+    bool returns;             /* some condition is a return to the start */
+    const qdot_token *run_at; /* the word `run`; NULL: not given */
+    qdot_run_options run;     /* options of the run, or of the latest run */
     const qdot_run_report
-        *latest; /* its report, borrowed; NULL: none, or `run` was said */
+        *latest; /* report of the latest run, borrowed; NULL: none, or `run` was given */
     qdot_expr latest_from, latest_to;
 } qdot_find;
 
@@ -55,7 +55,7 @@ QDOT_MUST_CHECK qdot_status qdot_find_sizes(const qdot_find *f, qdot_run *run, c
 
 /* The cost of the runs made by a search so far. Starts as {0}. */
 typedef struct {
-    double first, length, spent; /* work and length of the first one; of all */
+    double first, length, spent; /* work and duration of the first run; work of all runs */
 } qdot_find_budget;
 
 /* QDOT_EFAILED if a further run of that length would exceed the budget. */

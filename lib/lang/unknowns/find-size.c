@@ -15,7 +15,7 @@ size_of_terms(qdot_session *session, qdot_expr e, double *size)
     const uint32_t n = sum ? qdot_expr_count(session->pool, e) : 1;
 
     *size = 0;
-    for (uint32_t k = sum ? 1 : 0; k < n; k += 2) { /* the constant of a sum comes first, then terms with factors */
+    for (uint32_t k = sum ? 1 : 0; k < n; k += 2) { /* entries of a sum: constant, then pairs of coefficient and term */
         double one, factor = 1;
 
         QDOT_TRY(qdot_session_number(session, sum ? qdot_expr_arg(session->pool, e, k) : e, &one, NULL));

@@ -23,14 +23,14 @@ static const double shrunk = 0.1;
 typedef struct {
     qdot_find *f;
     qdot_find_trial now;
-    double *unit;       /* [n] of the unknowns, from a guess that was moved */
-    double *before;     /* [n] errors of the unknowns by the segments */
-    double *start;      /* [start_open.n] of the session, at the solution */
-    bool bounded;       /* without slopes there is still bisection */
-    size_t rank;        /* how many unknowns the segments fix */
+    double *unit;       /* [n] units of the unknowns, if multiple shooting has improved the guess */
+    double *before;     /* [n] errors of the unknowns found by multiple shooting */
+    double *start;      /* [start_open.n] open start values at the solution */
+    bool bounded;       /* the unknown has bounds: bisection is possible without derivatives */
+    size_t rank;        /* number of unknowns determined by multiple shooting */
     double *slope_error; /* [m x n] of what must vanish */
-    double length;      /* of the run at the guess */
-    double reach;       /* of an orbit's guess (sim/study/floquet.h) */
+    double length;      /* duration of the run at the guess */
+    double reach;       /* size of the guessed orbit (sim/study/floquet.h) */
     qdot_error failure; /* the error of the latest trial that failed */
 } hunt;
 
@@ -69,7 +69,7 @@ open_start(const qdot_find *f, bool velocities)
         named++;
         QDOT_TRY(qdot_vec_push(&session->values->start_open, jet));
     }
-    if (!some || open - named >= held || open > held) /* enough are open, or it is not known which */
+    if (!some || open - named >= held || open > held) /* enough coordinates are free, or it is unknown which */
         session->values->start_open.n = before;
     return QDOT_OK;
 }
@@ -118,7 +118,7 @@ find_evaluate(const double *u, double *f, double *error, double *slope, void *us
     if (status == QDOT_OK)
         status = qdot_find_trial_numbers(&h->now, f, error);
     for (size_t i = 0; i < h->now.m && status == QDOT_OK; i++)
-        if (isinf(f[i])) /* with an error as large, it would be a zero */
+        if (isinf(f[i])) /* an infinite value with infinite error would count as a zero */
             status = qdot_fail(QDOT_EDOMAIN, "a condition is larger than a double holds");
     if (status == QDOT_OK && slope != NULL) {
         status = qdot_find_trial_slopes(&h->now, slope, h->slope_error);
@@ -555,7 +555,7 @@ find_search(hunt *h, qdot_zero_result *r)
     QDOT_TRY(qdot_zero_find(&p, r));
     if (r->answer != QDOT_ZERO_FOUND && !p.once)
         QDOT_TRY(search_behind(h, &p, r));
-    if (r->rank < h->rank) { /* beside what grows so much a single run tells nothing of what shrinks */
+    if (r->rank < h->rank) { /* strong growth hides decaying directions from a single run: use the larger rank */
         for (size_t i = 0; i < p.n; i++)
             r->error[i] = fmax(r->error[i], h->before[i]);
         r->rank = h->rank;

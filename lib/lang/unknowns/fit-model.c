@@ -22,13 +22,13 @@ static const double least_part = 1e-3;
 
 typedef struct {
     qdot_fit *f;
-    qdot_run_request request; /* with the unknowns as symbols */
-    qdot_expr *values, *start; /* [n_values], [2n] */
-    bool *named;               /* [2n] */
-    const char **names;        /* [k] */
-    qdot_expr *unknowns;       /* [k] */
+    qdot_run_request request; /* request of the run with the unknowns as symbols */
+    qdot_expr *values, *start; /* [n_values] parameter values, [2n] start, in terms of the unknowns */
+    bool *named;               /* [2n] the start prescribes this value */
+    const char **names;        /* [k] names of the unknowns */
+    qdot_expr *unknowns;       /* [k] symbols of the unknowns */
     qdot_response *response;
-    double *at, *slopes; /* [rows x m], [rows x m x k] */
+    double *at, *slopes; /* [rows x m] model values; [rows x m x k] their derivatives by the unknowns */
 } model;
 
 /* --- the request of the run ----------------------------------------------------------------- */

@@ -23,37 +23,37 @@ typedef struct {
     qdot_fit_kind kind;
     const qdot_token *place;
     char *label;
-    qdot_expr e; /* of a value */
-    double sigma; /* of a value: its standard error; 0: a column's, or unknown */
-    bool weighted; /* of a value: the next column is its standard errors */
+    qdot_expr e; /* for a measured quantity: its expression in the model */
+    double sigma; /* its standard error; 0: given by a column, or unknown */
+    bool weighted; /* the next column contains its standard errors */
 } qdot_fit_column;
 
 typedef struct {
     qdot_session *session;
-    qdot_slopes unknowns; /* their names alone are read */
+    qdot_slopes unknowns; /* only the names of the unknowns are used */
     const qdot_token *path_at;
-    const char *path; /* as it was written */
+    const char *path; /* name of the data file as typed */
     qdot_vec(qdot_fit_column) columns;
-    size_t m;       /* values among them */
-    bool weighted;  /* standard errors are known */
-    qdot_expr from; /* the time of the start */
+    size_t m;       /* number of measured quantities among the columns */
+    bool weighted;  /* standard errors of the data are known */
+    qdot_expr from; /* start time of the model's run */
     double tol;
-    const char *method, *name; /* name: of the residuals */
+    const char *method, *name; /* integration method; name of the table of residuals */
     const qdot_token *method_at;
 
     /* Fields with the data, sorted by time: */
     size_t rows;
-    double *t, *y, *sigma; /* [rows], [rows x m] */
+    double *t, *y, *sigma; /* [rows] times; [rows x m] data and their standard errors */
 
     /* Fields with the results of the fit: */
-    qdot_request order;       /* of the run at the guesses */
-    qdot_expr *exprs;         /* [m] */
-    double *guess, *u;        /* [k] */
-    qdot_least_squares found; /* numbers over their sigma */
-    size_t freedom;           /* numbers less unknowns */
-    double *error;            /* [k] standard errors; NaN: unknown */
-    double *numerical;        /* [k] bounds of the error of u by that of the run; NaN: unknown */
-    double *fitted;           /* [rows x m] by an ordinary run at u */
+    qdot_request order;       /* request of the run at the guesses */
+    qdot_expr *exprs;         /* [m] expressions of the measured quantities */
+    double *guess, *u;        /* [k] guesses, fitted values of the unknowns */
+    qdot_least_squares found; /* result of the least-squares problem, residuals divided by sigma */
+    size_t freedom;           /* degrees of freedom: number of data minus number of unknowns */
+    double *error;            /* [k] standard errors of the unknowns; NaN: unknown */
+    double *numerical;        /* [k] error bounds of u from the errors of the run; NaN: unknown */
+    double *fitted;           /* [rows x m] values of the model, from an ordinary run at u */
 } qdot_fit;
 
 /* Read the file into t, y, sigma. Errors: those of qdot_csv_read, and at a place in the file; which

@@ -284,7 +284,7 @@ qdot_fit_set(qdot_fit *f)
     for (size_t k = 0; k < n && values; k++) {
         values[k] = decimal(f->session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
         if (qdot_session_in_domain(f->session, f->unknowns.names.at[k].symbol, values[k])
-            != QDOT_OK) /* rounding has moved it outside its domain */
+            != QDOT_OK) /* rounding has moved the value outside of its domain */
             values[k] = decimal(f->session->pool, f->u[k], 0);
     }
     if (status == QDOT_OK)

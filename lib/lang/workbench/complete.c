@@ -32,24 +32,24 @@ typedef struct {
 enum {
     COORDINATES = 1 << 0,
     PARAMETERS = 1 << 1,
-    FUNCTIONS = 1 << 2, /* undefined ones of the user */
-    DEFINED = 1 << 3,   /* named expressions and functions */
+    FUNCTIONS = 1 << 2, /* undefined functions declared by the user */
+    DEFINED = 1 << 3,   /* expressions and functions defined by the user */
     BUILTINS = 1 << 4,
     QUANTITIES = 1 << 5,
-    CONSTANTS = 1 << 6, /* pi, t */
+    CONSTANTS = 1 << 6, /* the constants pi, t */
     PARTICLES = 1 << 7,
     BODIES = 1 << 8,
     CONSTRAINTS = 1 << 9,
-    TIES = 1 << 10, /* springs, dampers */
+    TIES = 1 << 10, /* labels of springs and dampers */
     APPLIED =
         1 << 11, /* labels of gravities, potentials, dissipations, forces, torques */
     EVENTS = 1 << 12,
     RUNS = 1 << 13,
     METHODS = 1 << 14,
     STATEMENTS = 1 << 15,
-    KINDS = 1 << 16, /* what `remove` takes by its kind */
-    TABLES = 1 << 17, /* of rows */
-    RETURNS = 1 << 18, /* the word `returns`, of `returns after T` */
+    KINDS = 1 << 16, /* kinds of things that `remove` accepts */
+    TABLES = 1 << 17, /* tables of rows */
+    RETURNS = 1 << 18, /* the word `returns` of `returns after T` */
     NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
     LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
     EXPRESSION =
@@ -210,7 +210,7 @@ complete_index(completion *c, const qdot_token *first, const qdot_token *open)
     const qdot_builtin *builtin;
     int depth = 0;
 
-    if (open == first || !open->glued) { /* a matrix, a list */
+    if (open == first || !open->glued) { /* the bracket opens a matrix or list, not an index */
         offer_kinds(c, EXPRESSION);
         return;
     }
@@ -342,7 +342,7 @@ complete_at(completion *c, const qdot_token *first, const qdot_token *open,
             const qdot_token *end)
 {
     if (end > first && qdot_token_is(end - 1, ".") && end[-1].glued)
-        offer_kinds(c, EXPRESSION); /* along a run */
+        offer_kinds(c, EXPRESSION); /* a name after `a.`: an expression along run a */
     else if (open == NULL)
         complete_statement(c, first, end);
     else if (qdot_token_is(open, "["))
@@ -465,7 +465,7 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
 
         if (c.status == QDOT_OK &&
             !(length > 0 && strchr(";\n{}", before[length - 1]) != NULL))
-            tokens--; /* the END that closes the text */
+            tokens--; /* without the token END that closes the text */
         c.status = QDOT_OK;
         if (tokens == 0 || !needs_blank(source->tokens.at + tokens - 1) ||
             source->tokens.at[tokens - 1].start + source->tokens.at[tokens - 1].length <

@@ -26,7 +26,7 @@ QDOT_STATEMENT(help) = {
     .handler = help_tell,
 };
 
-enum { OFF_TERMINAL = 86 }; /* columns of running lines there */
+enum { OFF_TERMINAL = 86 }; /* width of text in columns if the output is no terminal */
 
 /* Append a line of two columns: a word and its summary. */
 static void

@@ -100,7 +100,7 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
             size_t *end)
 {
     const qdot_token *first = source->tokens.at;
-    long depth = 0; /* of brackets within the statement */
+    long depth = 0; /* depth of brackets within the statement */
 
     for (size_t i = 0; i < source->tokens.n; i++) {
         const qdot_token *token = source->tokens.at + i;
@@ -112,7 +112,7 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
         } else {
             const uint8_t kind = (uint8_t)token_kind(session, first, token, depth > 0);
 
-            if (token->start >= *end) /* else the token is a dot over the preceding name */
+            if (token->start >= *end) /* otherwise the token is a dot accent on the preceding name */
                 memset(kinds + token->start, kind, token->length);
             depth += qdot_token_bracket(token);
         }

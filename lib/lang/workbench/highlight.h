@@ -9,7 +9,7 @@
 
 typedef enum {
     QDOT_HIGHLIGHT_PLAIN,
-    QDOT_HIGHLIGHT_WORD, /* a statement's word, and its options' where they stand as such */
+    QDOT_HIGHLIGHT_WORD, /* the word of a statement, or of an option in its place */
     QDOT_HIGHLIGHT_NAME, /* a declared name or label, a value or function of the language */
     QDOT_HIGHLIGHT_NUMBER,
     QDOT_HIGHLIGHT_STRING,

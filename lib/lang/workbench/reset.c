@@ -65,7 +65,7 @@ session_keep(const qdot_session *old, qdot_session *fresh)
             continue;
         copy.value = qdot_transfer(old->pool, fresh->pool, name->value);
         copy.formals = qdot_transfer(old->pool, fresh->pool, name->formals);
-        copy.over = QDOT_NIL; /* coordinates go with the scene */
+        copy.over = QDOT_NIL; /* the coordinates are removed with the scene */
         QDOT_TRY(qdot_pool_check(fresh->pool));
         if (name->kind == QDOT_NAME_UFUN)
             copy.ufun = qdot_expr_node(fresh->pool, copy.value)->op;

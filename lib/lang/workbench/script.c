@@ -35,10 +35,10 @@
 #include "lang/syntax/match.h"
 #include "lang/workbench/statement-count.h"
 
-enum { FEW = 5 }; /* tokens at the begin of a statement */
+enum { FEW = 5 }; /* number of tokens quoted from the start of a statement */
 
 typedef struct {
-    size_t body, close; /* tokens: the first inside, the `}` */
+    size_t body, close; /* indices of the first token in the block, and of its `}` */
     size_t resume;      /* the token after the block */
     qdot_loop loop;
 } frame;
@@ -48,9 +48,9 @@ typedef struct {
     qdot_source *source;
     qdot_token *tokens;
     size_t n;
-    uint32_t *match; /* of each `{` its `}`; NULL where the source has no block */
+    uint32_t *match; /* for each `{` the index of its `}`; NULL: no blocks in the source */
     qdot_vec(frame) frames;
-    qdot_vec(qdot_usage *) usages; /* of the statements met so far */
+    qdot_vec(qdot_usage *) usages; /* compiled usages of the statements met so far */
     size_t error_at;
 } engine;
 
@@ -272,13 +272,14 @@ statement(engine *x, size_t i)
         status = qdot_sheet_flush(x->session);
     else
         qdot_sheet_forget(x->session);
-    if (qdot_memory_ran_out() && status == QDOT_OK) /* where it was not passed on, a part of the answer may be lost */
+    /* memory ran out in a part whose failure was not passed on: the answer may be incomplete */
+    if (qdot_memory_ran_out() && status == QDOT_OK)
         status = qdot_fail(QDOT_ENOMEM, "out of memory: the answers may be incomplete");
     if (status == QDOT_OK)
         return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;
     if (qdot_pool_failed(
-            x->session->pool)) { /* the statement's failure is the one to tell */
+            x->session->pool)) { /* report this failure as that of the statement */
         qdot_error error = *qdot_last_error();
 
         (void)!qdot_pool_check(x->session->pool);
@@ -445,7 +446,7 @@ hint_known_mistake(engine *x, size_t i, size_t end, qdot_status status)
     if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->evaluation->placed)
         return status;
     if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
-        is_bare_or_declares(qdot_last_error()->hint)) { /* `runn 0..10` */
+        is_bare_or_declares(qdot_last_error()->hint)) { /* a misspelt statement, as `runn 0..10` */
         const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
 
         if (near != NULL && strcmp(near->word, x->tokens[i].text) == 0)

@@ -26,7 +26,8 @@ style_choose(qdot_record *r)
                   {"mathml", QDOT_MATHML}};
     qdot_session *session = r->cursor.session;
 
-    session->output->flat = qdot_record_word(r, "flat") != NULL; /* the style stays */
+    /* only whether formulas are flat changes, not the style */
+    session->output->flat = qdot_record_word(r, "flat") != NULL;
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++)
         if (qdot_record_word(r, styles[i].word) != NULL)
             session->output->style = styles[i].style;

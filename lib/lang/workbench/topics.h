@@ -10,7 +10,7 @@
 
 typedef struct {
     const char *word, *usage, *summary, *example;
-    bool option; /* of statements */
+    bool option; /* the word is an option of statements */
 } qdot_topic;
 
 /* Row i of topic.def; NULL past the end. */
