@@ -209,6 +209,17 @@ print_place_conditions(qdot_session *session, const char *word, qdot_expr condit
     return now == QDOT_NIL ? QDOT_OK : qdot_solve_print_conditions(session->pool, word, conditions, text);
 }
 
+/* Append ", unstable when CONDITIONS" unless the session's values contradict these. */
+static qdot_status
+print_instability(qdot_session *session, qdot_expr conditions, qdot_text *text)
+{
+    const qdot_expr now = conditions == QDOT_NIL ? QDOT_FALSE : exists_now(session, conditions);
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    return now == QDOT_FALSE ? QDOT_OK
+                             : qdot_solve_print_conditions(session->pool, ", unstable when ", conditions, text);
+}
+
 /* Notice `modes about x = 0, stable when a < 0`, if the equilibrium or its stability has conditions. */
 static qdot_status
 modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
@@ -219,8 +230,9 @@ modes_notice_place(qdot_session *session, const qdot_equilibrium *e)
     qdot_status status = print_place_conditions(session, ", exists when ", e->exists, &text, &never);
 
     if (status == QDOT_OK)
-        status = print_place_conditions(session, e->stability == QDOT_UNSTABLE ? ", unstable when " : ", stable when ",
-                                        e->stable_when, &text, &never);
+        status = e->stability == QDOT_UNSTABLE
+                     ? print_instability(session, e->stable_when, &text)
+                     : print_place_conditions(session, ", stable when ", e->stable_when, &text, &never);
     for (uint32_t i = 0; i < qdot_expr_count(pool, e->equations) && status == QDOT_OK; i++) {
         qdot_expr one = qdot_expr_arg(pool, e->equations, i);
 
