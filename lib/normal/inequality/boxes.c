@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "expr/build.h"
+#include "expr/exact.h"
 #include "expr/list.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
@@ -60,6 +61,26 @@ read_symbols(qdot_pool *pool, search *s, bool *few)
             s->symbol[s->n++] = one;
     }
     *few = *few && s->n > 0;
+    return QDOT_OK;
+}
+
+/* Whether the base of a power whose exponent is no number may be negative: there it is real at single places, which bounds
+ * leave out, as (-2)^2 of b^c. */
+static qdot_status
+have_single_places(qdot_pool *pool, const search *s, bool *yes)
+{
+    qdot_walk w;
+
+    *yes = false;
+    QDOT_TRY(qdot_walk_begin_n(pool, s->m, s->gap, &w));
+    for (size_t i = 0; i < w.n && !*yes; i++) {
+        const uint32_t count = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < count && !*yes; k += 2)
+            *yes = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1)) == NULL &&
+                   (qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_GE0) == 0;
+    }
+    qdot_walk_end(&w);
     return QDOT_OK;
 }
 
@@ -164,13 +185,16 @@ qdot_boxes_exclude(qdot_pool *pool, const qdot_facts *facts, bool *never)
     qdot_enclosure *bounds;
     box whole = {0};
     qdot_status status;
-    bool few;
+    bool few, single;
 
     *never = false;
     read_conditions(pool, facts, &s);
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(read_symbols(pool, &s, &few));
     if (!few || s.m == 0)
+        return QDOT_OK;
+    QDOT_TRY(have_single_places(pool, &s, &single));
+    if (single)
         return QDOT_OK;
     QDOT_TRY(whole_domain(pool, &s, &whole));
     status = qdot_enclosure_new(pool, s.m, s.gap, s.n, s.symbol, &bounds);
