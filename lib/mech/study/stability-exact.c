@@ -457,13 +457,13 @@ static qdot_status
 exact_place(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_scene *s = j->s;
+    qdot_judgement_point before; /* any verdict */
     bool kink, sure;
-    size_t known;
 
     for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(s->pool, e->exists); i++)
         QDOT_TRY(qdot_vec_push(
             &j->known, qdot_positive_of(s->pool, qdot_expr_arg(s->pool, e->exists, i))));
-    known = j->known.n;
+    before = qdot_judgement_mark(j);
     QDOT_TRY(kink_at(j, e->equations, &kink));
     if (!kink)
         QDOT_TRY(by_linear_motion(j, e));
@@ -477,12 +477,15 @@ exact_place(qdot_judgement *j, qdot_equilibrium *e)
         if (!sure)
             e->stability = QDOT_STABILITY_UNDECIDED;
     }
-    QDOT_TRY(qdot_judgement_drop_implied(j, known));
+    QDOT_TRY(qdot_judgement_drop_implied(j, before.known));
     if ((e->stability == QDOT_STABLE || e->stability == QDOT_STABLE_TO_FIRST_ORDER) &&
         j->when.n > 0)
         e->stable_when = qdot_list(s->pool, (uint32_t)j->when.n, j->when.at);
     QDOT_TRY(qdot_pool_check(s->pool));
-    return e->stability == QDOT_STABILITY_UNDECIDED && !kink ? unstable_where(j, e) : QDOT_OK;
+    if (e->stability != QDOT_STABILITY_UNDECIDED || kink)
+        return QDOT_OK;
+    qdot_judgement_back_to(j, before); /* what a verdict that was not confirmed took for positive need not be so */
+    return unstable_where(j, e);
 }
 
 qdot_status

@@ -43,7 +43,7 @@ void qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m);
 /* Ask whether e > 0: true, false, or a condition, which is recorded. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_ask(qdot_judgement *j, qdot_expr e, qdot_expr *answer);
 /* Ask that all e [n] are positive, one after another. NEGATIVE_SOMEWHERE where one is proved below 0
- * whatever the parameters. e is simplified. */
+ * whatever the parameters, or wherever those before it are not. e is simplified. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e,
                                                         qdot_definite *how);
 /* Whether A [n * n], symmetric, is positive definite; conditions are noted. A negative minor behind

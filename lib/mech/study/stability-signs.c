@@ -79,8 +79,8 @@ minor_of(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
     return qdot_simplify(pool, e, &j->facts);
 }
 
-/* Whether the minor e is proved below 0 wherever those before it are not, a set of conditions: then no parameters make
- * the matrix definite. */
+/* Whether e, a leading minor or another of a row of expressions, is proved below 0 wherever those before it are not, a set
+ * of conditions: then no parameters make all of them positive. */
 static qdot_status
 is_never_definite(qdot_judgement *j, qdot_expr before, qdot_expr e, bool *yes)
 {
