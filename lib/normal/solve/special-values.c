@@ -42,16 +42,31 @@ qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot
 
 static qdot_status zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
 
+/* Whether it is proved that d is never 0, by its sign, or of a constant by its value. */
+static qdot_status
+is_never_zero(const search *s, qdot_expr d, bool *yes)
+{
+    qdot_decision zero;
+
+    *yes = (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0;
+    if (*yes || !qdot_is_constant(s->pool, d))
+        return QDOT_OK;
+    QDOT_TRY(qdot_decide_equal(s->pool, d, QDOT_ZERO, s->facts, &zero));
+    *yes = zero.verdict == QDOT_REFUTED;
+    return QDOT_OK;
+}
+
 /* Record the equation d = 0, which is not solved, unless d is never 0. */
 static qdot_status
 leave_open(search *s, qdot_expr d)
 {
     qdot_expr equation = qdot_rel(s->pool, QDOT_EQ, d, QDOT_ZERO);
+    bool never;
 
-    if (d != QDOT_NIL && ((qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0 ||
-                          (qdot_is_constant(s->pool, d) && !qdot_is_zero(s->pool, d, s->facts))))
-        return qdot_pool_check(s->pool);
     QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(is_never_zero(s, d, &never));
+    if (never)
+        return QDOT_OK;
     return qdot_expr_place(s->out->open.n, s->out->open.at, equation) < s->out->open.n
                ? QDOT_OK
                : qdot_vec_push(&s->out->open, equation);
