@@ -241,9 +241,8 @@ notice_free(const question *q, const qdot_simultaneous_solution *one)
 static qdot_status
 notice_turns(const question *q)
 {
-    return qdot_answer_condition(q->session, "these are the solutions of one turn: within "
-                                               "the declared domains each recurs after "
-                                               "every whole turn");
+    return qdot_answer_condition(q->session, "these are the solutions of one turn: within the declared domains each "
+                                             "recurs after every whole turn");
 }
 
 static qdot_status

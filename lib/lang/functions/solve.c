@@ -286,10 +286,10 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     }
     if (status == QDOT_OK && found.recurs)
         status = qdot_answer_condition(session,
-                                         "these are the solutions of one turn: within "
-                                         "the domain of %s each recurs after "
-                                         "every whole turn",
-                                         qdot_expr_symbol(pool, x)->name);
+                                       "these are the solutions of one turn: within the domain of %s each recurs after "
+                                       "every whole turn",
+                                       qdot_expr_symbol(pool, x)->name);
+
     values = qdot_malloc((list.at.n + 1) * sizeof *values);
     if (status == QDOT_OK && values == NULL)
         status = QDOT_ENOMEM;

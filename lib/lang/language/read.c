@@ -54,9 +54,10 @@ qdot_compiled_next_name(const qdot_compiled *program, uint32_t *k)
 bool
 qdot_compiled_is_list(const qdot_compiled *program)
 {
-    const qdot_postfix *last = program->code.list.at + program->code.list.n - 1;
+    const size_t n = program->code.list.n;
+    const qdot_postfix *at = program->code.list.at;
 
-    return program->code.list.n > 0 && (last->op == QDOT_POSTFIX_LIST || last->op == QDOT_POSTFIX_MATRIX);
+    return n > 0 && (at[n - 1].op == QDOT_POSTFIX_LIST || at[n - 1].op == QDOT_POSTFIX_MATRIX);
 }
 
 const char *

@@ -143,10 +143,11 @@ find_errors(qdot_run *run)
 {
     const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
     by_event sorted[3] = {{0}};
-    double *widths = qdot_calloc(2 * run->course.occurrences.n + 1, sizeof *widths), *least = widths + run->course.occurrences.n;
+    const size_t n = run->course.occurrences.n;
+    double *widths = qdot_calloc(2 * n + 1, sizeof *widths), *least = widths ? widths + n : NULL;
     qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
 
-    if (run->course.occurrences.n > 0 && status == QDOT_OK)
+    if (n > 0 && status == QDOT_OK)
         status = qdot_run_twin(run);
     for (size_t i = 0; i < 3 && status == QDOT_OK; i++)
         status = sort_by_event(courses[i], run->stage.events.n, sorted + i);
