@@ -146,13 +146,12 @@ end_term(reader *r)
     g->product = 0;
 }
 
-/* A new factor; power: its exponent is what was read. */
+/* A new factor; power: what was read belongs to that, the last factor or a part of it. */
 static void
 take_factor(reader *r, qdot_formula_id id, qdot_formula_id power)
 {
     if (power != 0) {
         qdot_formula_append(r->f, power, without_bracket(r, id));
-        top(r)->factor = power;
         return;
     }
     end_factor(r);
@@ -329,14 +328,47 @@ read_factor(reader *r, qdot_formula_id power)
 
 /* --- signs -------------------------------------------------------------------------------- */
 
-/* Make the last factor the base of a power that has no exponent yet. */
+/* The exponent of the last factor, within which a further `^` is read, as a^b^c is a^(b^c); 0: it has none. */
+static qdot_formula_id
+last_exponent(reader *r)
+{
+    qdot_formula_id id = top(r)->factor, exponent = 0;
+
+    for (;;) {
+        qdot_formula_node *node = r->f->nodes.at + id;
+        const bool negative = exponent != 0 && node->kind == QDOT_FORMULA_SPAN && node->child != 0 &&
+                              r->f->nodes.at[r->f->nodes.at[node->child].next].kind == QDOT_FORMULA_SIGN;
+
+        if (node->kind != QDOT_FORMULA_POWER && !negative)
+            return exponent;
+        node->flags &= (uint8_t)~QDOT_FORMULA_RAISED;
+        id = exponent = node->child;
+    }
+}
+
+/* Make the last factor, or its exponent, the base of a power that has no exponent yet. */
 static qdot_formula_id
 begin_power(reader *r)
 {
-    const qdot_formula_id power = qdot_formula_new(r->f, QDOT_FORMULA_POWER, 0, 0);
+    const qdot_formula_id exponent = last_exponent(r);
+    const qdot_formula_id power = exponent != 0 ? exponent : qdot_formula_new(r->f, QDOT_FORMULA_POWER, 0, 0);
+    qdot_formula_id base = top(r)->factor;
 
-    qdot_formula_append(r->f, power, top(r)->factor);
-    top(r)->factor = 0;
+    if (exponent == 0) {
+        top(r)->factor = power;
+    } else {
+        base = qdot_formula_new(r->f, QDOT_FORMULA_ROW, 0, 0);
+        qdot_formula_share(r->f, base, exponent);
+        if (base == 0)
+            return 0;
+        if (r->f->nodes.at[base].kind == QDOT_FORMULA_ROW) { /* its bracket went, being an exponent's */
+            r->f->nodes.at[base].kind = QDOT_FORMULA_BRACKET;
+            r->f->nodes.at[base].what = QDOT_BRACKET_ROUND;
+        }
+        r->f->nodes.at[power] =
+            (qdot_formula_node){.kind = QDOT_FORMULA_POWER, .next = r->f->nodes.at[power].next};
+    }
+    qdot_formula_append(r->f, power, base);
     return power;
 }
 
@@ -344,9 +376,9 @@ begin_power(reader *r)
 static void
 read_power(reader *r)
 {
-    const bool negative = r->at[1] == '-' && is_digit(r->at[2]);
-    const bool follows = begins_name(r->at + 1) || is_digit(r->at[1]) || r->at[1] == '(' || negative;
-    const char *digits = r->at + 1;
+    const bool negative = r->at[1] == '-';
+    const char *digits = r->at + 1 + negative;
+    const bool follows = begins_name(digits) || is_digit(*digits) || *digits == '(';
     qdot_formula_id power, exponent;
 
     if (top(r)->factor == 0 || !follows) {
@@ -354,17 +386,15 @@ read_power(reader *r)
         return;
     }
     power = begin_power(r);
+    r->at = digits;
     while (is_digit(*digits))
         digits++;
-    if (power != 0 && r->notation == QDOT_NOTATION_LINE && digits > r->at + 1 && *digits != '.')
+    if (power != 0 && r->notation == QDOT_NOTATION_LINE && !negative && digits > r->at && *digits != '.')
         r->f->nodes.at[power].flags |= QDOT_FORMULA_RAISED;
-    r->at += 1 + negative;
     exponent = negative ? qdot_formula_add(r->f, power, QDOT_FORMULA_SPAN, 0, 0) : power;
     if (negative)
         qdot_formula_add_sign(r->f, exponent, QDOT_SIGN_NEGATIVE);
     read_factor(r, exponent);
-    if (negative)
-        top(r)->factor = power;
 }
 
 /* √2: the root of the factor that follows; sqrt(x) is read as a name. */
@@ -377,8 +407,9 @@ read_root(reader *r)
     if (is) {
         end_factor(r);
         r->at += n;
-        read_factor(r, qdot_formula_new(r->f, QDOT_FORMULA_ROOT, 0,
-                                        r->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_BARE : 0));
+        top(r)->factor = qdot_formula_new(r->f, QDOT_FORMULA_ROOT, 0,
+                                          r->notation == QDOT_NOTATION_LINE ? QDOT_FORMULA_BARE : 0);
+        read_factor(r, top(r)->factor);
     }
     return is;
 }
@@ -402,7 +433,6 @@ read_raised(reader *r)
         r->at += n;
     }
     qdot_formula_add_tail(r->f, power, QDOT_TEXT_NUMBER, from);
-    top(r)->factor = power;
     return true;
 }
 
@@ -422,6 +452,17 @@ read_add_sign(reader *r, qdot_formula_sign sign, size_t n)
     skip_blanks(r);
 }
 
+/* Before a minus a product has a dot, a*-b is a · −b: it would be read as a difference. */
+static void
+show_times(reader *r)
+{
+    const qdot_formula_id product = top(r)->product;
+    qdot_formula_node *last = r->f->nodes.at + (product != 0 ? r->f->nodes.at[product].child : 0);
+
+    if (product != 0 && last->kind == QDOT_FORMULA_SIGN && last->what == QDOT_SIGN_TIMES)
+        last->what = QDOT_SIGN_DOT;
+}
+
 /* A sign between two terms, two sides, before a term. */
 static bool
 read_sign(reader *r)
@@ -434,6 +475,7 @@ read_sign(reader *r)
         if (strncmp(r->at, signs[i].typed, n) != 0)
             continue;
         if (signs[i].sign == QDOT_SIGN_MINUS && g->factor == 0) {
+            show_times(r);
             qdot_formula_add_sign(r->f, g->product != 0 ? g->product : g->row, QDOT_SIGN_NEGATIVE);
             r->at++;
         } else {

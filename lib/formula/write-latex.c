@@ -47,7 +47,7 @@ latex_add_roman(qdot_text *out, const char *name, size_t n)
     qdot_text_add(out, "\\mathrm{");
     for (size_t i = 0; i < n; i++) {
         if (strchr("\\^~", name[i]) != NULL) {
-            qdot_text_add(out, name[i] == '^' ? "\\textasciicircum{}" : name[i] == '~' ? "\\textasciitilde{}" : "\\backslash ");
+            qdot_text_add(out, name[i] == '^' ? "\\hat{}" : name[i] == '~' ? "\\sim " : "\\backslash ");
             continue;
         }
         qdot_text_add(out, strchr("_%#&${}", name[i]) != NULL ? "\\" : "");

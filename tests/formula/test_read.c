@@ -46,6 +46,9 @@ powers_stand_above_what_is_below(void **state)
     reads("V_eff^n", "V_eff^n", "V_{eff}^{n}", "V_{\\mathrm{eff}}^{n}");
     reads("x^-1", "x^−1", "x^{−1}", "x^{-1}");
     reads("(a + b)^(n + 1)", "(a + b)^(n + 1)", "(a + b)^{n+1}", "\\left(a + b\\right)^{n + 1}");
+    reads("x^2^3", "x^2³", "x\\^(2^{3})", "x^{2^{3}}"); /* as the language does: x^(2^3) */
+    reads("x^(n + 1)^2*y", "x^(n + 1)²\u202Fy", "x\\^((n + 1)^{2})·y", "x^{\\left(n + 1\\right)^{2}} y");
+    reads("2^-x^n", "2^−x^n", "2\\^(−x^{n})", "2^{-x^{n}}");
     reads("e^(x^2)", "e^(x²)", "e\\^(x^{2})", "e^{x^{2}}"); /* gnuplot's letters get smaller once */
     reads("sin²(x)", "sin²(x)", "sin^{2}(x)", "\\mathrm{sin}^{2}\\left(x\\right)");
 }
@@ -72,6 +75,7 @@ functions_and_roots_have_their_argument(void **state)
     reads("√2", "√2", "√2", "\\sqrt{2}");
     reads("sqrt(theta_1')", "√(θ\u0307₁)", "√θ\u0307₁", "\\sqrt{\\dot{\\theta}_{1}}");
     reads("abs(x - y)^2", "|x − y|²", "|x − y|^{2}", "\\left|x - y\\right|^{2}");
+    reads("e^-sin(x)", "e^−sin(x)", "e^{−sin(x)}", "e^{-\\sin\\left(x\\right)}");
     reads("e^sin(x)", "e^sin(x)", "e^{sin(x)}", "e^{\\sin\\left(x\\right)}");
     reads("[x', y]'", "[x\u0307, y]′", "[x\u0307, y]′", "\\left[\\dot{x}, y\\right]'");
 }
@@ -85,7 +89,7 @@ signs_words_and_numbers(void **state)
     reads("phi_b vs x", "φ_b vs x", "φ_{b}\u200b vs x", "\\phi_{b} \\text{ vs } x");
     reads("E in [km/h]", "E in [km/h]", "E in [km/h]",
           "E \\text{ in } \\left[\\frac{\\mathrm{km}}{h}\\right]");
-    reads("a*-b", "a\u202F−b", "a·−b", "a -b");
+    reads("a*-b", "a·−b", "a·−b", "a \\cdot -b");
 }
 
 /* Any text is read, and what is no formula stands as it was typed. */
@@ -97,7 +101,7 @@ what_is_no_formula_stays(void **state)
     reads("sin(x", "sin(x", "sin(x", "\\mathrm{sin(x}");
     reads("([x)]", "([x)]", "([x)]", "\\mathrm{([x)]}");
     reads("a/", "a/", "a/", "\\frac{a}{}");
-    reads("^2", "^2", "\\^2", "\\mathrm{\\textasciicircum{}}2");
+    reads("^2", "^2", "\\^2", "\\mathrm{\\hat{}}2");
     reads("10% {a}", "10% {a}", "10% \\{a\\}", "10\\mathrm{\\%} \\mathrm{\\{}a\\mathrm{\\}}");
 }
 
