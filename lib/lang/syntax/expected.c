@@ -7,9 +7,9 @@
 #include "lang/syntax/holes.h"
 
 /* The options of a figure, for messages. */
-#define FIGURE_OPTIONS                                                                   \
-    "`from`, `range`, `log`, `title`, `labels`, `size`, `keep`, `to` or the end of the " \
-    "statement"
+#define FIGURE_OPTIONS                                                                                                 \
+    "`from`, `range`, `log`, `ticks`, `equal`, `points`, `title`, `labels`, `legend`, `size`, `keep`, `to` or the " \
+    "end of the statement"
 
 /* The options of a run, for messages. */
 #define RUN_OPTIONS "`tol`, `digits`, `method`, `with`, `constraints`"
