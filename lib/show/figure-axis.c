@@ -343,27 +343,29 @@ qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *a, bo
 
 /* --- the label of an axis ------------------------------------------------------------- */
 
-static bool
-is_compound(const char *text)
+qdot_figure_label
+qdot_figure_moved_label(char name, const qdot_figure_label *label, bool *compound)
 {
-    return strpbrk(text, " ,+-*/") != NULL;
+    static const char *const letters[] = {"x", "y", "z"};
+    const bool own = label->text != NULL && label->text[0] != '\0';
+
+    *compound = own && strpbrk(label->text, " ,+-*/") != NULL;
+    return own ? *label : (qdot_figure_label){letters[name - 'x'], false};
 }
 
-/* Append the label with the offset and the power of ten of its axis; name: used if there is no label. */
+/* Append the label with the offset and the power of ten of its axis. */
 static void
 add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
           const qdot_figure_label *label)
 {
     const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
-    qdot_figure_label own = *label;
-    char letter[2] = {name, '\0'};
+    bool compound;
+    const qdot_figure_label own = qdot_figure_moved_label(name, label, &compound);
 
-    if (own.text == NULL || own.text[0] == '\0')
-        own = (qdot_figure_label){letter, false};
     qdot_text_add(markup, moved && scaled ? "(" : "");
-    qdot_text_add(markup, is_compound(own.text) ? "(" : "");
+    qdot_text_add(markup, compound ? "(" : "");
     qdot_figure_add_markup(markup, &own);
-    qdot_text_add(markup, is_compound(own.text) ? ")" : "");
+    qdot_text_add(markup, compound ? ")" : "");
     if (moved)
         qdot_text_format(markup, a->offset > 0 ? " − %s" : " + %s", a->offset_text);
     qdot_text_add(markup, moved && scaled ? ")" : "");

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/utf8.h"
+#include "formula/name.h"
 #include "formula/read.h"
 #include "formula/write.h"
 #include "show/figure-parts.h"
@@ -102,6 +103,31 @@ qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
     }
 }
 
+/* Append the letter of a literal text as LaTeX shows it, in any encoding of its fonts. Returns its bytes. */
+static size_t
+add_latex_letter(qdot_text *out, const char *at)
+{
+    static const struct {
+        const char *letter, *latex;
+    } others[] = {{"\\", "\\textbackslash{}"}, {"^", "\\textasciicircum{}"}, {"~", "\\textasciitilde{}"},
+                  {"<", "\\textless{}"},        {">", "\\textgreater{}"},       {"|", "\\textbar{}"},
+                  {"−", "$-$"},                  {"·", "$\\cdot$"}};
+    const char *greek = qdot_name_greek(at);
+
+    if (greek != NULL) {
+        qdot_text_format(out, "$\\%s$", greek);
+        return 2;
+    }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strncmp(at, others[i].letter, strlen(others[i].letter)) == 0) {
+            qdot_text_add(out, others[i].latex);
+            return strlen(others[i].letter);
+        }
+    qdot_text_add(out, strchr("#$%&_{}", *at) != NULL ? "\\" : "");
+    qdot_text_char(out, (unsigned char)*at < 0x20 ? ' ' : *at);
+    return 1;
+}
+
 void
 qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label)
 {
@@ -113,13 +139,8 @@ qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label)
         qdot_text_char(out, '$');
         return;
     }
-    for (; *text != '\0'; text++)
-        if (strchr("\\^~", *text) != NULL)
-            qdot_text_format(out, "\\text%s{}", *text == '\\' ? "backslash" : *text == '^' ? "asciicircum" : "asciitilde");
-        else if ((unsigned char)*text < 0x20)
-            qdot_text_char(out, ' ');
-        else
-            qdot_text_format(out, strchr("#$%&_{}", *text) != NULL ? "\\%c" : "%c", *text);
+    while (*text != '\0')
+        text += add_latex_letter(out, text);
 }
 
 qdot_figure_label

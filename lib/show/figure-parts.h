@@ -57,6 +57,9 @@ size_t qdot_figure_find_tics(const qdot_figure_axis *axis, qdot_figure_tic *tics
 /* Append `set xrange` and `set xtics`; bare: tics without numbers. *width: characters of the widest. */
 void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
                           bool bare, size_t *width);
+/* What is written before the offset and power of ten of an axis: its label, or its letter if it has none; *compound: it
+ * needs brackets there. */
+qdot_figure_label qdot_figure_moved_label(char name, const qdot_figure_label *label, bool *compound);
 /* Append `set xlabel` with offset and power of ten, if any: (E - 9.81) / 10^-12. */
 void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *axis,
                                 const qdot_figure_label *label);

@@ -11,7 +11,7 @@
 
 enum { DIGITS = 7, IN_A_LINE = 4, BLOCK = 1024, MANY_MARKS = 24, LONG_KEY = 8, MOST_POINTS = 8000, LEAST_CURVES = 3 };
 
-static const char head[] = "% by qdot: \\input this file into a document with \\usepackage{pgfplots},\n"
+static const char head[] = "% by qdot: \\input this file into a document with \\usepackage{amsmath,pgfplots},\n"
                            "% \\pgfplotsset{compat=1.16} or later\n";
 
 static const char *const marks[] = {"*",        "square*",   "triangle*", "diamond*", "pentagon*", "square", "o",
@@ -45,13 +45,17 @@ tikz_add_number(qdot_text *out, const char *number)
 
 /* The label of an axis with its offset and its power of ten: (E - 9.81) / 10^{-12}. */
 static void
-add_axis_label(qdot_text *s, const qdot_figure_axis *a, const qdot_figure_label *label)
+add_axis_label(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_label *label)
 {
     const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
+    bool compound = false;
+    const qdot_figure_label own = moved || scaled ? qdot_figure_moved_label(name, label, &compound) : *label;
 
     qdot_text_add(s, "{");
     qdot_text_add(s, moved && scaled ? "(" : "");
-    qdot_figure_add_latex(s, label);
+    qdot_text_add(s, compound ? "(" : "");
+    qdot_figure_add_latex(s, &own);
+    qdot_text_add(s, compound ? ")" : "");
     if (moved) {
         qdot_text_add(s, a->offset > 0 ? " $- " : " $+ ");
         tikz_add_number(s, a->offset_text);
@@ -129,7 +133,7 @@ add_axis(qdot_text *s, char name, const qdot_figure_axis *a, const qdot_figure_l
     if (bare || ((label->text == NULL || label->text[0] == '\0') && a->power == 0 && a->offset_text[0] == '\0'))
         return;
     qdot_text_format(s, "  %clabel=", name);
-    add_axis_label(s, a, label);
+    add_axis_label(s, name, a, label);
     qdot_text_add(s, ",\n");
 }
 

@@ -11,7 +11,11 @@ qdot -q -e 'plot 1/x vs x = 1/10..100 log xy to "log.tikz"' -e 'plot sin(1e4*x) 
     -e 'coord x, y, z; particle p mass 1 at (x, y, z); potential (x^2 + 2*y^2 + 3*z^2)/2; start x = 1, y = 1/2, z'"'"' = 1' \
     -e 'run 0..3; plot p to "space.tikz"; sweep x = 1..2 count 3, y = 0..1 count 4 run 0..1 : value(x, 1)' \
     -e 'plot sweep1 to "map.tikz"; energy to "no.tikz"' 2>&1 | grep -v '^ \|^run'
-for name in phase key panels path log near space map; do
+# Labels that LaTeX reads otherwise.
+qdot -q -e "$scene" \
+    -e 'plot 1e-9*theta, 2*-x_max, theta^2^3, atan2(theta, x_max) labels "t in s", "a + b" title "|θ| < 1 − 2·k^2~" to "label.tikz"' \
+    -e 'plot 1e-9*theta labels "", "a + b" to "brackets.tikz"' 2>&1 | grep -v '^ \|^run'
+for name in phase key panels path log near space map label brackets; do
     echo "--- $name"
     # numbers that depend on the run's last digits are not compared
     sed -n '/^ *[^ (}]/p' $name.tikz | grep -v '^% ' | sed '/^  at\|[xyz]m[ai][nx]=\|height=\|meta m/d'
@@ -19,7 +23,7 @@ done
 echo "$(grep -o '([0-9.e-]*,[-0-9.e]*)' many.tikz | wc -l) points" | sed 's/^2[0-9][0-9][0-9] /2000 and more /'
 if kpsewhich pgfplots.sty >/dev/null 2>&1; then
     { printf '%s\n' '\documentclass{article}\usepackage{amsmath,pgfplots}\pgfplotsset{compat=1.16}\begin{document}'
-    for name in phase key panels path log near many space map; do printf '\\input{%s.tikz}\\par\n' $name; done
+    for name in phase key panels path log near many space map label brackets; do printf '\\input{%s.tikz}\\par\n' $name; done
     printf '%s\n' '\end{document}'; } >all.tex
     pdflatex -interaction=nonstopmode all.tex >all.out 2>&1 || grep -A3 '^!' all.out
 fi
