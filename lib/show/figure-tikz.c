@@ -248,44 +248,157 @@ add_style(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, size_t
         add_dashes(s, look);
 }
 
-/* Whether point k of a curve is written: of those that share a bin the ones with the least and the greatest ordinate.
- * TeX's memory holds some 10,000 points, and a bin is narrower than a line. */
-static bool
-tikz_keeps(const qdot_curve *curve, size_t k, size_t bin)
-{
-    const size_t from = k - k % bin, to = from + bin < curve->rows ? from + bin : curve->rows;
-    size_t least = from, most = from;
+/* How the points of a curve are chosen that are written: TeX's memory holds some 10,000. */
+typedef struct {
+    const qdot_panel *panel;
+    const qdot_curve *curve;
+    const qdot_figure_axis *axes;
+    size_t bin;  /* 1: all points; 0: those without which the line would be another one; more: see is_end_of_bin */
+    double near; /* of bin 0: how far from the line, in parts of the axes, a point that is left out may be */
+} choice;
 
-    for (size_t i = from; i < to && bin > 1; i++) {
-        if (isnan(curve->y[i]))
-            return true;
-        least = curve->y[i] < curve->y[least] ? i : least;
-        most = curve->y[i] > curve->y[most] ? i : most;
+/* On 10 cm a twentieth of a millimetre; a fifth, still less than a line is wide. */
+static const double finest = 5e-4, coarsest = 2e-3;
+
+/* Where a point is, in parts of the axis. */
+static double
+place(const choice *c, int axis, size_t k)
+{
+    const qdot_figure_axis *a = &c->axes[axis];
+    const double *values = axis == 0 ? c->curve->x : axis == 1 ? c->curve->y : c->curve->z;
+    const double x = shown(a, values[k]);
+
+    return a->log ? log(x / a->least) / log(a->most / a->least) : (x - a->least) / (a->most - a->least);
+}
+
+/* Whether all points between two are shown and so near to the line that joins these that one does not see them. */
+static bool
+is_straight(const choice *c, size_t from, size_t to)
+{
+    const int axes = c->curve->z != NULL ? 3 : 2;
+    double start[3], along[3], length = 0;
+
+    for (int i = 0; i < axes; i++) {
+        start[i] = place(c, i, from);
+        along[i] = place(c, i, to) - start[i];
+        length += along[i] * along[i];
     }
-    return bin == 1 || k == least || k == most || k + 1 == curve->rows;
+    for (size_t k = from + 1; k <= to; k++) {
+        double part = 0, apart = 0;
+
+        if (!qdot_figure_shows(c->panel, c->curve, k))
+            return false;
+        for (int i = 0; i < axes; i++)
+            part += (place(c, i, k) - start[i]) * along[i];
+        part = length > 0 ? fmin(fmax(part / length, 0), 1) : 0;
+        for (int i = 0; i < axes; i++)
+            apart += pow(place(c, i, k) - start[i] - part * along[i], 2);
+        if (!(apart <= c->near * c->near))
+            return false;
+    }
+    return true;
+}
+
+/* Whether point k is that with the least or the greatest ordinate of those that share its bin. */
+static bool
+is_end_of_bin(const choice *c, size_t k)
+{
+    const qdot_curve *curve = c->curve;
+    const size_t from = k - k % c->bin, to = from + c->bin < curve->rows ? from + c->bin : curve->rows;
+    size_t least = to, most = to;
+
+    for (size_t i = from; i < to; i++) {
+        if (!qdot_figure_shows(c->panel, curve, i))
+            return true;
+        least = least == to || curve->y[i] < curve->y[least] ? i : least;
+        most = most == to || curve->y[i] > curve->y[most] ? i : most;
+    }
+    return k == least || k == most || k + 1 == curve->rows;
+}
+
+/* The point that is written after point k; points that are not shown are passed one by one. */
+static size_t
+next_point(const choice *c, size_t k)
+{
+    enum { MOST_BETWEEN = 64 };
+    size_t next = k + 1;
+
+    if (c->bin > 1)
+        while (next < c->curve->rows && !is_end_of_bin(c, next))
+            next++;
+    if (c->bin == 0 && qdot_figure_shows(c->panel, c->curve, k))
+        while (next + 1 < c->curve->rows && next - k < MOST_BETWEEN && is_straight(c, k, next + 1))
+            next++;
+    return next;
+}
+
+/* Whether the abscissa of a curve in the plane goes one way, so that a bin is a strip narrower than a line. */
+static bool
+is_graph(const qdot_curve *curve)
+{
+    bool up = true, down = true;
+
+    for (size_t k = 1; k < curve->rows; k++) {
+        up = up && !(curve->x[k] < curve->x[k - 1]);
+        down = down && !(curve->x[k] > curve->x[k - 1]);
+    }
+    return curve->z == NULL && (up || down);
+}
+
+/* Count the points that are written, at most one more than `most`. */
+static qdot_status
+count_points(const choice *c, size_t most, size_t *n)
+{
+    *n = 0;
+    for (size_t k = 0; k < c->curve->rows && *n <= most; k = next_point(c, k))
+        if (++*n % BLOCK == 0)
+            QDOT_TRY(qdot_interrupt_check());
+    return QDOT_OK;
+}
+
+/* Choose the points: all of a few and of marks; else those that the line needs, or if these are too many, as of a curve
+ * that goes up and down within a line's width, the ends of its strips. A long path has all that it needs. */
+static qdot_status
+choose_points(choice *c)
+{
+    const qdot_panel *panel = c->panel;
+    const bool graph = is_graph(c->curve);
+    const size_t curves = panel->n < LEAST_CURVES && graph ? LEAST_CURVES : panel->n, most = MOST_POINTS / curves;
+    size_t n;
+
+    c->bin = c->curve->rows <= most || panel->points || panel->marks || c->curve->points ? 1 : 0;
+    if (c->bin > 0)
+        return QDOT_OK;
+    c->near = finest;
+    QDOT_TRY(count_points(c, most, &n));
+    while (n > most && c->near < coarsest) {
+        c->near *= 2;
+        QDOT_TRY(count_points(c, most, &n));
+    }
+    if (n > most && graph)
+        c->bin = 2 * c->curve->rows / most + 1;
+    return QDOT_OK;
 }
 
 /* The points of a curve, with nan where the line is interrupted. */
 static qdot_status
 tikz_add_points(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, const qdot_figure_axis *axes)
 {
-    const size_t most = panel->n < LEAST_CURVES ? MOST_POINTS / LEAST_CURVES : MOST_POINTS / panel->n;
-    const size_t bin = curve->rows <= most ? 1 : 2 * curve->rows / most + 1;
+    choice chosen = {.panel = panel, .curve = curve, .axes = axes};
     bool open = false;
     size_t n = 0;
 
-    for (size_t k = 0; k < curve->rows; k++) {
+    QDOT_TRY(choose_points(&chosen));
+    for (size_t k = 0; k < curve->rows; k = next_point(&chosen, k)) {
         const double point[3] = {curve->x[k], curve->y[k], curve->z != NULL ? curve->z[k] : 0};
 
-        if (k % BLOCK == BLOCK - 1)
-            QDOT_TRY(qdot_interrupt_check());
         if (!qdot_figure_shows(panel, curve, k)) {
             qdot_text_add(s, open ? curve->z != NULL ? " (nan,nan,nan)" : " (nan,nan)" : "");
             open = false;
             continue;
         }
-        if (!tikz_keeps(curve, k, bin))
-            continue;
+        if (n % BLOCK == BLOCK - 1)
+            QDOT_TRY(qdot_interrupt_check());
         qdot_text_add(s, n++ % IN_A_LINE == 0 ? "\n    (" : " (");
         for (int i = 0; i < (curve->z != NULL ? 3 : 2); i++) {
             qdot_text_add(s, i > 0 ? "," : "");

@@ -15,6 +15,12 @@ qdot -q -e 'plot 1/x vs x = 1/10..100 log xy to "log.tikz"' -e 'plot sin(1e4*x) 
 qdot -q -e "$scene" \
     -e 'plot 1e-9*theta, 2*-x_max, theta^2^3, atan2(theta, x_max) labels "t in s", "a + b" title "|θ| < 1 − 2·k^2~" to "label.tikz"' \
     -e 'plot 1e-9*theta labels "", "a + b" to "brackets.tikz"' 2>&1 | grep -v '^ \|^run'
+# A long path is drawn where the particle goes: on its circle, between the points too.
+qdot -q -e "$scene" -e 'run 0..200; plot a to "long.tikz"' 2>&1 | grep -v '^ \|^run'
+sed -n '/^ *(/s/[(),]/ /gp' long.tikz | awk '{ for (i = 1; i < NF; i += 2) {
+        if (n++) { r = sqrt((x + $i)^2 + (y + $(i + 1))^2) / 2; far = 1 - r > far ? 1 - r : far }
+        x = $i; y = $(i + 1) } }
+    END { print (far < 0.01 && n > 300 ? "on the circle" : "off the circle by " far " with " n " points") }'
 for name in phase key panels path log near space map label brackets; do
     echo "--- $name"
     # numbers that depend on the run's last digits are not compared
@@ -23,7 +29,7 @@ done
 echo "$(grep -o '([0-9.e-]*,[-0-9.e]*)' many.tikz | wc -l) points" | sed 's/^2[0-9][0-9][0-9] /2000 and more /'
 if kpsewhich pgfplots.sty >/dev/null 2>&1; then
     { printf '%s\n' '\documentclass{article}\usepackage{amsmath,pgfplots}\pgfplotsset{compat=1.16}\begin{document}'
-    for name in phase key panels path log near many space map label brackets; do printf '\\input{%s.tikz}\\par\n' $name; done
+    for name in phase key panels path log near many space map long label brackets; do printf '\\input{%s.tikz}\\par\n' $name; done
     printf '%s\n' '\end{document}'; } >all.tex
     pdflatex -interaction=nonstopmode all.tex >all.out 2>&1 || grep -A3 '^!' all.out
 fi
