@@ -272,6 +272,17 @@ read_name(reader *r, qdot_formula_id power)
     qdot_free(name);
 }
 
+/* Before a minus and before a number a product has a dot: a*-b would be read as a difference, 2*3 as one number. */
+static void
+show_times(reader *r)
+{
+    const qdot_formula_id product = top(r)->product;
+    qdot_formula_node *last = r->f->nodes.at + (product != 0 ? r->f->nodes.at[product].child : 0);
+
+    if (product != 0 && last->kind == QDOT_FORMULA_SIGN && last->what == QDOT_SIGN_TIMES)
+        last->what = QDOT_SIGN_DOT;
+}
+
 /* A number; drawn 1e-9 is 10^-9, 2e5 is 2 10^5. */
 static void
 read_number(reader *r, qdot_formula_id power)
@@ -280,6 +291,10 @@ read_number(reader *r, qdot_formula_id power)
     qdot_formula_id all, raised, exponent;
     size_t n;
 
+    if (power == 0) {
+        end_factor(r);
+        show_times(r);
+    }
     while (is_digit(*r->at) || *r->at == '.')
         r->at++;
     n = (size_t)(r->at - start);
@@ -450,17 +465,6 @@ read_add_sign(reader *r, qdot_formula_sign sign, size_t n)
     qdot_formula_add_sign(r->f, top(r)->row, sign);
     r->at += n;
     skip_blanks(r);
-}
-
-/* Before a minus a product has a dot, a*-b is a · −b: it would be read as a difference. */
-static void
-show_times(reader *r)
-{
-    const qdot_formula_id product = top(r)->product;
-    qdot_formula_node *last = r->f->nodes.at + (product != 0 ? r->f->nodes.at[product].child : 0);
-
-    if (product != 0 && last->kind == QDOT_FORMULA_SIGN && last->what == QDOT_SIGN_TIMES)
-        last->what = QDOT_SIGN_DOT;
 }
 
 /* A sign between two terms, two sides, before a term. */

@@ -41,13 +41,23 @@ latex_add_function(qdot_text *out, const char *name, size_t n)
     qdot_text_char(out, '}');
 }
 
+/* Letters with accents are no mathematics to LaTeX, but text. */
 static void
 latex_add_roman(qdot_text *out, const char *name, size_t n)
 {
-    qdot_text_add(out, "\\mathrm{");
+    static const char *const others[2][3] = {{"\\backslash ", "\\hat{}", "\\sim "},
+                                             {"\\textbackslash{}", "\\textasciicircum{}", "\\textasciitilde{}"}};
+    static const char letters[] = "\\^~";
+    bool text = false;
+
+    for (size_t i = 0; i < n; i++)
+        text = text || (unsigned char)name[i] >= 0x80;
+    qdot_text_add(out, text ? "\\text{" : "\\mathrm{");
     for (size_t i = 0; i < n; i++) {
-        if (strchr("\\^~", name[i]) != NULL) {
-            qdot_text_add(out, name[i] == '^' ? "\\hat{}" : name[i] == '~' ? "\\sim " : "\\backslash ");
+        const char *other = strchr(letters, name[i]);
+
+        if (other != NULL) {
+            qdot_text_add(out, others[text][other - letters]);
             continue;
         }
         qdot_text_add(out, strchr("_%#&${}", name[i]) != NULL ? "\\" : "");

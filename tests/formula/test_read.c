@@ -33,6 +33,7 @@ names_have_indices_dots_and_primes(void **state)
     reads("speed_1'", "speed₁′", "speed₁′", "\\dot{\\mathrm{speed}}_{1}");
     reads("A[1,2]", "A[1,2]", "A_{1,2}", "A_{1,2}");
     reads("p[theta1]", "p[θ₁]", "p_{θ₁}", "p_{\\theta_{1}}");
+    reads("x_é", "x_é", "x_{é}", "x_{\\text{é}}");
     reads("bob.x'", "bob.x\u0307", "bob.x\u0307", "\\mathrm{bob}.\\dot{x}");
 }
 
@@ -89,6 +90,8 @@ signs_words_and_numbers(void **state)
     reads("phi_b vs x", "φ_b vs x", "φ_{b}\u200b vs x", "\\phi_{b} \\text{ vs } x");
     reads("E in [km/h]", "E in [km/h]", "E in [km/h]",
           "E \\text{ in } \\left[\\frac{\\mathrm{km}}{h}\\right]");
+    reads("0.5*9.81*t^2", "0.5·9.81\u202Ft²", "0.5·9.81·t^{2}", "0.5 \\cdot 9.81 t^{2}");
+    reads("2*3^n/4*5", "2·3^n/4·5", "2·3^{n}/4·5", "\\frac{2 \\cdot 3^{n}}{4} \\cdot 5");
     reads("a*-b", "a·−b", "a·−b", "a \\cdot -b");
 }
 
