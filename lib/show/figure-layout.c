@@ -187,7 +187,7 @@ qdot_figure_is_shared(const qdot_figure *figure, size_t i)
     const qdot_panel *p = &figure->panels[i], *q = p + 1;
 
     return i + 1 < figure->n && !p->equal && !q->equal && !qdot_figure_is_space(p) &&
-           !qdot_figure_is_space(q) && p->log[0] == q->log[0] &&
+           !qdot_figure_is_space(q) && p->log[0] == q->log[0] && p->pi[0] == q->pi[0] &&
            same_text(p->axis[0].text, q->axis[0].text) &&
            same_range(&p->range[0], &q->range[0]);
 }
