@@ -74,6 +74,22 @@ texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **t
     return QDOT_OK;
 }
 
+/* Take the texts of all axes, `labels`, or of one. */
+static qdot_status
+labels_find(qdot_record *r, const qdot_filled *word, qdot_panel_choice *p)
+{
+    const bool x = qdot_filled_is(word, "xlabel"), y = qdot_filled_is(word, "ylabel");
+
+    if (x || y ? p->n_labels > 0 : p->labels[0] != NULL || p->labels[1] != NULL) {
+        qdot_record_blame(r, word);
+        return qdot_fail(QDOT_EINVAL, "`labels` names the axes: no `xlabel` or `ylabel` beside it");
+    }
+    if (!x && !y)
+        return texts_find(r, word + 1, 3, p->labels, &p->n_labels);
+    p->labels[y] = qdot_record_text(word + 1);
+    return QDOT_OK;
+}
+
 /* Whether an earlier panel has already given this option of the whole figure. */
 static bool
 is_given(const qdot_figure_choice *f, const qdot_filled *word)
@@ -96,8 +112,8 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         return abscissa_find(r, hole, p);
     if (qdot_filled_is(word, "range"))
         return ordinate_find(r, hole, p);
-    if (qdot_filled_is(word, "labels"))
-        return texts_find(r, hole, 3, p->labels, &p->n_labels);
+    if (qdot_filled_is(word, "labels") || qdot_filled_is(word, "xlabel") || qdot_filled_is(word, "ylabel"))
+        return labels_find(r, word, p);
     if (qdot_filled_is(word, "legend"))
         return texts_find(r, hole, QDOT_FIGURE_LEGEND, p->legend, &p->n_legend);
     if (qdot_filled_is(word, "size")) {
@@ -160,6 +176,7 @@ qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
     memcpy(panel->legend, choice->legend, sizeof panel->legend);
     if (choice->title != NULL)
         panel->title = (qdot_figure_label){choice->title, false};
-    for (size_t k = 0; k < choice->n_labels; k++)
-        panel->axis[k] = (qdot_figure_label){choice->labels[k], false};
+    for (size_t k = 0; k < 3; k++)
+        if (choice->labels[k] != NULL)
+            panel->axis[k] = (qdot_figure_label){choice->labels[k], false};
 }

@@ -33,7 +33,7 @@
 
 #include "lang/source/token.h"
 
-enum { QDOT_USAGE_NODES = 160, QDOT_USAGE_TEXT = 48, QDOT_USAGE_STATES = 96 };
+enum { QDOT_USAGE_NODES = 200, QDOT_USAGE_TEXT = 48, QDOT_USAGE_STATES = 96 };
 
 /* A node of the automaton; `before` is the word that precedes it in the usage. */
 typedef struct {
