@@ -189,6 +189,14 @@ write_tikz(const qdot_figure *figure, const qdot_figure_kind *kind, const char *
     return status;
 }
 
+/* Check that a list of what each curve has is no longer than there are curves. */
+static qdot_status
+check_list(const char *list, size_t n, size_t curves)
+{
+    return n <= curves ? QDOT_OK : qdot_fail(QDOT_EINVAL, "%s names %zu curves, but there %s %zu", list, n,
+                                             curves == 1 ? "is" : "are", curves);
+}
+
 qdot_status
 qdot_figure_write(const qdot_figure *figure, const char *path)
 {
@@ -201,9 +209,8 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     for (size_t i = 0; i < figure->n; i++) {
         if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
-        if (figure->panels[i].n_legend > figure->panels[i].n)
-            return qdot_fail(QDOT_EINVAL, "the legend names %zu curves, but there %s %zu", figure->panels[i].n_legend,
-                             figure->panels[i].n == 1 ? "is" : "are", figure->panels[i].n);
+        QDOT_TRY(check_list("the legend", figure->panels[i].n_legend, figure->panels[i].n));
+        QDOT_TRY(check_list("`colour`", figure->panels[i].n_colours, figure->panels[i].n));
     }
     if (path != NULL) {
         d.kind = figure_kind_of(path);

@@ -93,6 +93,19 @@ void qdot_figure_see_box(const double *side, const qdot_figure_room *room, doubl
 QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
                                              double *height, double *points);
 
+/* --- the looks of curves (figure-style.c) --------------------------------------------- */
+
+/* How a curve is drawn: a line through its points, a dot at each, or a mark of its own. */
+typedef struct {
+    bool line, dots, marks;
+    size_t look;        /* its place in the lists of dashes and marks */
+    const char *colour; /* #rrggbb */
+    const char *dash;   /* dashes of the line, "1" or "(on,off,...)"; NULL: as the medium draws it */
+} qdot_figure_style;
+qdot_figure_style qdot_figure_style_of(const qdot_panel *panel, size_t k);
+/* The colour of curve k in the terminal: the number of the control sequence. */
+const char *qdot_figure_terminal_colour(const qdot_panel *panel, size_t k);
+
 /* --- maps in colours (figure-map.c) -------------------------------------------------- */
 
 /* The coordinate of column or row i; the range that the cells cover along an axis. */
@@ -134,9 +147,6 @@ typedef struct {
 /* Choose the axes [3] of a panel. Those with one scale have one power of ten and, unless one is short, one step. Errors:
  * QDOT_EDOMAIN, QDOT_EINVAL, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_figure_choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes);
-/* The colour, #rrggbb, and the dashes, "1" or "(on,off,...)", of a curve with this look, counted from 0. */
-const char *qdot_figure_colour(size_t look);
-const char *qdot_figure_dash(size_t look);
 /* Write the figure as a tikzpicture of pgfplots (figure-tikz.c). Errors: as qdot_figure_add_script. */
 QDOT_MUST_CHECK qdot_status qdot_figure_add_tikz(const qdot_figure_drawing *d);
 /* Write the script after `set terminal`. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */

@@ -16,35 +16,12 @@ static const char look[] = "set encoding utf8\n"
                            "set grid linetype 1 linecolor '#e0e0e0' linewidth 0.7\n"
                            "set samples 2\n";
 
-/* Okabe and Ito's palette, told apart by eyes that do not see all colours, its yellow darkened;
- * then six more. */
-static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                      "#56b4e9", "#e69f00", "#000000", "#8a6d00",
-                                      "#7f7f7f", "#332288", "#882255", "#6b8e23",
-                                      "#44aa99", "#aa4499"};
-
-/* Line patterns: several curves of a panel must differ in black and white, too. */
-static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
 static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3, 15, 14};
 
 enum {
-    COLOURS = sizeof colours / sizeof *colours,
-    DASHES = sizeof dashes / sizeof *dashes,
     MARKS = sizeof marks / sizeof *marks,
     MANY_MARKS = 24 /* largest number of marks on a curve */
 };
-
-const char *
-qdot_figure_colour(size_t look)
-{
-    return colours[look % COLOURS];
-}
-
-const char *
-qdot_figure_dash(size_t look)
-{
-    return dashes[look % DASHES];
-}
 
 /* --- writing the data --------------------------------------------------------------- */
 
@@ -405,26 +382,24 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                       " with lines linewidth 1 linecolor rgb '#d0d0d0' notitle, ");
     }
     for (size_t k = 0; k < panel->n; k++) {
-        const qdot_curve *curve = &panel->curves[k];
-        const bool point = curve->rows == 1 || curve->points;
-        const size_t look = curve->look > 0 ? curve->look - 1 : k;
+        const qdot_figure_style style = qdot_figure_style_of(panel, k);
 
         qdot_text_add(d->script, k == 0 ? "" : ", ");
         add_source(d, i, k, axes, false);
-        if (panel->points && !point)
-            qdot_text_format(d->script, " with points pointtype 7 pointsize %.3g",
+        if (style.dots)
+            qdot_text_format(d->script, " with %spoints pointtype 7 pointsize %.3g", style.line ? "lines" : "",
                              point_size(panel->curves[k].rows));
-        else if (point || panel->marks)
-            qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8",
-                             point ? "" : "lines", marks[look % MARKS]);
+        else if (style.marks)
+            qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8", style.line ? "lines" : "",
+                             marks[style.look % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
         if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* so that many marks do not hide each other */
             qdot_text_format(d->script, " pointinterval %zu",
                              panel->curves[k].rows / (MANY_MARKS / 2));
-        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", qdot_figure_colour(look));
-        if ((panel->n > 1 || curve->look > 0) && !panel->marks && !panel->points && !point)
-            qdot_text_format(d->script, " dashtype %s", qdot_figure_dash(look));
+        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", style.colour);
+        if (style.dash != NULL)
+            qdot_text_format(d->script, " dashtype %s", style.dash);
         const qdot_figure_label label = qdot_figure_curve_label(panel, k);
 
         qdot_text_add(d->script, " title ");

@@ -198,20 +198,19 @@ shown(const qdot_figure_axis *a, double value)
 }
 
 static void
-add_colour(qdot_text *s, size_t look)
+add_colour(qdot_text *s, const char *colour)
 {
     unsigned rgb = 0;
 
-    for (const char *c = qdot_figure_colour(look) + 1; *c != '\0'; c++)
+    for (const char *c = colour + 1; *c != '\0'; c++)
         rgb = 16 * rgb + (unsigned)(*c <= '9' ? *c - '0' : *c - 'a' + 10);
     qdot_text_format(s, "color={rgb,255:red,%u; green,%u; blue,%u}", rgb >> 16, rgb >> 8 & 255, rgb & 255);
 }
 
 /* A pattern of dashes and gaps, (12,5), of which gnuplot's unit is about half a point. */
 static void
-add_dashes(qdot_text *s, size_t look)
+add_dashes(qdot_text *s, const char *c)
 {
-    const char *c = qdot_figure_dash(look);
     bool on = true;
     int n = 0;
 
@@ -230,22 +229,23 @@ add_dashes(qdot_text *s, size_t look)
 }
 
 static void
-add_style(qdot_text *s, const qdot_panel *panel, const qdot_curve *curve, size_t look)
+add_style(qdot_text *s, const qdot_panel *panel, size_t k)
 {
-    const bool point = curve->rows == 1 || curve->points;
+    const qdot_figure_style style = qdot_figure_style_of(panel, k);
+    const size_t rows = panel->curves[k].rows;
 
-    add_colour(s, look);
-    qdot_text_add(s, ", line width=0.8pt");
-    if (panel->points && !point)
-        qdot_text_add(s, ", only marks, mark=*, mark size=0.6pt");
-    else if (point || panel->marks)
-        qdot_text_format(s, ", %smark=%s, mark size=1.6pt", point ? "only marks, " : "", marks[look % MARKS]);
+    add_colour(s, style.colour);
+    qdot_text_format(s, ", line width=0.8pt%s", (style.dots || style.marks) && !style.line ? ", only marks" : "");
+    if (style.dots)
+        qdot_text_add(s, ", mark=*, mark size=0.6pt");
+    else if (style.marks)
+        qdot_text_format(s, ", mark=%s, mark size=1.6pt", marks[style.look % MARKS]);
     else
         qdot_text_add(s, ", no markers");
-    if (panel->marks && curve->rows > MANY_MARKS)
-        qdot_text_format(s, ", mark repeat=%zu", curve->rows / (MANY_MARKS / 2));
-    if ((panel->n > 1 || curve->look > 0) && !panel->marks && !panel->points && !point)
-        add_dashes(s, look);
+    if (panel->marks && rows > MANY_MARKS)
+        qdot_text_format(s, ", mark repeat=%zu", rows / (MANY_MARKS / 2));
+    if (style.dash != NULL)
+        add_dashes(s, style.dash);
 }
 
 /* How the points of a curve are chosen that are written: TeX's memory holds some 10,000. */
@@ -418,7 +418,7 @@ tikz_add_curves(qdot_text *s, const qdot_panel *panel, const qdot_figure_axis *a
         const qdot_figure_label label = qdot_figure_curve_label(panel, k);
 
         qdot_text_format(s, "  \\addplot%s[", qdot_figure_is_space(panel) ? "3" : "");
-        add_style(s, panel, curve, curve->look > 0 ? curve->look - 1 : k);
+        add_style(s, panel, k);
         qdot_text_add(s, "] coordinates {");
         QDOT_TRY(tikz_add_points(s, panel, curve, axes));
         qdot_text_add(s, "\n  };\n");

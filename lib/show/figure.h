@@ -58,8 +58,11 @@ typedef struct {
     bool equal;                 /* same scale on all axes, as for paths */
     bool marks;                 /* draw a mark at every point, besides the line */
     bool points;                /* draw points without a line */
+    bool lines;                 /* join these points */
     const char *legend[QDOT_FIGURE_LEGEND]; /* names of the first curves in the legend, instead of their labels */
     size_t n_legend;
+    size_t colours[QDOT_FIGURE_LEGEND]; /* colours of the first curves, by their place in the list of names */
+    size_t n_colours;
     const qdot_figure_map *map; /* a map, drawn instead of curves; NULL: curves */
 } qdot_panel;
 
@@ -70,6 +73,9 @@ typedef struct {
     bool keep; /* keep the files NAME.gp (script) and NAME.dat (data) */
 } qdot_figure;
 
+/* The names of the colours that can be chosen, from i = 0 on; NULL behind the last. */
+const char *qdot_figure_colour_name(size_t i);
+
 /* What the axes of a panel show before anything is drawn: of x, y, z the least and the greatest
  * value, and the length in cm that lies between them. */
 typedef struct {
@@ -79,7 +85,7 @@ typedef struct {
 
 /* Type by ending: .svg .png .pdf .eps, drawn by gnuplot; .tikz for LaTeX. path NULL: a window of gnuplot that persists.
  *
- * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend of more curves than there are; QDOT_EDOMAIN if no point can be
+ * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend or colours of more curves than there are; QDOT_EDOMAIN if no point can be
  * shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);

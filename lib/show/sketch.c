@@ -12,15 +12,14 @@ enum { ACROSS = 2, DOWN = 4, MARGIN = 11, END_TEXT = 32 };
 typedef struct {
     size_t columns, rows;
     unsigned char *cells; /* [rows x columns] braille dots: the character is U+2800 + cell */
-    unsigned char *looks; /* [rows x columns] 1 + style of the curve drawn there last; 0: none */
-    size_t look;          /* style of the present curve */
+    unsigned char *looks; /* [rows x columns] 1 + the curve drawn there last, up to CURVES; 0: none */
+    size_t look;          /* the present curve */
     bool solid;           /* draw without gaps, as curves differ by marks */
     long last[2], along;  /* the last dot of a curve, and the number of dots before it */
 } grid;
 
-/* Curves differ in dashes; in ASCII in their marks; on a terminal with colours in these: blue, red, green, magenta. */
-enum { LOOKS = 4, DASHES = 8 };
-static const char *const colours[LOOKS] = {"34", "31", "32", "35"};
+/* Curves differ in dashes; in ASCII in their marks; on a terminal with colours in these. */
+enum { LOOKS = 4, DASHES = 8, CURVES = 252 };
 static const char marks[LOOKS + 1] = "*+ox";
 static const char dashes[LOOKS][DASHES + 1] = {"********", "*****   ", "*   *   ", "***** * "};
 
@@ -37,10 +36,10 @@ grid_put(grid *g, double x, double y)
     g->last[0] = i;
     g->last[1] = j;
     if (i < 0 || j < 0 || i >= (long)(ACROSS * g->columns) || j >= (long)(DOWN * g->rows) ||
-        (!g->solid && dashes[g->look][g->along % DASHES] == ' '))
+        (!g->solid && dashes[g->look % LOOKS][g->along % DASHES] == ' '))
         return;
     g->cells[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] |= bits[j % DOWN][i % ACROSS];
-    g->looks[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] = (unsigned char)(g->look + 1);
+    g->looks[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] = (unsigned char)(g->look % CURVES + 1);
 }
 
 /* Place a point of a curve; a path in space is seen from the front, the right and above. */
@@ -74,8 +73,10 @@ draw_line(grid *g, const double *a, const double *b)
 }
 
 static void
-draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qdot_curve *c)
+draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, size_t curve)
 {
+    const qdot_curve *c = &panel->curves[curve];
+    const bool line = qdot_figure_style_of(panel, curve).line;
     double last[2], here[2];
     bool open = false;
 
@@ -89,7 +90,7 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
             draw_line(g, last, here);
         grid_put(g, here[0], here[1]);
         memcpy(last, here, sizeof last);
-        open = !c->points && !panel->points;
+        open = line;
     }
 }
 
@@ -117,7 +118,7 @@ static void
 sketch_add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
 {
     if (ascii || dots == 0) {
-        qdot_text_char(out, dots != 0 ? marks[look] : ' ');
+        qdot_text_char(out, dots != 0 ? marks[look % LOOKS] : ' ');
         return;
     }
     qdot_text_char(out, '\xE2');
@@ -125,9 +126,9 @@ sketch_add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
     qdot_text_char(out, (char)(0x80 + (dots & 0x3F)));
 }
 
-/* A row of the grid without the blanks at its end; colour: the curves have colours. */
+/* A row of the grid without the blanks at its end; panel: of curves that have colours, else NULL. */
 static void
-sketch_add_row(const grid *g, size_t row, bool ascii, bool colour, qdot_text *out)
+sketch_add_row(const grid *g, size_t row, bool ascii, const qdot_panel *panel, qdot_text *out)
 {
     const unsigned char *cells = g->cells + row * g->columns, *looks = g->looks + row * g->columns;
     size_t n = g->columns, shown = 0;
@@ -135,12 +136,12 @@ sketch_add_row(const grid *g, size_t row, bool ascii, bool colour, qdot_text *ou
     while (n > 0 && cells[n - 1] == 0)
         n--;
     for (size_t i = 0; i < n; i++) {
-        if (colour && looks[i] > 0 && looks[i] != shown)
-            qdot_text_format(out, "\033[%sm", colours[looks[i] - 1]);
+        if (panel != NULL && looks[i] > 0 && looks[i] != shown)
+            qdot_text_format(out, "\033[%sm", qdot_figure_terminal_colour(panel, looks[i] - 1u));
         shown = looks[i] > 0 ? looks[i] : shown;
         sketch_add_cell(out, cells[i], (size_t)fmax(looks[i] - 1.0, 0), ascii);
     }
-    qdot_text_add(out, colour && shown > 0 ? "\033[39m" : "");
+    qdot_text_add(out, panel != NULL && shown > 0 ? "\033[39m" : "");
 }
 
 static void
@@ -164,7 +165,7 @@ write_key(const qdot_panel *panel, const qdot_figure_sketching *how, qdot_text *
     for (size_t k = 0; k < panel->n; k++) {
         qdot_text_add(out, k > 0 ? "   " : "");
         if (how->colours)
-            qdot_text_format(out, "\033[%sm", colours[k % LOOKS]);
+            qdot_text_format(out, "\033[%sm", qdot_figure_terminal_colour(panel, k));
         if (how->ascii)
             qdot_text_char(out, marks[k % LOOKS]);
         else
@@ -222,6 +223,7 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
              size_t margin, qdot_text *out)
 {
     const bool space = panel->axis[2].text != NULL, named = !space && (panel->n == 1 || panel->map != NULL) && g->rows > 2;
+    const bool coloured = how->colours && (panel->n > 1 || panel->n_colours > 0);
     char ends[2][END_TEXT];
     qdot_text label = {0};
     long free;
@@ -236,7 +238,7 @@ sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, 
 
         write_margin(margin, space ? "" : text, out);
         qdot_text_add(out, how->ascii ? "|" : "│");
-        sketch_add_row(g, r, how->ascii, how->colours && panel->n > 1, out);
+        sketch_add_row(g, r, how->ascii, coloured ? panel : NULL, out);
         qdot_text_char(out, '\n');
     }
     qdot_text_truncate(&label, 0);
@@ -285,10 +287,10 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, const qdot_figure_sketch
     if (panel->map != NULL)
         draw_map(&g, panel->map, how->ascii);
     for (size_t k = 0; k < panel->n; k++) {
-        g.look = k % LOOKS;
+        g.look = k;
         g.along = 0;
         g.last[0] = g.last[1] = -1;
-        draw_curve(&g, panel, &view, &panel->curves[k]);
+        draw_curve(&g, panel, &view, k);
     }
     if (panel->n > 1 || (figure->n > 1 && panel->map == NULL))
         write_key(panel, how, out);

@@ -74,6 +74,46 @@ texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **t
     return QDOT_OK;
 }
 
+/* Refuse what is no name of a colour, with those that are. */
+static qdot_status
+refuse_colour(qdot_record *r, const qdot_filled *part)
+{
+    qdot_text names = {0};
+
+    for (size_t i = 0; qdot_figure_colour_name(i) != NULL; i++)
+        qdot_text_format(&names, "%s%s", i > 0 ? ", " : "", qdot_figure_colour_name(i));
+    qdot_record_blame(r, part);
+    (void)qdot_fail(QDOT_ENAME, "there is no colour `%.40s`", part->from->text);
+    (void)qdot_hint("the colours are %s", qdot_text_str(&names));
+    qdot_text_clear(&names);
+    return QDOT_ENAME;
+}
+
+/* COLOUR, ...: of each curve in order. */
+static qdot_status
+colours_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
+{
+    const qdot_filled *end = r->parts.at + r->parts.n;
+
+    for (const qdot_filled *part = first; part < end; part += 2) {
+        const char *name;
+        size_t i = 0;
+
+        while ((name = qdot_figure_colour_name(i)) != NULL && !qdot_filled_is_word(part, name))
+            i++;
+        if (name == NULL)
+            return refuse_colour(r, part);
+        if (p->n_colours == QDOT_FIGURE_LEGEND) {
+            qdot_record_blame(r, part);
+            return qdot_fail(QDOT_EINVAL, "`colour` has no more than %d names", QDOT_FIGURE_LEGEND);
+        }
+        p->colours[p->n_colours++] = i;
+        if (part + 1 == end || !qdot_filled_is(part + 1, ","))
+            break;
+    }
+    return QDOT_OK;
+}
+
 /* Take the texts of all axes, `labels`, or of one. */
 static qdot_status
 labels_find(qdot_record *r, const qdot_filled *word, qdot_panel_choice *p)
@@ -116,6 +156,8 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         return labels_find(r, word, p);
     if (qdot_filled_is(word, "legend"))
         return texts_find(r, hole, QDOT_FIGURE_LEGEND, p->legend, &p->n_legend);
+    if (qdot_filled_is(word, "colour"))
+        return colours_find(r, hole, p);
     if (qdot_filled_is(word, "size")) {
         QDOT_TRY(length_find(r, hole, &f->width));
         return length_find(r, qdot_record_next(r, hole, "H"), &f->height);
@@ -137,6 +179,8 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         p->equal = true;
     } else if (qdot_filled_is(word, "points")) {
         p->points = true;
+    } else if (qdot_filled_is(word, "lines")) {
+        p->lines = true;
     } else if (qdot_filled_is(word, "keep")) {
         f->keep = true;
     } else if (qdot_filled_is(word, "to") && qdot_filled_is_text(hole)) {
@@ -171,7 +215,11 @@ qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
         panel->pi[k] = choice->angles && (choice->pi[k] || (!choice->pi[1 - k] && k == is_over_time(panel)));
     }
     panel->equal = panel->equal || choice->equal;
-    panel->points = panel->points || choice->points;
+    panel->points = choice->points || (panel->points && !choice->lines);
+    panel->marks = panel->marks && !choice->lines;
+    panel->lines = choice->lines;
+    panel->n_colours = choice->n_colours;
+    memcpy(panel->colours, choice->colours, sizeof panel->colours);
     panel->n_legend = choice->n_legend;
     memcpy(panel->legend, choice->legend, sizeof panel->legend);
     if (choice->title != NULL)

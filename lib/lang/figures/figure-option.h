@@ -12,20 +12,20 @@ typedef struct {
     bool keep;
 } qdot_figure_choice;
 
-/* Options of one panel: from A to B, range A..B, log x|y|xy, ticks pi [x|y|xy], equal, points, title TEXT, labels TEXT, TEXT,
+/* Options of one panel: from A to B, range A..B, log x|y|xy, ticks pi [x|y|xy], equal, points, lines, colour NAME, title TEXT, labels TEXT, TEXT,
  * xlabel TEXT, ylabel TEXT, legend TEXT, TEXT. */
 typedef struct {
     qdot_figure_range range[2];
     bool logs, log[2]; /* axes with logarithmic scale; logs: the option was given */
     bool angles, pi[2]; /* angles: said; pi: of which axes, neither where that was not said */
-    bool equal, points;
+    bool equal, points, lines;
     const char *title, *labels[3] /* of each axis; NULL: not given */, *legend[QDOT_FIGURE_LEGEND];
-    size_t n_labels, n_legend;
+    size_t n_labels, n_legend, colours[QDOT_FIGURE_LEGEND], n_colours;
 } qdot_panel_choice;
 
 /* The options as they occur in the usages of statements. */
 #define QDOT_FIGURE_USAGE                                                                 \
-    "[from A to B] [range A..B] [log x|y|xy] [ticks pi [x|y|xy]] [equal] [points] [title \"TEXT\"] [labels \"X\", ...] "    \
+    "[from A to B] [range A..B] [log x|y|xy] [ticks pi [x|y|xy]] [equal] [points] [lines] [colour COLOUR, ...] [title \"TEXT\"] [labels \"X\", ...] "    \
     "[xlabel \"X\"] [ylabel \"Y\"] [legend \"NAME\", ...] [size W, H] [keep] [to \"FILE\"]"
 /* Those among the parts [from, to) of a statement; of the figure each once, whichever panel says it. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,

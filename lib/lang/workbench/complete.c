@@ -18,6 +18,7 @@
 #include "lang/source/source.h"
 #include "lang/syntax/usage.h"
 #include "ode/method.h"
+#include "show/figure.h"
 
 typedef struct {
     qdot_session *session;
@@ -50,6 +51,7 @@ enum {
     KINDS = 1 << 16, /* kinds of things that `remove` accepts */
     TABLES = 1 << 17, /* tables of rows */
     RETURNS = 1 << 18, /* the word `returns` of `returns after T` */
+    COLOURS = 1 << 19, /* colours of curves */
     NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
     LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
     EXPRESSION =
@@ -160,6 +162,8 @@ offer_tables(completion *c, unsigned kinds)
         offer(c, qdot_ode_method_at(i)->name);
     if ((kinds & METHODS) != 0)
         offer(c, "auto");
+    for (size_t i = 0; (kinds & COLOURS) != 0 && qdot_figure_colour_name(i) != NULL; i++)
+        offer(c, qdot_figure_colour_name(i));
     for (size_t i = 0; (kinds & KINDS) != 0 && i < sizeof removable / sizeof *removable;
          i++)
         offer(c, removable[i]);
