@@ -93,7 +93,7 @@ curves_over(const qdot_plot_said *said, const qdot_loop *loop, void *user)
 {
     const repeated *x = user;
 
-    for (const qdot_filled *part = said->from; !qdot_filled_is(part, "vs"); part++)
+    for (const qdot_filled *part = said->from; !qdot_filled_is(part, "vs") && part < qdot_plot_data_find(said); part++)
         if (part->node->kind == QDOT_USAGE_HOLE)
             QDOT_TRY(curve_over(said->record, part, x->v, loop, x->panel));
     return QDOT_OK;

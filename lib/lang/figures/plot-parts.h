@@ -10,13 +10,15 @@
 #include "tape/tape.h"
 
 /* A curve and where its numbers come from: along a run (y of an operand, x of another or t), or
- * over a variable (a tape). */
+ * over a variable (a tape); the points of data are in a file. */
 typedef struct {
     char *label, *axis; /* name in the legend; label of the y axis */
     const qdot_operand *y;
     qdot_operand x;  /* abscissa; strings and columns borrowed; session NULL: the abscissa is t */
     size_t component; /* for a vector y: index of its component */
     bool drift;      /* draw y minus its value at `begin` */
+    bool data;       /* points of a file */
+    bool literal;    /* the label is no formula */
     double begin;
     qdot_tape *tape; /* for a curve over a variable: y as a tape; owned */
     double *work;
@@ -53,5 +55,10 @@ QDOT_MUST_CHECK qdot_status qdot_plot_run(const qdot_plot_said *said, const qdot
 /* Read `E, ... vs NAME = A..B [for ...]` and the options; compute the first points of each curve. */
 QDOT_MUST_CHECK qdot_status qdot_plot_over(const qdot_plot_said *said, qdot_plot_panel *panel,
                                            qdot_figure_choice *figure);
+
+/* The first file of data of a panel; said->to: there is none. What stands behind it up to the options are columns. */
+const qdot_filled *qdot_plot_data_find(const qdot_plot_said *said);
+/* Read the files and add their columns as curves. Errors: as of qdot_csv_read; QDOT_ENAME, QDOT_EINVAL at a column. */
+QDOT_MUST_CHECK qdot_status qdot_plot_data_add(const qdot_plot_said *said, qdot_plot_panel *panel);
 
 #endif

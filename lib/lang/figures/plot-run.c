@@ -72,7 +72,7 @@ read_items(const qdot_plot_said *said, qdot_plot_panel *p)
 {
     size_t first = p->items.n;
 
-    for (const qdot_filled *part = said->from; part < said->to; part++) {
+    for (const qdot_filled *part = said->from; part < qdot_plot_data_find(said); part++) {
         if (part->node->kind == QDOT_USAGE_WORD && !qdot_filled_is(part, "vs"))
             return QDOT_OK;
         if (part->node->kind != QDOT_USAGE_HOLE)

@@ -139,13 +139,14 @@ all_drift(const qdot_plot_panel *p)
 }
 
 static void
-point_at(const qdot_plot_curve *from, qdot_curve *to)
+point_at(const qdot_plot_curve *from, const qdot_panel_choice *choice, qdot_curve *to)
 {
-    *to = (qdot_curve){.label = {from->label, true},
+    *to = (qdot_curve){.label = {from->label, !from->literal},
                        .rows = from->points.n,
                        .x = from->points.at[0],
                        .y = from->points.at[1],
                        .z = from->points.at[2],
+                       .points = from->data && !choice->lines,
                        .shown = from->shown};
 }
 
@@ -160,7 +161,7 @@ find_poles(qdot_plot_panel *p)
     for (size_t k = 0; k < p->curves.n; k++) {
         qdot_plot_curve *curve = p->curves.at[k];
 
-        if (curve->drift)
+        if (curve->drift || curve->data)
             continue;
         QDOT_TRY(qdot_pole_find(&curve->source, &curve->points, &curve->shown));
         curve->source.jumps = curve->source.jumps || curve->shown.set;
@@ -188,7 +189,7 @@ build_figure(const panels *all, frame *f)
 
         *panel = (qdot_panel){.curves = f->curves + next, .n = p->curves.n};
         for (size_t k = 0; k < panel->n; k++)
-            point_at(p->curves.at[k], &f->curves[next + k]);
+            point_at(p->curves.at[k], &p->choice, &f->curves[next + k]);
         next += panel->n;
         panel->equal = p->operands.n > 0 && p->operands.at[0].vector;
         panel->log[1] = all_drift(p);
@@ -214,8 +215,10 @@ panels_refine(panels *all, const qdot_figure *figure, frame *f)
         for (size_t k = 0; k < p->curves.n; k++, next++) {
             qdot_plot_curve *curve = p->curves.at[k];
 
+            if (curve->data)
+                continue;
             QDOT_TRY(qdot_trace_refine(&curve->source, &view, &curve->points));
-            point_at(curve, &f->curves[next]);
+            point_at(curve, &p->choice, &f->curves[next]);
         }
     }
     return QDOT_OK;
@@ -249,10 +252,11 @@ read_panel(const qdot_plot_said *said, const qdot_plot_runs *runs, qdot_figure_c
 
     QDOT_TRY(qdot_vec_push(all, empty));
     p = &all->at[all->n - 1];
-    if (said->from == said->to || !qdot_filled_is(said->from, "EXPR"))
+    if (said->from == said->to || (!qdot_filled_is(said->from, "EXPR") && qdot_plot_data_find(said) != said->from))
         return qdot_record_expected(said->record, said->from[-1].to, "an expression");
-    return vs != NULL && qdot_filled_is(vs + 1, "NAME") ? qdot_plot_over(said, p, figure)
-                                                        : qdot_plot_run(said, runs, p, figure);
+    QDOT_TRY(vs != NULL && qdot_filled_is(vs + 1, "NAME") ? qdot_plot_over(said, p, figure)
+                                                          : qdot_plot_run(said, runs, p, figure));
+    return qdot_plot_data_add(said, p);
 }
 
 static qdot_status

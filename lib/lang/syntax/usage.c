@@ -372,7 +372,8 @@ end_of_list(const compiler *c, int i, int to)
     const int more = piece_find(c, i, to, MORE, NULL);
 
     if (more >= to || more == i || strcmp(c->piece[more - 1].text, ",") != 0 ||
-        item_holds_word(c, i, more) || piece_find(c, i, more, SIGN, ":") < more)
+        item_holds_word(c, i, more) ||
+        piece_find(c, i, more, SIGN, ":") < piece_find(c, i, more, SIGN, ","))
         return i;
     return more - 1;
 }
