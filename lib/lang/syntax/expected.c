@@ -8,8 +8,8 @@
 
 /* The options of a figure, for messages. */
 #define FIGURE_OPTIONS                                                                                                 \
-    "`from`, `range`, `log`, `ticks`, `equal`, `points`, `title`, `labels`, `legend`, `size`, `keep`, `to` or the " \
-    "end of the statement"
+    "`from`, `range`, `log`, `ticks`, `equal`, `points`, `lines`, `colour`, `title`, `labels`, `xlabel`, `ylabel`, "     \
+    "`legend`, `size`, `keep`, `to` or the end of the statement"
 
 /* The options of a run, for messages. */
 #define RUN_OPTIONS "`tol`, `digits`, `method`, `with`, `constraints`"

@@ -12,7 +12,7 @@
 
 #include "lang/syntax/record.h"
 
-enum { QDOT_EXPECTED_TEXT = 160, QDOT_EXPECTED_NODES = 32 };
+enum { QDOT_EXPECTED_TEXT = 256, QDOT_EXPECTED_NODES = 32 };
 
 typedef struct {
     const qdot_usage *usage;
