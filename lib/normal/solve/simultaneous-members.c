@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/exact.h"
 #include "expr/function.h"
+#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
@@ -352,12 +353,30 @@ append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr cond
     return status;
 }
 
+/* The equations u = value, with values in simple form: one that is 0 in disguise is then seen to be a pole of 1/u. */
+static qdot_expr
+known_simplified(const qdot_simultaneous *s, qdot_expr known)
+{
+    qdot_expr list = qdot_list(s->pool, 0, NULL);
+
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, known); i++) {
+        qdot_expr one = qdot_expr_arg(s->pool, known, i),
+                  value = qdot_simplify(s->pool, qdot_expr_arg(s->pool, one, 1), &s->facts);
+
+        one = qdot_rel(s->pool, QDOT_EQ, qdot_expr_arg(s->pool, one, 0), value);
+        list = qdot_list_appended(s->pool, list, 1, &one);
+    }
+    return list;
+}
+
 qdot_status
-qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
+qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *branch)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->unknowns.n;
-    qdot_expr conditions = qdot_conditions_at(pool, b->conditions, 0, NULL, NULL, &s->facts),
+    const qdot_simultaneous_branch simple = {.known = known_simplified(s, branch->known), .whole = branch->whole},
+                                   *b = &simple;
+    qdot_expr conditions = qdot_conditions_at(pool, branch->conditions, 0, NULL, NULL, &s->facts),
               room[QDOT_CONDITIONS_MOST];
     qdot_facts facts;
     solution p = {.symbol = qdot_malloc((3 * n + 1) * sizeof *p.symbol)};
