@@ -418,6 +418,38 @@ qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
     return found;
 }
 
+static bool
+contains_any(const qdot_pool *pool, qdot_expr e, size_t m, const qdot_expr *x)
+{
+    for (size_t j = 0; j < m; j++)
+        if (qdot_expr_contains(pool, e, x[j]))
+            return true;
+    return false;
+}
+
+qdot_expr
+qdot_expr_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x)
+{
+    qdot_walk w;
+    qdot_vec(qdot_expr) found = {0};
+    qdot_expr list;
+
+    if (qdot_walk_begin_n(pool, n, F, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n; i++) {
+        const uint32_t count = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < count; k += 2)
+            if (contains_any(pool, qdot_expr_arg(pool, w.at[i], k + 1), m, x) &&
+                qdot_vec_push(&found, qdot_expr_arg(pool, w.at[i], k)) != QDOT_OK)
+                qdot_pool_fail(pool);
+    }
+    qdot_walk_end(&w);
+    list = qdot_list(pool, (uint32_t)found.n, found.at);
+    qdot_free(found.at);
+    return list;
+}
+
 static int
 compare_exprs(const void *a, const void *b, void *pool)
 {

@@ -68,6 +68,9 @@ size_t qdot_expr_place(size_t n, const qdot_expr *list, qdot_expr e);
 /* Whether x (any node) occurs in e. */
 bool qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x);
 
+/* The bases of all powers in F [n] whose exponents contain one of the x [m], as a LIST. Nil: the pool failed. */
+qdot_expr qdot_expr_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x);
+
 /* The symbols (and, if asked, applications of undefined functions) that occur in e, in the
  * order of qdot_expr_compare, as a LIST. */
 qdot_expr qdot_expr_atoms(qdot_pool *pool, qdot_expr e, bool ufuns);

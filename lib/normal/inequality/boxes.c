@@ -3,13 +3,11 @@
 
 #include <math.h>
 
-#include "base/memory.h"
 #include "expr/build.h"
 #include "expr/exact.h"
-#include "expr/list.h"
 #include "expr/node.h"
-#include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/refute/ball.h"
 #include "normal/refute/enclosure.h"
 
 /* At most so many symbols, conditions and parts; the deepest halving of a part. */
@@ -54,8 +52,6 @@ read_symbols(qdot_pool *pool, search *s, bool *few)
     for (uint32_t i = 0; i < qdot_expr_count(pool, atoms) && *few; i++) {
         const qdot_expr one = qdot_expr_arg(pool, atoms, i);
 
-        if (qdot_expr_is_class(pool, one, QDOT_CONST))
-            continue;
         *few = s->n < MOST_SYMBOLS && qdot_expr_kind(pool, one) == QDOT_SYM;
         if (*few)
             s->symbol[s->n++] = one;
@@ -64,54 +60,17 @@ read_symbols(qdot_pool *pool, search *s, bool *few)
     return QDOT_OK;
 }
 
-/* Whether the base of a power whose exponent is no number may be negative: there it is real at single places, which bounds
- * leave out, as (-2)^2 of b^c. */
+/* Whether the base of a power with a symbol in its exponent may be negative: there it is real at single places, which
+ * bounds leave out, as (-2)^2 of b^c. */
 static qdot_status
 have_single_places(qdot_pool *pool, const search *s, bool *yes)
 {
-    qdot_walk w;
+    const qdot_expr bases = qdot_expr_bases_of_powers(pool, s->m, s->gap, s->n, s->symbol);
 
+    QDOT_TRY(qdot_pool_check(pool));
     *yes = false;
-    QDOT_TRY(qdot_walk_begin_n(pool, s->m, s->gap, &w));
-    for (size_t i = 0; i < w.n && !*yes; i++) {
-        const uint32_t count = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
-
-        for (uint32_t k = 1; k + 1 < count && !*yes; k += 2)
-            *yes = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1)) == NULL &&
-                   (qdot_expr_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_GE0) == 0;
-    }
-    qdot_walk_end(&w);
-    return QDOT_OK;
-}
-
-/* Bounds of a declared end; the whole line if it depends on something or there is none. */
-static qdot_status
-bounds_of_end(qdot_pool *pool, qdot_expr end, qdot_interval *to)
-{
-    qdot_enclosure *bounds;
-    qdot_status status = end == QDOT_NIL ? QDOT_ETYPE : qdot_enclosure_new(pool, 1, &end, 0, NULL, &bounds);
-
-    *to = qdot_interval_whole;
-    if (status == QDOT_ETYPE)
-        return QDOT_OK;
-    QDOT_TRY(status);
-    qdot_enclosure_eval(bounds, NULL, false);
-    *to = qdot_enclosure_get(bounds, 0)->y;
-    qdot_enclosure_free(bounds);
-    return QDOT_OK;
-}
-
-static qdot_status
-whole_domain(qdot_pool *pool, const search *s, box *b)
-{
-    for (size_t j = 0; j < s->n; j++) {
-        const qdot_symbol *symbol = qdot_expr_symbol(pool, s->symbol[j]);
-        qdot_interval lo, hi;
-
-        QDOT_TRY(bounds_of_end(pool, symbol->lo, &lo));
-        QDOT_TRY(bounds_of_end(pool, symbol->hi, &hi));
-        b->side[j] = (qdot_interval){lo.lo, hi.hi};
-    }
+    for (uint32_t i = 0; i < qdot_expr_count(pool, bases) && !*yes; i++)
+        *yes = (qdot_expr_sign(pool, qdot_expr_arg(pool, bases, i)) & QDOT_GE0) == 0;
     return QDOT_OK;
 }
 
@@ -196,7 +155,9 @@ qdot_boxes_exclude(qdot_pool *pool, const qdot_facts *facts, bool *never)
     QDOT_TRY(have_single_places(pool, &s, &single));
     if (single)
         return QDOT_OK;
-    QDOT_TRY(whole_domain(pool, &s, &whole));
+    for (size_t j = 0; j < s.n; j++)
+        whole.side[j] = qdot_ball_domain(pool, s.symbol[j]);
+    QDOT_TRY(qdot_pool_check(pool));
     status = qdot_enclosure_new(pool, s.m, s.gap, s.n, s.symbol, &bounds);
     if (status == QDOT_ETYPE)
         return QDOT_OK;

@@ -1,10 +1,13 @@
 /* ball.c -- evaluates expressions in ball arithmetic, in one pass over their nodes. */
 #include "normal/refute/ball.h"
 
+#include <math.h>
+
 #include "base/memory.h"
 #include "expr/exact.h"
 #include "expr/function-ball.h"
 #include "expr/node.h"
+#include "expr/symbol.h"
 
 /* --- functions in ball arithmetic -------------------------------------------------- */
 
@@ -284,4 +287,39 @@ qdot_ball_double(qdot_pool *pool, qdot_expr e,
         *x = arf_get_d(arb_midref(value), ARF_RND_NEAR);
     qdot_ball_end(&ball);
     return value != NULL;
+}
+
+qdot_interval
+qdot_ball_bounds(qdot_pool *pool, qdot_expr e)
+{
+    enum { BITS = 128 };
+    qdot_interval bounds = qdot_interval_whole;
+    qdot_ball ball;
+    arb_srcptr v;
+
+    if (qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
+        return bounds;
+    qdot_ball_eval(&ball, BITS, NULL, NULL);
+    v = qdot_ball_get(&ball, e);
+    if (v != NULL) {
+        arf_t end;
+
+        arf_init(end);
+        arb_get_lbound_arf(end, v, BITS);
+        bounds.lo = arf_get_d(end, ARF_RND_FLOOR);
+        arb_get_ubound_arf(end, v, BITS);
+        bounds.hi = arf_get_d(end, ARF_RND_CEIL);
+        arf_clear(end);
+    }
+    qdot_ball_end(&ball);
+    return bounds;
+}
+
+qdot_interval
+qdot_ball_domain(qdot_pool *pool, qdot_expr symbol)
+{
+    const qdot_expr lo = qdot_expr_symbol(pool, symbol)->lo, hi = qdot_expr_symbol(pool, symbol)->hi;
+
+    return (qdot_interval){lo == QDOT_NIL ? -INFINITY : qdot_ball_bounds(pool, lo).lo,
+                           hi == QDOT_NIL ? INFINITY : qdot_ball_bounds(pool, hi).hi};
 }

@@ -6,6 +6,7 @@
 #include "expr/id.h"
 #include "expr/walk.h"
 #include "num/arb.h"
+#include "num/interval.h"
 
 /* A list of expressions that is prepared once and evaluated in balls at many points. */
 typedef struct {
@@ -33,6 +34,11 @@ arb_srcptr qdot_ball_get(const qdot_ball *b, qdot_expr e);
 bool qdot_ball_double(qdot_pool *pool, qdot_expr e,
                       bool (*of)(void *user, qdot_expr atom, arb_t value, slong prec),
                       void *user, double *x);
+
+/* Bounds of a constant; the whole line if it has no value or contains a symbol. */
+qdot_interval qdot_ball_bounds(qdot_pool *pool, qdot_expr e);
+/* Bounds of the declared domain of a symbol, without end where none is declared or the end depends on a symbol. */
+qdot_interval qdot_ball_domain(qdot_pool *pool, qdot_expr symbol);
 
 /* The truth of a relation or logical expression: 1 true, 2 false, 0 not known. */
 int qdot_ball_truth(const qdot_ball *b, qdot_expr e);

@@ -50,15 +50,11 @@ qdot_expr qdot_conditions_of_function(qdot_pool *pool, qdot_expr function);
 /* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0.
  * (definedness.c) */
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
-/* A LIST of the bases of all powers in F [n] whose exponents contain one of the x [m]. Where such a base is negative the power
- * is real at single places only. Nil: the pool failed. (definedness.c) */
-qdot_expr qdot_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x);
-/* Whether the base of such a power is not proved to be positive or 0: then the solutions of F = 0 that a formula gives need
- * not be all. facts may be NULL. (definedness.c) */
+/* Whether the base of a power in F [n], with one of the x [m] in its exponent, is not proved to be positive or 0: where it
+ * is negative the power is real at single places only, and a formula need not give all solutions of F = 0. facts may be
+ * NULL. (definedness.c) */
 QDOT_MUST_CHECK qdot_status qdot_has_single_places(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m,
                                                    const qdot_expr *x, const qdot_facts *facts, bool *yes);
-/* Whether F [n] holds if(...): what it does not choose need not be defined. (definedness.c) */
-QDOT_MUST_CHECK qdot_status qdot_holds_choice(qdot_pool *pool, size_t n, const qdot_expr *F, bool *yes);
 /* u if the relation is 0 < |u|; else nil. */
 qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
 /* A relation with the two sides of u != 0, where negative terms are moved to the other side. */

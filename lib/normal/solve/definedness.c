@@ -3,7 +3,6 @@
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/function.h"
-#include "expr/list.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 #include "normal/inequality/less.h"
@@ -229,44 +228,13 @@ qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
     return conditions_of_parts(pool, f, x, divisors_of_part);
 }
 
-/* --- powers of what may be negative, choices ------------------------------------------------------- */
-
-static bool
-contains_any(const qdot_pool *pool, qdot_expr e, size_t m, const qdot_expr *x)
-{
-    for (size_t j = 0; j < m; j++)
-        if (qdot_expr_contains(pool, e, x[j]))
-            return true;
-    return false;
-}
-
-qdot_expr
-qdot_bases_of_powers(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x)
-{
-    qdot_expr list = qdot_list(pool, 0, NULL);
-    qdot_walk w;
-
-    if (qdot_walk_begin_n(pool, n, F, &w) != QDOT_OK)
-        return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n; i++) {
-        const uint32_t count = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
-
-        for (uint32_t k = 1; k + 1 < count; k += 2) {
-            const qdot_expr base = qdot_expr_arg(pool, w.at[i], k);
-
-            if (contains_any(pool, qdot_expr_arg(pool, w.at[i], k + 1), m, x))
-                list = qdot_list_appended(pool, list, 1, &base);
-        }
-    }
-    qdot_walk_end(&w);
-    return list;
-}
+/* --- powers of what may be negative --------------------------------------------------------------- */
 
 qdot_status
 qdot_has_single_places(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x,
                        const qdot_facts *facts, bool *yes)
 {
-    const qdot_expr bases = qdot_bases_of_powers(pool, n, F, m, x);
+    const qdot_expr bases = qdot_expr_bases_of_powers(pool, n, F, m, x);
 
     *yes = false;
     QDOT_TRY(qdot_pool_check(pool));
@@ -279,18 +247,5 @@ qdot_has_single_places(qdot_pool *pool, size_t n, const qdot_expr *F, size_t m, 
         QDOT_TRY(qdot_decide_less(pool, QDOT_ZERO, base, false, facts, &d));
         *yes = d.verdict != QDOT_PROVED;
     }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_holds_choice(qdot_pool *pool, size_t n, const qdot_expr *F, bool *yes)
-{
-    qdot_walk w;
-
-    *yes = false;
-    QDOT_TRY(qdot_walk_begin_n(pool, n, F, &w));
-    for (size_t i = 0; i < w.n && !*yes; i++)
-        *yes = qdot_expr_is_function(pool, w.at[i], QDOT_IF);
-    qdot_walk_end(&w);
     return QDOT_OK;
 }

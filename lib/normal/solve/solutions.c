@@ -318,13 +318,6 @@ members_add_between(const members *m, double first, double last)
 
 /* --- the members: families with bounded values --- */
 
-/* Bounds of the declared end of a domain; the whole line if there is none or it contains a symbol. */
-static qdot_interval
-bounds_of_end(qdot_pool *pool, qdot_expr end)
-{
-    return end == QDOT_NIL ? qdot_interval_whole : qdot_zeros_constant(pool, end);
-}
-
 /* Find bounds of e [m] over the declared domains of all their symbols; the whole line if unknown. */
 static qdot_status
 bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval *to)
@@ -342,12 +335,9 @@ bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval
     for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
         qdot_expr a = qdot_expr_arg(pool, atoms, i);
 
-        if (qdot_expr_is_class(pool, a, QDOT_CONST))
-            continue;
         if (n == QDOT_ENCLOSURE_MOST || qdot_expr_kind(pool, a) != QDOT_SYM)
             return QDOT_OK;
-        X[n] = (qdot_interval){bounds_of_end(pool, qdot_expr_symbol(pool, a)->lo).lo,
-                               bounds_of_end(pool, qdot_expr_symbol(pool, a)->hi).hi};
+        X[n] = qdot_ball_domain(pool, a);
         x[n++] = a;
     }
     status = qdot_enclosure_new(pool, m, e, n, x, &bounds);

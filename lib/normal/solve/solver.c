@@ -83,11 +83,9 @@ vanishes_somewhere(const qdot_solver *s, qdot_expr e, const qdot_facts *facts, b
 static qdot_status
 look_for_choices(qdot_solver *s)
 {
-    bool chosen;
-
-    QDOT_TRY(qdot_holds_choice(s->pool, 1, &s->f, &chosen));
-    s->out->complete = s->out->complete && !chosen;
-    return QDOT_OK;
+    if (qdot_expr_find_function(s->pool, s->f, 1, (qdot_fun_id[]){QDOT_IF}, QDOT_NIL) != QDOT_NIL)
+        s->out->complete = false;
+    return qdot_pool_check(s->pool);
 }
 
 /* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some

@@ -5,10 +5,9 @@
 #include "expr/calculus.h"
 #include "expr/exact.h"
 #include "normal/prove/decide.h"
-#include "normal/refute/ball.h"
 #include "normal/solve/zeros-parts.h"
 
-enum { BITS = 128, FRACTION = 100000, PART = 120 };
+enum { FRACTION = 100000, PART = 120 };
 
 /* The fraction with the smallest denominator in lo ... hi; false if none is below `most`. */
 static bool
@@ -91,29 +90,4 @@ qdot_zeros_vanish(qdot_pool *pool, size_t m, const qdot_expr *f, size_t n,
         QDOT_TRY(qdot_pool_check(pool));
     }
     return QDOT_OK;
-}
-
-qdot_interval
-qdot_zeros_constant(qdot_pool *pool, qdot_expr e)
-{
-    qdot_interval bounds = qdot_interval_whole;
-    qdot_ball ball;
-    arb_srcptr v;
-
-    if (qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
-        return bounds;
-    qdot_ball_eval(&ball, BITS, NULL, NULL);
-    v = qdot_ball_get(&ball, e);
-    if (v != NULL) {
-        arf_t end;
-
-        arf_init(end);
-        arb_get_lbound_arf(end, v, BITS);
-        bounds.lo = arf_get_d(end, ARF_RND_FLOOR);
-        arb_get_ubound_arf(end, v, BITS);
-        bounds.hi = arf_get_d(end, ARF_RND_CEIL);
-        arf_clear(end);
-    }
-    qdot_ball_end(&ball);
-    return bounds;
 }

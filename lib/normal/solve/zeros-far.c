@@ -69,7 +69,7 @@ scale_add_term(qdot_pool *pool, far_scale *s, long exponent, qdot_expr rate)
     memmove(&s->term[k + 1], &s->term[k], (s->n - k) * sizeof *s->term);
     s->term[k].exponent = exponent;
     s->term[k].rate = rate;
-    s->term[k].bounds = qdot_zeros_constant(pool, rate);
+    s->term[k].bounds = qdot_ball_bounds(pool, rate);
     s->n++;
     return s->term[k].bounds.lo > 0 || s->term[k].bounds.hi < 0;
 }
@@ -328,7 +328,7 @@ form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
     bool sum = qdot_expr_kind(pool, u) == QDOT_SUM;
     uint32_t n = sum ? qdot_expr_count(pool, u) : 1;
     qdot_interval rest =
-        sum ? qdot_zeros_constant(pool, qdot_mul(pool, by, qdot_expr_arg(pool, u, 0)))
+        sum ? qdot_ball_bounds(pool, qdot_mul(pool, by, qdot_expr_arg(pool, u, 0)))
             : qdot_interval_point(0);
     far_form f = {.known = true};
 
@@ -342,7 +342,7 @@ form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
             f.known = scale_add_term(pool, &f.scale, exponent, qdot_mul(pool, c, rate));
         else if (part->known && scale_growth(&part->scale) <= 0)
             rest = qdot_interval_sum(rest,
-                                     qdot_interval_product(qdot_zeros_constant(pool, c),
+                                     qdot_interval_product(qdot_ball_bounds(pool, c),
                                                            form_range(t, part), false));
         else
             f.known = false;
@@ -356,7 +356,7 @@ form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
 static far_form
 form_exp(const far_task *t, qdot_expr u, qdot_expr by)
 {
-    const far_form f = form_exp_of_parts(t, u, by), factor = form_constant(qdot_zeros_constant(t->pool, by));
+    const far_form f = form_exp_of_parts(t, u, by), factor = form_constant(qdot_ball_bounds(t->pool, by));
     far_form all;
 
     if (f.known)
@@ -479,7 +479,7 @@ static far_form
 form_of_product(const far_task *t, qdot_expr e)
 {
     qdot_pool *pool = t->pool;
-    far_form f = form_constant(qdot_zeros_constant(pool, qdot_expr_arg(pool, e, 0)));
+    far_form f = form_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, 0)));
 
     for (uint32_t i = 1; i < qdot_expr_count(pool, e) && f.known; i += 2) {
         qdot_expr base = qdot_expr_arg(pool, e, i),
@@ -491,7 +491,7 @@ form_of_product(const far_task *t, qdot_expr e)
             factor = form_power(t, form_at(t, base), rational);
         else if (qdot_expr_contains(pool, base, t->x))
             factor = form_of_both(t, form_at(t, base), form_at(t, exponent));
-        else if (!(qdot_zeros_constant(pool, base).lo > 0))
+        else if (!(qdot_ball_bounds(pool, base).lo > 0))
             factor = form_unknown;
         else
             factor = form_exp(t, exponent, qdot_fun1(pool, QDOT_LOG, base));
@@ -504,12 +504,12 @@ static far_form
 form_of_sum(const far_task *t, qdot_expr e)
 {
     qdot_pool *pool = t->pool;
-    far_form f = form_constant(qdot_zeros_constant(pool, qdot_expr_arg(pool, e, 0)));
+    far_form f = form_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, 0)));
     bool any = qdot_expr_arg(pool, e, 0) != QDOT_ZERO;
 
     for (uint32_t i = 1; i < qdot_expr_count(pool, e) && f.known; i += 2) {
         far_form term =
-            form_constant(qdot_zeros_constant(pool, qdot_expr_arg(pool, e, i + 1)));
+            form_constant(qdot_ball_bounds(pool, qdot_expr_arg(pool, e, i + 1)));
 
         term = form_product(t, term, form_at(t, qdot_expr_arg(pool, e, i)));
         f = any ? form_sum(t, &f, &term) : term;
@@ -539,7 +539,7 @@ form_of_node(const far_task *t, qdot_expr e)
         return form_nowhere;
     if (!qdot_expr_contains(t->pool, e, t->x))
         return qdot_expr_is_scalar(t->pool, e)
-                   ? form_constant(qdot_zeros_constant(t->pool, e))
+                   ? form_constant(qdot_ball_bounds(t->pool, e))
                    : form_unknown;
     if (e == t->x)
         return (far_form){.bounds = {1, 1}, .scale = {.power = UNIT}, .known = true};

@@ -1,13 +1,14 @@
 /* zeros-find.c -- finds all zeros in a box: splits equations into systems, treats infinity and
  * ends, merges results. */
 #include "expr/build.h"
+#include "expr/elementary.h"
+#include "expr/function.h"
 #include "expr/node.h"
 #include "normal/solve/zeros.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "normal/solve/conditions.h"
 #include "normal/solve/zeros-task.h"
 
 enum {
@@ -38,9 +39,9 @@ read_ranges(qdot_zeros_task *t)
         t->lo[j] = qdot_interval_point(-INFINITY);
         t->hi[j] = qdot_interval_point(INFINITY);
         if (!r->turn && r->lo != QDOT_NIL)
-            t->lo[j] = qdot_zeros_constant(t->pool, both[count++] = r->lo);
+            t->lo[j] = qdot_ball_bounds(t->pool, both[count++] = r->lo);
         if (!r->turn && r->hi != QDOT_NIL)
-            t->hi[j] = qdot_zeros_constant(t->pool, both[count++] = r->hi);
+            t->hi[j] = qdot_ball_bounds(t->pool, both[count++] = r->hi);
         t->ends[j] = qdot_list(t->pool, count, both);
         t->bounds[j] = (qdot_interval){t->lo[j].lo, t->hi[j].hi};
         if (r->turn)
@@ -181,7 +182,7 @@ decide_doubt(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
     }
     QDOT_TRY(qdot_zeros_exact_place(t, f, place, centre, decided));
     for (size_t j = 0; j < t->n && *decided; j++) {
-        qdot_interval c = qdot_zeros_constant(t->pool, centre[j]);
+        qdot_interval c = qdot_ball_bounds(t->pool, centre[j]);
 
         reach = fmax(reach, fmax(box->at[j].hi - c.lo, c.hi - box->at[j].lo));
         place->at[j] = c.lo / 2 + c.hi / 2;
@@ -428,17 +429,14 @@ look_at_base(qdot_zeros_task *t, qdot_expr base)
 static qdot_status
 find_single(qdot_zeros_task *t)
 {
-    const qdot_expr bases = qdot_bases_of_powers(t->pool, t->n, t->F, t->n, t->x);
-    bool chosen;
+    const qdot_expr bases = qdot_expr_bases_of_powers(t->pool, t->n, t->F, t->n, t->x);
 
     QDOT_TRY(qdot_pool_check(t->pool));
     for (uint32_t i = 0; i < qdot_expr_count(t->pool, bases); i++)
         QDOT_TRY(look_at_base(t, qdot_expr_arg(t->pool, bases, i)));
-    if (!t->nowhere)
-        return QDOT_OK;
-    QDOT_TRY(qdot_holds_choice(t->pool, t->n, t->F, &chosen));
-    t->nowhere = !chosen; /* unless an if(...) chooses another value there */
-    return QDOT_OK;
+    for (size_t i = 0; i < t->n && t->nowhere; i++) /* unless an if(...) chooses another value there */
+        t->nowhere = qdot_expr_find_function(t->pool, t->F[i], 1, (qdot_fun_id[]){QDOT_IF}, QDOT_NIL) == QDOT_NIL;
+    return qdot_pool_check(t->pool);
 }
 
 static qdot_status

@@ -184,7 +184,7 @@ decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
         QDOT_TRY(qdot_pool_check(s->pool));
         if (c == QDOT_NIL)
             continue;
-        at = qdot_zeros_constant(s->pool, c);
+        at = qdot_ball_bounds(s->pool, c);
         if (!(at.lo >= wide.lo && at.hi <= wide.hi))
             continue;
         QDOT_TRY(is_only_zero(s, c, wide, &k));
@@ -368,7 +368,7 @@ is_no_zero(const qdot_zeros_system *s, qdot_expr at, bool *yes)
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     }
-    y = qdot_zeros_constant(s->pool, value);
+    y = qdot_ball_bounds(s->pool, value);
     *yes = y.lo > 0 || y.hi < 0;
     return qdot_pool_check(s->pool);
 }
@@ -386,7 +386,7 @@ exclude_by_growth(const qdot_zeros_system *s, qdot_interval X, bool *excluded)
     *excluded = false;
     if (c == QDOT_NIL)
         return qdot_pool_check(pool);
-    at = qdot_zeros_constant(pool, c);
+    at = qdot_ball_bounds(pool, c);
     to = qdot_add(pool, c, qdot_pow_int(pool, s->x[0], -1));
     /* simplified first, so that growing terms that cancel do not count */
     g = qdot_simplify(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), NULL);

@@ -126,7 +126,7 @@ is_defined(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
         if (status != QDOT_EDOMAIN)
             QDOT_TRY(status);
         *defined = status == QDOT_OK &&
-                   (e == QDOT_ZERO || !isinf(qdot_zeros_constant(t->pool, e).hi));
+                   (e == QDOT_ZERO || !isinf(qdot_ball_bounds(t->pool, e).hi));
     }
     return QDOT_OK;
 }
@@ -196,7 +196,7 @@ side_by_sign(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p,
     qdot_interval y, slope;
 
     QDOT_TRY(qdot_pool_check(t->pool));
-    y = qdot_zeros_constant(t->pool, at_end);
+    y = qdot_ball_bounds(t->pool, at_end);
     QDOT_TRY(qdot_enclosure_new(t->pool, 1, f, 1, t->x, &bounds));
     qdot_enclosure_eval(bounds, p->alone, true);
     slope = qdot_enclosure_get(bounds, 0)->slope[0];
@@ -232,7 +232,7 @@ side_of(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_place *p, size_t
     if (!yes) {
         QDOT_TRY(qdot_zeros_exact_place(t, f, p, value, &yes));
         yes = yes &&
-              qdot_zeros_constant(t->pool, qdot_sub(t->pool, value[j], end)).lo == 0 &&
+              qdot_ball_bounds(t->pool, qdot_sub(t->pool, value[j], end)).lo == 0 &&
               value[j] == end;
     }
     if (yes)

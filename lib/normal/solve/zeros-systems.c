@@ -49,7 +49,7 @@ factor_that_may_vanish(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_
         break;
     }
     if (!holds_unknown(pool, e, n, x)) {
-        qdot_interval c = qdot_zeros_constant((qdot_pool *)pool, e);
+        qdot_interval c = qdot_ball_bounds((qdot_pool *)pool, e);
 
         if (c.lo > 0 || c.hi < 0)
             return QDOT_NIL;

@@ -76,7 +76,4 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_near(qdot_pool *pool, size_t n, const qdo
                                             const qdot_expr *x, const double *guess,
                                             qdot_zeros *out);
 
-/* Bounds of a constant; the whole line if it has no value. */
-qdot_interval qdot_zeros_constant(qdot_pool *pool, qdot_expr e);
-
 #endif
