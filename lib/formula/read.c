@@ -52,7 +52,7 @@ top(reader *r)
     return r->groups.at + r->groups.n - 1;
 }
 
-/* The digit that stands raised at this place, *n its bytes; -1: none does. */
+/* The value of the superscript digit at this place, which has *n bytes; -1: there is none. */
 static int
 raised_digit(const char *at, size_t *n)
 {
@@ -101,7 +101,7 @@ index_end(const char *open)
 
 /* --- joining what was read ---------------------------------------------------------------- */
 
-/* A side of a fraction, an exponent: where it is drawn its brackets go. */
+/* Remove the round brackets of a numerator, a denominator or an exponent where it is drawn, which needs none. */
 static qdot_formula_id
 without_bracket(const reader *r, qdot_formula_id id)
 {
@@ -164,7 +164,7 @@ new_text(const reader *r, qdot_formula_role role, const char *text, size_t n)
     return qdot_formula_add_text(r->f, 0, role, text, n);
 }
 
-/* What is no part of a formula: a sign as it stands. */
+/* Read a character that has no meaning in a formula: it is shown as it was typed. */
 static void
 take_label(reader *r, size_t n)
 {
@@ -324,7 +324,7 @@ read_number(reader *r, qdot_formula_id power)
     take_factor(r, all, power);
 }
 
-/* A name, a number, what stands in brackets; power: it is the exponent of that. False: there is none here. */
+/* Read a name, a number or a bracket, as the exponent of `power` if that is a node (not 0). False: none of these is here. */
 static bool
 read_factor(reader *r, qdot_formula_id power)
 {
@@ -387,7 +387,7 @@ begin_power(reader *r)
     return power;
 }
 
-/* `^` and what follows. */
+/* Read `^` and the exponent after it. */
 static void
 read_power(reader *r)
 {
@@ -467,7 +467,7 @@ read_add_sign(reader *r, qdot_formula_sign sign, size_t n)
     skip_blanks(r);
 }
 
-/* A sign between two terms, two sides, before a term. */
+/* Read a sign: + and -, a relation, a comma. */
 static bool
 read_sign(reader *r)
 {
@@ -490,7 +490,7 @@ read_sign(reader *r)
     return false;
 }
 
-/* A blank: before a sign it says nothing; behind it a word may be a sign. */
+/* Read blanks. Before a sign they are dropped; the word after them may be a sign, as `vs`. */
 static void
 read_blank(reader *r)
 {

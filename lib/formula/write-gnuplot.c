@@ -143,7 +143,7 @@ find_contents(const qdot_formula *f, qdot_formula_id id, contents *c)
 
 /* --- writing ------------------------------------------------------------------------------ */
 
-/* Append text in which gnuplot takes no character for a command. */
+/* Append text; a backslash before each character that is a command in enhanced text makes gnuplot print it. */
 static void
 add_literally(qdot_text *out, const char *text, size_t n)
 {

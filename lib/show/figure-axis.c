@@ -13,8 +13,6 @@
 
 enum { EXACT = 17, TIC = 12, MOST_TICS = 40 };
 
-static const double pi = 3.14159265358979323846;
-
 /* A tic distance, 1, 2 or 5 times a power of ten, that divides `span` into about `steps`; 0 if
  * there is none. */
 static double
@@ -43,15 +41,15 @@ set_angle_step(qdot_figure_axis *a, double steps)
     enum { ANGLES = sizeof angles / sizeof *angles };
     size_t best = 0;
 
-    if (wanted < pi / 20 || wanted > 150 * pi)
+    if (wanted < M_PI / 20 || wanted > 150 * M_PI)
         return false;
     for (size_t i = 1; i < ANGLES; i++)
-        if (fabs(log(angles[i].times * pi / (angles[i].over * wanted))) <
-            fabs(log(angles[best].times * pi / (angles[best].over * wanted))))
+        if (fabs(log(angles[i].times * M_PI / (angles[i].over * wanted))) <
+            fabs(log(angles[best].times * M_PI / (angles[best].over * wanted))))
             best = i;
     a->times = angles[best].times;
     a->over = angles[best].over;
-    a->step = a->times * pi / a->over;
+    a->step = a->times * M_PI / a->over;
     return true;
 }
 
@@ -59,10 +57,10 @@ bool
 qdot_figure_add_pi(qdot_text *out, double x)
 {
     enum { PARTS = 12 };
-    const double parts = round(x * PARTS / pi);
+    const double parts = round(x * PARTS / M_PI);
     long above = labs((long)parts), below = PARTS;
 
-    if (!(fabs(parts) < 1e9) || fabs(x * PARTS / pi - parts) > 1e-9 * fmax(1, fabs(parts)))
+    if (!(fabs(parts) < 1e9) || fabs(x * PARTS / M_PI - parts) > 1e-9 * fmax(1, fabs(parts)))
         return false;
     for (long k = PARTS; k > 1; k--)
         if (above % k == 0 && below % k == 0) {

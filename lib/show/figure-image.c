@@ -52,6 +52,12 @@ figure_kind_of(const char *path)
     return NULL;
 }
 
+bool
+qdot_figure_is_file(const char *path)
+{
+    return figure_kind_of(path) != NULL;
+}
+
 static void
 add_terminal(const qdot_figure_drawing *d)
 {
@@ -189,7 +195,7 @@ write_tikz(const qdot_figure *figure, const qdot_figure_kind *kind, const char *
     return status;
 }
 
-/* Check that a list of what each curve has is no longer than there are curves. */
+/* Fail if a list of names or colours of the curves, n long, is longer than there are curves. */
 static qdot_status
 check_list(const char *list, size_t n, size_t curves)
 {

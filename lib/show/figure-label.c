@@ -65,15 +65,18 @@ add_written(qdot_text *out, const qdot_formula *f, qdot_formula_id id, language 
     }
 }
 
-/* Append a formula as it was typed. */
+/* Append a text: a formula as it was typed, or the letters as they stand. */
 static void
-add_read(qdot_text *out, const char *typed, language to)
+add_typed(qdot_text *out, const char *typed, bool formula, language to)
 {
     qdot_formula f = {0};
     const qdot_formula_id all = qdot_formula_new(&f, QDOT_FORMULA_SPAN, 0, 0);
     qdot_status status;
 
-    qdot_formula_read(&f, all, typed, to == IN_LINE ? QDOT_NOTATION_LINE : QDOT_NOTATION_DRAWN);
+    if (formula)
+        qdot_formula_read(&f, all, typed, to == IN_LINE ? QDOT_NOTATION_LINE : QDOT_NOTATION_DRAWN);
+    else
+        qdot_formula_add_text(&f, all, QDOT_TEXT_LABEL, typed, strlen(typed));
     status = qdot_formula_status(&f);
     if (status == QDOT_OK)
         status = add_written(out, &f, all, to);
@@ -84,7 +87,7 @@ add_read(qdot_text *out, const char *typed, language to)
 void
 qdot_figure_add_line(qdot_text *out, const char *formula)
 {
-    add_read(out, formula, IN_LINE);
+    add_typed(out, formula, true, IN_LINE);
 }
 
 /* --- writing labels ----------------------------------------------------------------- */
@@ -92,15 +95,7 @@ qdot_figure_add_line(qdot_text *out, const char *formula)
 void
 qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label)
 {
-    if (label->text != NULL && label->formula) {
-        add_read(out, label->text, IN_GNUPLOT);
-        return;
-    }
-    for (const char *c = label->text != NULL ? label->text : ""; *c != '\0'; c++) {
-        if (strchr("^_{}@&~\\", *c) != NULL)
-            qdot_text_char(out, '\\');
-        qdot_text_char(out, *c);
-    }
+    add_typed(out, label->text != NULL ? label->text : "", label->formula, IN_GNUPLOT);
 }
 
 /* Append the letter of a literal text as LaTeX shows it, in any encoding of its fonts. Returns its bytes. */
@@ -135,7 +130,7 @@ qdot_figure_add_latex(qdot_text *out, const qdot_figure_label *label)
 
     if (label->formula && *text != '\0') {
         qdot_text_char(out, '$');
-        add_read(out, text, IN_LATEX);
+        add_typed(out, text, true, IN_LATEX);
         qdot_text_char(out, '$');
         return;
     }

@@ -32,7 +32,7 @@ is_chosen(const qdot_panel *panel, size_t colour)
     return false;
 }
 
-/* The place in the list of the colour of curve k: chosen, or the next one that no curve has chosen. */
+/* The index in `colours` of the colour of curve k: the one chosen for it, or the next one that was chosen for no curve. */
 static size_t
 colour_of(const qdot_panel *panel, size_t k)
 {

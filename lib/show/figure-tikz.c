@@ -257,10 +257,10 @@ typedef struct {
     double near; /* of bin 0: how far from the line, in parts of the axes, a point that is left out may be */
 } choice;
 
-/* On 10 cm a twentieth of a millimetre; a fifth, still less than a line is wide. */
+/* Parts of an axis: on one of 10 cm 0.05 mm, and 0.2 mm, which is still less than the width of a line. */
 static const double finest = 5e-4, coarsest = 2e-3;
 
-/* Where a point is, in parts of the axis. */
+/* The position of point k along an axis, 0 at its beginning and 1 at its end. */
 static double
 place(const choice *c, int axis, size_t k)
 {

@@ -83,10 +83,13 @@ typedef struct {
     bool log[3], pi[3];
 } qdot_figure_view;
 
+/* Whether the ending of the name is that of a figure: .svg .png .pdf .eps .tikz. */
+bool qdot_figure_is_file(const char *path);
+
 /* Type by ending: .svg .png .pdf .eps, drawn by gnuplot; .tikz for LaTeX. path NULL: a window of gnuplot that persists.
  *
- * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend or colours of more curves than there are; QDOT_EDOMAIN if no point can be
- * shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;
+ * Errors: QDOT_EINVAL for another ending, a figure without curves, a legend or colours of more curves than there are;
+ * QDOT_EDOMAIN if no point can be shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;
  * QDOT_EINTR; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);
 

@@ -67,7 +67,7 @@ find_end(const qdot_trace *p, double sign)
     return best;
 }
 
-/* Whether the ordinate goes on growing around point k. */
+/* Whether the ordinate, times sign, exceeds its value at point k by a large factor if the curve is sampled ever closer there. */
 static qdot_status
 is_growing(const qdot_trace_source *source, const qdot_trace *p, size_t k, double sign, bool *is)
 {

@@ -74,7 +74,7 @@ texts_find(qdot_record *r, const qdot_filled *first, size_t most, const char **t
     return QDOT_OK;
 }
 
-/* Refuse what is no name of a colour, with those that are. */
+/* Fail: the word is no name of a colour; the hint lists those there are. */
 static qdot_status
 refuse_colour(qdot_record *r, const qdot_filled *part)
 {
@@ -89,7 +89,7 @@ refuse_colour(qdot_record *r, const qdot_filled *part)
     return QDOT_ENAME;
 }
 
-/* COLOUR, ...: of each curve in order. */
+/* Read the colours of the curves, in their order, after the word `colour`. */
 static qdot_status
 colours_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
 {
@@ -114,7 +114,7 @@ colours_find(qdot_record *r, const qdot_filled *first, qdot_panel_choice *p)
     return QDOT_OK;
 }
 
-/* Take the texts of all axes, `labels`, or of one. */
+/* Read the texts of all axes, after `labels`, or of one axis, after `xlabel` or `ylabel`. */
 static qdot_status
 labels_find(qdot_record *r, const qdot_filled *word, qdot_panel_choice *p)
 {

@@ -12,8 +12,7 @@ typedef struct {
     bool keep;
 } qdot_figure_choice;
 
-/* Options of one panel: from A to B, range A..B, log x|y|xy, ticks pi [x|y|xy], equal, points, lines, colour NAME, title TEXT, labels TEXT, TEXT,
- * xlabel TEXT, ylabel TEXT, legend TEXT, TEXT. */
+/* Options of one panel, as in QDOT_FIGURE_USAGE. */
 typedef struct {
     qdot_figure_range range[2];
     bool logs, log[2]; /* axes with logarithmic scale; logs: the option was given */
@@ -25,7 +24,8 @@ typedef struct {
 
 /* The options as they occur in the usages of statements. */
 #define QDOT_FIGURE_USAGE                                                                 \
-    "[from A to B] [range A..B] [log x|y|xy] [ticks pi [x|y|xy]] [equal] [points] [lines] [colour COLOUR, ...] [title \"TEXT\"] [labels \"X\", ...] "    \
+    "[from A to B] [range A..B] [log x|y|xy] [ticks pi [x|y|xy]] [equal] [points] [lines] "                                   \
+    "[colour COLOUR, ...] [title \"TEXT\"] [labels \"X\", ...] "                                                            \
     "[xlabel \"X\"] [ylabel \"Y\"] [legend \"NAME\", ...] [size W, H] [keep] [to \"FILE\"]"
 /* Those among the parts [from, to) of a statement; of the figure each once, whichever panel says it. Errors: QDOT_EINVAL. */
 QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,

@@ -89,7 +89,7 @@ columns_collect(const qdot_plot_said *said, data_file *d, const qdot_filled **ne
 
 /* --- the columns of the file ------------------------------------------------------------- */
 
-/* The place of the column that the file calls so; `columns` if there is none. */
+/* The index of the column with this name in the file; csv->columns if there is none. */
 static size_t
 column_called(const qdot_csv *csv, const char *label)
 {
@@ -117,7 +117,7 @@ is_named(const data_file *d)
     return false;
 }
 
-/* Add what columns the file has as a hint to an error. */
+/* Add the names of the columns of the file to the present error, as its hint. */
 static qdot_status
 hint_columns(const qdot_csv *csv)
 {

@@ -91,9 +91,10 @@ typedef struct {
 static qdot_status
 curves_over(const qdot_plot_said *said, const qdot_loop *loop, void *user)
 {
+    const qdot_filled *end = qdot_plot_data_find(said);
     const repeated *x = user;
 
-    for (const qdot_filled *part = said->from; !qdot_filled_is(part, "vs") && part < qdot_plot_data_find(said); part++)
+    for (const qdot_filled *part = said->from; part < end && !qdot_filled_is(part, "vs"); part++)
         if (part->node->kind == QDOT_USAGE_HOLE)
             QDOT_TRY(curve_over(said->record, part, x->v, loop, x->panel));
     return QDOT_OK;

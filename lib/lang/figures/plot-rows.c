@@ -24,7 +24,8 @@ rows_find(const qdot_record *r)
 bool
 qdot_plot_rows_is(const qdot_record *r)
 {
-    return qdot_record_hole(r, NULL, "ROWS") != NULL || (qdot_record_hole(r, "plot", "EXPR") == NULL && qdot_record_hole(r, "plot", "\"DATA\"") == NULL);
+    return qdot_record_hole(r, NULL, "ROWS") != NULL || (qdot_record_hole(r, "plot", "EXPR") == NULL &&
+                                                         qdot_record_hole(r, "plot", "\"DATA\"") == NULL);
 }
 
 /* The column that is the abscissa: what was swept; of points with several numbers the first of these,

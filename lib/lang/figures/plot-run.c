@@ -70,9 +70,10 @@ read_item(qdot_record *r, const qdot_filled *part, qdot_plot_panel *p)
 static qdot_status
 read_items(const qdot_plot_said *said, qdot_plot_panel *p)
 {
+    const qdot_filled *end = qdot_plot_data_find(said);
     size_t first = p->items.n;
 
-    for (const qdot_filled *part = said->from; part < qdot_plot_data_find(said); part++) {
+    for (const qdot_filled *part = said->from; part < end; part++) {
         if (part->node->kind == QDOT_USAGE_WORD && !qdot_filled_is(part, "vs"))
             return QDOT_OK;
         if (part->node->kind != QDOT_USAGE_HOLE)

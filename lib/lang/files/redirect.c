@@ -14,6 +14,7 @@
 #include "lang/answer/sheet.h"
 #include "lang/declare/scene-file.h"
 #include "lang/session/output.h"
+#include "show/figure.h"
 
 struct qdot_redirect_type {
     const char *ending;
@@ -56,16 +57,14 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
 static qdot_status
 redirect_refuse(const char *path, const char *ending)
 {
-    static const char *const figures[] = {".svg", ".png", ".pdf", ".eps", ".tikz", ".gif"};
     static const char *const data[] = {".csv", ".h5"};
     qdot_spelling nearest;
 
-    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        if (strcmp(ending, figures[i]) == 0) {
-            (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for figures", path, ending);
-            return qdot_hint("formulas: \"x.tex\" (LaTeX) or \"x.html\" (MathML); figures: "
-                             "`plot ... to \"x%s\"`", ending);
-        }
+    if (qdot_figure_is_file(path) || strcmp(ending, ".gif") == 0) {
+        (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for figures", path, ending);
+        return qdot_hint("formulas: \"x.tex\" (LaTeX) or \"x.html\" (MathML); figures: "
+                         "`plot ... to \"x%s\"`", ending);
+    }
     for (size_t i = 0; i < sizeof data / sizeof *data; i++)
         if (strcmp(ending, data[i]) == 0) {
             (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for columns of numbers", path,

@@ -70,14 +70,8 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
 qdot_status
 qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_choice *panel)
 {
-    static const char *const drawn[] = {".svg", ".png", ".pdf", ".eps", ".tikz"};
-    bool good;
-
     QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, figure, panel));
-    good = figure->path == NULL || qdot_data_file_is(figure->path);
-    for (size_t i = 0; !good && i < sizeof drawn / sizeof *drawn; i++)
-        good = qdot_ends_in(figure->path, drawn[i]);
-    if (good)
+    if (figure->path == NULL || qdot_data_file_is(figure->path) || qdot_figure_is_file(figure->path))
         return QDOT_OK;
     qdot_record_blame(r, qdot_record_hole(r, NULL, "T0..T1") + 1);
     (void)qdot_fail(QDOT_EINVAL, "the name `%.200s` does not tell the kind of file", figure->path);

@@ -14,7 +14,8 @@ static qdot_status plot_draw(qdot_record *r);
 QDOT_STATEMENT(plot) = {
     .word = "plot",
     .group = QDOT_NUMBERS,
-    .usage = "plot [EXPR [vs EXPR], \"DATA\" : T, EXPR, ... | EXPR, \"DATA\" : T, EXPR, ... vs NAME = A..B | ROWS] [for NAME = A..B, ...] " QDOT_FIGURE_USAGE
+    .usage = "plot [EXPR [vs EXPR], \"DATA\" : T, EXPR, ... | EXPR, \"DATA\" : T, EXPR, ... vs NAME = A..B | ROWS] "
+             "[for NAME = A..B, ...] " QDOT_FIGURE_USAGE
              " [| plot ...]",
     .summary = "a figure along the latest run, of an expression over a variable, of columns of a file, or of a table of rows; "
                "panels one below the other",
