@@ -292,6 +292,16 @@ qdot_course_systems(const qdot_course *c)
     return c->systems.at;
 }
 
+size_t
+qdot_course_count(const qdot_course *c, size_t event)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        n += c->occurrences.at[i].event == event;
+    return n;
+}
+
 void
 qdot_course_clear(qdot_course *c)
 {

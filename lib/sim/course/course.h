@@ -43,6 +43,9 @@ QDOT_MUST_CHECK qdot_status qdot_course_run(qdot_course *c, const qdot_ode_metho
  * that something else has filled. */
 QDOT_MUST_CHECK qdot_status qdot_course_prepare(qdot_course *c);
 
+/* The number of occurrences of an event in the course. */
+size_t qdot_course_count(const qdot_course *c, size_t event);
+
 /* The systems of all modes of the run, for cursors along c->tr. */
 const qdot_ode_system *qdot_course_systems(const qdot_course *c);
 

@@ -119,23 +119,13 @@ keep_end(qdot_run *run)
     return status == QDOT_EDOMAIN ? QDOT_OK : status; /* undefined: the exact end state stays nil */
 }
 
-static size_t
-count_occurrences(const qdot_course *c, size_t event)
-{
-    size_t n = 0;
-
-    for (size_t i = 0; i < c->occurrences.n; i++)
-        n += c->occurrences.at[i].event == event;
-    return n;
-}
-
 /* Tell of each event that a companion of the guide met more often: all digits are looked for where the guide met it. */
 static qdot_status
 say_missed(qdot_run *run)
 {
     for (size_t i = 0; i < run->stage.events.n; i++) {
-        const size_t own = count_occurrences(&run->course, i), other = count_occurrences(&run->companion, i),
-                     third = count_occurrences(&run->twin, i), most = other > third ? other : third;
+        const size_t own = qdot_course_count(&run->course, i), other = qdot_course_count(&run->companion, i),
+                     third = qdot_course_count(&run->twin, i), most = other > third ? other : third;
 
         if (most > own)
             qdot_text_format(qdot_run_next_notice(run),
@@ -155,7 +145,7 @@ check_guide(qdot_run *run)
     if (run->course.failed)
         return QDOT_OK;
     QDOT_TRY(qdot_run_twin(run));
-    t = qdot_run_parts(run);
+    t = qdot_run_time_of_parting(run);
     QDOT_TRY(say_missed(run));
     qdot_run_drop_companions(run);
     return isnan(t) ? QDOT_OK : qdot_precise_beyond_doubles(t);

@@ -91,7 +91,7 @@ time_of_parting(const qdot_course *run, const qdot_course *other)
 }
 
 double
-qdot_run_parts(const qdot_run *run)
+qdot_run_time_of_parting(const qdot_run *run)
 {
     const double first = run->has_companion ? time_of_parting(&run->course, &run->companion) : NAN,
                  second = run->has_twin ? time_of_parting(&run->course, &run->twin) : NAN;
@@ -114,17 +114,6 @@ qdot_run_covered(const qdot_run *run, double t)
 {
     return run->has_companion && covers(&run->companion, t)
            && (!run->has_twin || covers(&run->twin, t));
-}
-
-/* The number of occurrences of an event in a course. */
-static size_t
-count(const qdot_course *c, size_t event)
-{
-    size_t n = 0;
-
-    for (size_t i = 0; i < c->occurrences.n; i++)
-        n += c->occurrences.at[i].event == event;
-    return n;
 }
 
 /* --- making the companion ------------------------------------------------------------ */
@@ -263,7 +252,7 @@ met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
     for (size_t i = 0; i < run->stage.events.n; i++) {
         const qdot_staged_event *e = run->stage.events.at + i;
 
-        if ((!acting || qdot_staged_event_acts(e)) && count(&run->course, i) != count(c, i))
+        if ((!acting || qdot_staged_event_acts(e)) && qdot_course_count(&run->course, i) != qdot_course_count(c, i))
             return false;
     }
     return went_alike(&run->course, c);
@@ -461,7 +450,7 @@ find_doubt(qdot_run *run, const qdot_course *c)
     char text[300];
 
     for (size_t i = 0; i < run->stage.events.n; i++) {
-        size_t a = count(&run->course, i), b = count(c, i);
+        size_t a = qdot_course_count(&run->course, i), b = qdot_course_count(c, i);
 
         if (a == b)
             continue;

@@ -24,7 +24,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_end_error(qdot_run *run, double *difference
 bool qdot_run_comparable(const qdot_run *run);
 
 /* The time from which on a companion went through other pieces than the run; NaN: none did. */
-double qdot_run_parts(const qdot_run *run);
+double qdot_run_time_of_parting(const qdot_run *run);
 
 /* Whether the companions did not fail and reach t. */
 bool qdot_run_covered(const qdot_run *run, double t);

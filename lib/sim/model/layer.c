@@ -108,7 +108,7 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
 static double
 beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {
-    /* no layer is needed: for friction laws, and for u(t), whose zeros are located exactly */
+    /* friction laws need no layer, nor do functions u(t) of time alone, whose zeros are located exactly */
     if (surface->power < 1 || qdot_layers_in_time(pool, surface))
         return 0;
     return fmin(beyond_steps * pow(tol, 1.25), pow(share * tol, 1 / (1 + surface->power)));

@@ -28,6 +28,7 @@ qdot_run_back_tell(qdot_run *run)
     }
     if (!to)
         return QDOT_OK;
-    qdot_text_add(to, ": undone, back in time; the possibility that the motion crossed there the other way, without it, is ignored");
+    qdot_text_add(to, ": undone, back in time; the possibility that the motion crossed there the other way, without it, "
+                      "is ignored");
     return qdot_text_status(to);
 }
