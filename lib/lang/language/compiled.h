@@ -29,7 +29,9 @@ const char *qdot_compiled_next_name(const qdot_compiled *program, uint32_t *k);
 bool qdot_compiled_is_list(const qdot_compiled *program);
 /* The name in NAME[K] and its number K, if the whole program is that; NULL: it is not. */
 const char *qdot_compiled_member_of(const qdot_compiled *program, long *k);
-/* Whether it calls value, max, min, mean or drift, which read a run at intermediate times. */
+/* Whether this code calls value, max, min, mean or drift, which read a run at intermediate times. */
+bool qdot_postfix_reads_way(const qdot_postfix *code);
+/* Whether any code of the program does. */
 bool qdot_compiled_reads_way(const qdot_compiled *program);
 
 /* Evaluate a parsed expression, as the readers of the same names in read.h do. */

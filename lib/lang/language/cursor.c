@@ -219,7 +219,7 @@ qdot_cursor_is_call(const qdot_cursor *c, const qdot_token *t)
     return t->kind == QDOT_TOKEN_NAME && t[1].glued && qdot_token_is(t + 1, "(") && qdot_cursor_knows(c->session, t->text);
 }
 
-/* Whether the word joins parts of a statement, as in `2 on bob`, and is no missing factor. */
+/* Whether the word begins another part of a statement, as `on` in `force 2 on bob`, so that no `*` is missing before it. */
 static bool
 joins_parts(const qdot_cursor *c, const qdot_token *t)
 {

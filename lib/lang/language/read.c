@@ -74,14 +74,17 @@ qdot_compiled_member_of(const qdot_compiled *program, long *k)
 }
 
 bool
+qdot_postfix_reads_way(const qdot_postfix *code)
+{
+    return (code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_RANGE) && qdot_range_is_of_way(code->token->text);
+}
+
+bool
 qdot_compiled_reads_way(const qdot_compiled *program)
 {
-    for (size_t i = 0; i < program->code.list.n; i++) {
-        const qdot_postfix *code = &program->code.list.at[i];
-
-        if ((code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_RANGE) && qdot_range_is_of_way(code->token->text))
+    for (size_t i = 0; i < program->code.list.n; i++)
+        if (qdot_postfix_reads_way(&program->code.list.at[i]))
             return true;
-    }
     return false;
 }
 

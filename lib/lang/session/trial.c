@@ -17,7 +17,7 @@ qdot_trial_begin(qdot_trial *t, qdot_session *session)
     const qdot_values *values = session->values;
     qdot_status status = QDOT_OK;
 
-    *t = (qdot_trial){0};
+    *t = (qdot_trial){.measured = session->measured->n};
 #define X(list)                                                                          \
     for (size_t i = 0; i < values->list.n && status == QDOT_OK; i++)                     \
         status = qdot_vec_push(&t->list, values->list.at[i]);
@@ -63,7 +63,6 @@ qdot_trial_run(qdot_trial *t, const qdot_run_request *request)
     qdot_run *run = NULL;
     qdot_status status = qdot_run_new(t->session->scene, request, &run);
 
-    t->measured = t->session->measured->n;
     if (status == QDOT_OK)
         status = qdot_pool_check(t->session->pool);
     if (run != NULL && status == QDOT_OK)
@@ -75,7 +74,6 @@ qdot_trial_run(qdot_trial *t, const qdot_run_request *request)
 qdot_status
 qdot_trial_lend(qdot_trial *t, const qdot_run_request *request, qdot_run *run)
 {
-    t->measured = t->session->measured->n;
     QDOT_TRY(qdot_runs_keep(t->session, run_name, "", request, NULL));
     t->session->runs->at[t->session->runs->n - 1].run = run;
     t->run = run;

@@ -91,7 +91,7 @@ sensitivity_carry_out(qdot_record *r, qdot_slopes *slopes, qdot_text *text)
     return tell_slopes(slopes, qdot_text_str(text), e, first);
 }
 
-/* Where there is no run yet, make a bare one that is as long as the statement needs. */
+/* If the session has no run, make one with default options up to the latest time that the statement reads. */
 static qdot_status
 make_run_if_none(qdot_record *r, qdot_trial *trial)
 {

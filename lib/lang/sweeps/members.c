@@ -53,7 +53,7 @@ qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double 
     return qdot_run_options_put(session, &m->run); /* also for the columns, which may contain these parameters */
 }
 
-/* Make the run of member k up to `to` and pass it to `use`; the session keeps it meanwhile. */
+/* Make the run of member k up to `to` and pass it to `use`. While `use` works it is the latest run of the session. */
 static qdot_status
 run_to(qdot_cursor *c, const qdot_members *m, size_t k, qdot_expr to, double *swept,
        qdot_member_use use, void *user)

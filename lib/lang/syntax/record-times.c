@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "lang/session/bind.h"
-#include "lang/session/range.h"
 
 /* If the last argument of the call that the code makes, a time or the end of a range A..B, is farther from `start` than *t
  * it replaces *latest and *t. */
@@ -38,8 +37,7 @@ qdot_record_farthest_time(const qdot_record *r, const qdot_token *at, qdot_expr 
         for (uint32_t k = 0; program->from >= at && k < program->code.list.n; k++) {
             const qdot_postfix *code = &program->code.list.at[k];
 
-            if ((code->op == QDOT_POSTFIX_CALL || code->op == QDOT_POSTFIX_RANGE) && code->last > 0 &&
-                qdot_range_is_of_way(code->token->text))
+            if (code->last > 0 && qdot_postfix_reads_way(code))
                 note_time(r, program, k, from, &latest, &t);
         }
     }

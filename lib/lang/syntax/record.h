@@ -63,8 +63,9 @@ const qdot_filled *qdot_record_hole(const qdot_record *r, const char *before, co
 const qdot_filled *qdot_record_next(const qdot_record *r, const qdot_filled *part, const char *text);
 /* Whether a part is the hole (or word) of that name in the usage. */
 bool qdot_filled_is(const qdot_filled *part, const char *text);
-/* Whether a hole was filled with just this word; with a text in quotes. */
+/* Whether the part consists of one token, this word. */
 bool qdot_filled_is_word(const qdot_filled *part, const char *word);
+/* Whether the part is a text in quotes. */
 bool qdot_filled_is_text(const qdot_filled *part);
 /* Whether an operator outside brackets begins with the sign. */
 bool qdot_filled_holds_sign(const qdot_filled *part, char sign);

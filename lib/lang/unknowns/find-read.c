@@ -46,7 +46,7 @@ find_free(qdot_find *f)
 
 /* --- reading the unknowns ---------------------------------------------------------------- */
 
-/* Whether a name of the expression is what is looked for. */
+/* Whether is(of, name) holds for one of the names in the expression. */
 static bool
 names_any(const qdot_compiled *program, bool (*is)(const void *of, const char *name), const void *of)
 {

@@ -84,7 +84,8 @@ find_read_start(const hunt *h, double *numbers)
 
     return session->values->start_open.n == 0
                ? QDOT_OK
-               : qdot_run_values(h->now.trial.run, session->values->start_open.n, session->values->start_open.at, 1, &t0, numbers, NULL);
+               : qdot_run_values(h->now.trial.run, session->values->start_open.n, session->values->start_open.at, 1,
+                                 &t0, numbers, NULL);
 }
 
 static qdot_status
