@@ -10,7 +10,7 @@
 #include "normal/refute/ball.h"
 #include "normal/refute/enclosure.h"
 
-/* At most so many symbols, conditions and parts; the deepest halving of a part. */
+/* Largest number of symbols, of conditions, of boxes looked at, and of halvings of one box. */
 enum { MOST_SYMBOLS = 2, MOST_CONDITIONS = 12, MOST_PARTS = 300, DEEPEST = 24 };
 
 typedef struct {
@@ -27,7 +27,7 @@ typedef struct {
 
 typedef enum { NO_POINT, EVERY_POINT, UNKNOWN } verdict;
 
-/* Read the conditions; what is neither < nor <= is left out, so more points are looked at. */
+/* Read the conditions a < b and a <= b. Others are left out, so that fewer points are excluded. */
 static void
 read_conditions(qdot_pool *pool, const qdot_facts *facts, search *s)
 {

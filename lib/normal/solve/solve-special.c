@@ -175,7 +175,7 @@ qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr 
     return conditions_without(pool, set, qdot_conditions_of_divisors(pool, f, QDOT_NIL), x);
 }
 
-/* The root without whole turns by the integers in it: cot(x + 2 pi n) is cot(x). *defined: it has a value then, and its
+/* Remove whole turns by integers from the root, as cot(x + 2 pi n) is cot(x). *defined: it then has a value, and its
  * conditions may hold. */
 static qdot_status
 without_turns(qdot_pool *pool, const qdot_facts *facts, qdot_root *root, bool *defined)

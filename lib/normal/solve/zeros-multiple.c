@@ -388,7 +388,7 @@ exclude_by_growth(const qdot_zeros_system *s, qdot_interval X, bool *excluded)
         return qdot_pool_check(pool);
     at = qdot_ball_bounds(pool, c);
     to = qdot_add(pool, c, qdot_pow_int(pool, s->x[0], -1));
-    /* simplified first, so that growing terms that cancel do not count */
+    /* simplified, because terms that grow near c may cancel */
     g = qdot_simplify(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), NULL);
     if (g == QDOT_NIL)
         return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_last_error()->status;
