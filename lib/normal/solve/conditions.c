@@ -90,8 +90,8 @@ is_value(qdot_pool *pool, qdot_fun_id h, qdot_expr at, qdot_expr number)
            fabs(a - b) <= 1e-9 * fmax(1, fabs(b));
 }
 
-/* A relation between c h(u) and a number, h monotone, as one of u: atan(u) < 1 is u < tan(1). Where the number is no
- * value of h it stays as it is. */
+/* A relation between c h(u) and a number, u not a number and h monotone, as one of u: atan(u) < 1 is u < tan(1). Where the
+ * number is no value of h it stays as it is. */
 static qdot_expr
 unfold(qdot_pool *pool, qdot_expr relation)
 {
@@ -111,7 +111,7 @@ unfold(qdot_pool *pool, qdot_expr relation)
             side = qdot_expr_arg(pool, side, 1);
         }
         if (qdot_expr_kind(pool, side) != QDOT_FUN || qdot_expr_count(pool, side) != 1 ||
-            number == QDOT_NIL || !qdot_is_constant(pool, number))
+            number == QDOT_NIL || !qdot_is_constant(pool, number) || qdot_is_constant(pool, side))
             continue;
         h = qdot_expr_node(pool, side)->op;
         inverse = inverse_of(h);
