@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "expr/symbol.h"
-#include "lang/commands/statement.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/match.h"
+#include "lang/syntax/statement.h"
 
 /* --- begin and end -------------------------------------------------------------------- */
 

@@ -12,7 +12,6 @@
 #include "lang/answer/digits.h"
 #include "lang/answer/sheet.h"
 #include "lang/ask/components.h"
-#include "lang/commands/statement.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/scene-file.h"
 #include "lang/functions/builtin.h"
@@ -24,6 +23,7 @@
 #include "lang/session/history.h"
 #include "lang/session/measured.h"
 #include "lang/session/output.h"
+#include "lang/syntax/statement.h"
 #include "normal/refute/constant.h"
 
 /* --- answering expressions ---------------------------------------------------------- */

@@ -17,6 +17,8 @@ QDOT_MUST_CHECK qdot_status qdot_ask_print_point(qdot_sheet *sheet, qdot_expr eq
 QDOT_MUST_CHECK qdot_status qdot_ask_list(qdot_session *session, const char *name, qdot_expr list,
                                           qdot_expr over);
 
+/* Answer the expression from the cursor to its end. */
+QDOT_MUST_CHECK qdot_status qdot_ask_expression(qdot_cursor *c);
 /* Answer a claim such as a == b without the word `check`, from the cursor to its end. */
 QDOT_MUST_CHECK qdot_status qdot_check(qdot_cursor *c);
 

@@ -3,11 +3,11 @@
 
 #include "lang/answer/answer.h"
 #include "lang/ask/declared.h"
-#include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/session/runs.h"
 #include "lang/syntax/record.h"
+#include "lang/syntax/statement.h"
 
 static qdot_status show_name(qdot_record *r);
 

@@ -9,13 +9,14 @@
 #include "expr/tensor.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/definition-parts.h"
-#include "lang/commands/statement-form.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/hints.h"
 #include "lang/language/token-text.h"
 #include "lang/session/runs.h"
+#include "lang/syntax/form.h"
+#include "lang/syntax/outline.h"
 #include "mech/scene/things.h"
 
 typedef qdot_assignment assignment;
@@ -23,24 +24,24 @@ typedef qdot_assignment assignment;
 /* --- the right side --------------------------------------------------------------------- */
 
 static uint32_t
-held_by(const qdot_session *s, const qdot_token *k)
+held_by(const qdot_session *s, const char *name)
 {
     const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
                             QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER;
-    const qdot_name *known = qdot_names_find(s->names, k->text);
-    const size_t length = strlen(k->text);
+    const qdot_name *known = qdot_names_find(s->names, name);
+    const size_t length = strlen(name);
 
     if (known != NULL)
         return known->kind == QDOT_NAME_INDEX || known->value == QDOT_NIL
                    ? 0
                    : qdot_expr_node(s->pool, known->value)->holds & motion;
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
-        if (strncmp(known->name, k->text, length) == 0 && known->name[length] == '[')
+        if (strncmp(known->name, name, length) == 0 && known->name[length] == '[')
             return known->value == QDOT_NIL ? 0
                                             : qdot_expr_node(s->pool, known->value)->holds & motion;
-    if (strcmp(k->text, "t") == 0)
+    if (strcmp(name, "t") == 0)
         return QDOT_HAS_TIME;
-    return qdot_quantity_find(k->text) != NULL || qdot_scene_has_label(s->scene, k->text)
+    return qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name)
                ? QDOT_HAS_COORD
                : 0;
 }
@@ -48,64 +49,38 @@ held_by(const qdot_session *s, const qdot_token *k)
 static void
 read_right(assignment *a)
 {
-    const qdot_token *from = a->equals + 1;
-    long depth = 0;
-
-    for (a->behind = from; a->behind < a->end; a->behind++) {
-        depth += qdot_token_bracket(a->behind);
-        if (depth == 0 && a->behind > from &&
-            (qdot_token_is_word(a->behind, "for") ||
-             (qdot_token_is_word(a->behind, "to") && a->behind[1].kind == QDOT_TOKEN_STRING)))
-            break;
-        a->chained |= depth == 0 && qdot_token_is(a->behind, "=");
-    }
-    for (const qdot_token *k = from; k < a->behind; k++) {
-        if (k->kind == QDOT_TOKEN_NAME)
-            a->moves |= held_by(a->session, k) != 0;
-        a->primed |= qdot_token_is(k, "'");
-        a->accelerations |= qdot_token_is(k, "'") && qdot_token_is(k + 1, "'");
-    }
-    qdot_token_text_written(a->session, from, a->behind, &a->right);
-    if (qdot_token_is_word(a->behind, "for")) {
+    for (qdot_mention m = qdot_definition_right(&a->as); qdot_mention_next(&m);)
+        a->moves |= strcmp(m.name, "%") != 0 && held_by(a->session, m.name) != 0;
+    qdot_token_text_written(a->session, a->as.equals + 1, a->as.behind, &a->right);
+    if (a->as.loop) {
         qdot_text_add(&a->loop, " ");
-        qdot_token_text_written(a->session, a->behind, a->end, &a->loop);
+        qdot_token_text_written(a->session, a->as.behind, qdot_outline_end(a->as.behind), &a->loop);
     }
 }
 
 /* --- names of the left side ------------------------------------------------------------- */
 
-/* Whether the index of NAME[...] is written in numbers. */
-static bool
-has_plain_index(const qdot_token *name)
-{
-    const qdot_token *k = name + 2;
-
-    while (k->kind == QDOT_TOKEN_NUMBER || qdot_token_is(k, ","))
-        k++;
-    return k > name + 2 && qdot_token_is(k, "]");
-}
-
-/* The declared name that the token spells: of NAME[...] the member, or any member of the family where the index
+/* The declared name on the left side: of NAME[...] the member, or any member of the family where the index
  * has yet to be evaluated. A member of numbers that is not declared, x[0] before x[1] ... x[n], is none. */
 static const qdot_name *
-declared(const qdot_session *s, const qdot_token *name)
+declared(const assignment *a)
 {
-    const qdot_name *known = qdot_names_find(s->names, name->text);
-    const size_t length = strlen(name->text);
+    const qdot_session *s = a->session;
+    const char *name = a->as.name->text;
+    const qdot_name *known = qdot_names_find(s->names, name);
+    const size_t length = strlen(name);
+    qdot_text member = {0};
 
-    if (known != NULL || !qdot_token_is(name + 1, "["))
+    if (known != NULL || !a->as.member)
         return known;
-    if (has_plain_index(name)) {
-        qdot_text member = {0};
-
-        for (const qdot_token *k = name; k < qdot_statement_behind_bracket(name + 1); k++)
-            qdot_text_add(&member, k->text);
+    qdot_definition_member(&a->as, &member);
+    if (member.n > 0) {
         known = member.failed ? NULL : qdot_names_find(s->names, qdot_text_str(&member));
         qdot_text_clear(&member);
         return known;
     }
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
-        if (strncmp(known->name, name->text, length) == 0 && known->name[length] == '[')
+        if (strncmp(known->name, name, length) == 0 && known->name[length] == '[')
             return known;
     return NULL;
 }
@@ -163,8 +138,8 @@ add_free_name(const qdot_session *s, const char *name, qdot_text *out)
 static void
 write_renamed(assignment *a)
 {
-    add_free_name(a->session, a->name->text, &a->line);
-    qdot_token_text_written(a->session, a->name + 1, a->equals, &a->line);
+    add_free_name(a->session, a->as.name->text, &a->line);
+    qdot_token_text_written(a->session, a->as.name + 1, a->as.equals, &a->line);
     qdot_text_format(&a->line, " = %s", qdot_text_str(&a->right));
 }
 
@@ -173,7 +148,7 @@ static void
 write_equation(assignment *a, const char *word)
 {
     qdot_text_format(&a->line, "%s ", word);
-    qdot_token_text_written(a->session, a->name, a->equals, &a->line);
+    qdot_token_text_written(a->session, a->as.name, a->as.equals, &a->line);
     qdot_text_format(&a->line, " = %s", qdot_text_str(&a->right));
 }
 
@@ -182,13 +157,11 @@ write_equation(assignment *a, const char *word)
 static void
 write_check(assignment *a)
 {
-    bool equation = a->chained || strcmp(a->name->text, "eom") != 0;
+    const bool equation = a->as.equation || strcmp(a->as.name->text, "eom") != 0;
 
-    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) /* an equation in brackets: (x'' = -x) */
-        equation |= qdot_token_is(k, "=");
     qdot_text_add(&a->line, equation ? "check " : "check residual(");
-    qdot_token_text_written(a->session, a->name, a->equals, &a->line);
-    qdot_text_format(&a->line, !equation ? ") == %s" : a->chained ? " == (%s)" : " == %s",
+    qdot_token_text_written(a->session, a->as.name, a->as.equals, &a->line);
+    qdot_text_format(&a->line, !equation ? ") == %s" : a->as.chained ? " == (%s)" : " == %s",
                      qdot_text_str(&a->right));
 }
 
@@ -197,7 +170,7 @@ write_check(assignment *a)
 static qdot_status
 tell(assignment *a, const char *message, const char *name)
 {
-    a->c->error_at = a->name->start;
+    a->c->error_at = a->as.name->start;
     QDOT_TRY(qdot_text_status(&a->line));
     (void)qdot_fail(QDOT_ENAME, message, name, name + (strncmp(name, "delta", 5) == 0 ? 5 : 1));
     return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
@@ -216,12 +189,12 @@ is_furnished(const qdot_scene *s)
 static qdot_status
 tell_acceleration(assignment *a)
 {
-    const qdot_token *prime = a->equals - 2;
+    const qdot_token *prime = a->as.equals - 2;
     qdot_text q = {0};
     qdot_status status;
 
-    qdot_token_text_written(a->session, a->name, prime, &q);
-    if (is_furnished(a->session->scene) || a->accelerations || a->loop.n > 0) {
+    qdot_token_text_written(a->session, a->as.name, prime, &q);
+    if (is_furnished(a->session->scene) || a->as.accelerations || a->loop.n > 0) {
         qdot_text_format(&a->line, "check eom[%s] == (%s'' = %s)", qdot_text_str(&q),
                          qdot_text_str(&q), qdot_text_str(&a->right));
         status = tell(a, "equations of motion follow from the scene: `%.100s''` is not assigned",
@@ -238,21 +211,22 @@ tell_acceleration(assignment *a)
 
 /* q = E or q' = E: suggest `start`; if E depends on coordinates or time, suggest `constraint`. */
 static qdot_status
-tell_coordinate(assignment *a, size_t primes)
+tell_coordinate(assignment *a)
 {
-    const qdot_name *known = declared(a->session, a->name);
+    const qdot_name *known = declared(a);
+    const size_t primes = a->as.primes;
 
-    if (a->chained) { /* a = b = c: the right side is an equation */
+    if (a->as.chained) { /* a = b = c: the right side is an equation */
         qdot_text_add(&a->line, "(");
-        qdot_token_text_written(a->session, a->name, a->behind, &a->line);
+        qdot_token_text_written(a->session, a->as.name, a->as.behind, &a->line);
         qdot_text_char(&a->line, ')');
         return tell(a, "`%.200s` is a coordinate: an equation as a value is written in brackets",
                     known->name);
     }
     if (primes == 2)
         return tell_acceleration(a);
-    if (qdot_token_is(a->name + 1, "(") || /* theta(t) = 2*t, or theta[1] = 2 without a family theta */
-        (qdot_token_is(a->name + 1, "[") && strcmp(known->name, a->name->text) == 0 && primes == 0))
+    if (a->as.call || /* theta(t) = 2*t, or theta[1] = 2 without a family theta */
+        (a->as.member && strcmp(known->name, a->as.name->text) == 0 && primes == 0))
         qdot_text_format(&a->line, "%s %s = %s", a->moves ? "constraint" : "start", known->name,
                          qdot_text_str(&a->right));
     else
@@ -262,25 +236,11 @@ tell_coordinate(assignment *a, size_t primes)
                     known->name);
     if (primes > 0 || known->file == NULL)
         return tell(a, "`%.200s` is a coordinate: its motion follows from a start", known->name);
-    a->c->error_at = a->name->start;
+    a->c->error_at = a->as.name->start;
     QDOT_TRY(qdot_text_status(&a->line));
     (void)qdot_fail(QDOT_ENAME, "`%.200s` was declared as a coordinate at %s:%u", known->name,
                     known->file, known->line);
     return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
-}
-
-/* For NAME' = or NAME[...]'' =: the number of primes, and the equation sign after them; NULL if it
- * is no such line. */
-static const qdot_token *
-find_primed(const qdot_token *name, size_t *primes)
-{
-    const qdot_token *k = name + 1;
-
-    if (qdot_token_is(k, "[") && k->glued)
-        k = qdot_statement_behind_bracket(k);
-    for (*primes = 0; qdot_token_is(k, "'") && k->glued; k++)
-        ++*primes;
-    return qdot_token_is(k, "=") && *primes < 3 ? k : NULL;
 }
 
 /* --- words of statements ---------------------------------------------------------------- */
@@ -293,8 +253,8 @@ tell_beside_lagrangian(assignment *a, const char *word)
     const bool potential = strcmp(word, "potential") == 0;
     qdot_status status;
 
-    a->c->error_at = a->name->start;
-    if (potential && qdot_definition_components(a) == 1) {
+    a->c->error_at = a->as.name->start;
+    if (potential && a->as.components == 1) {
         qdot_text_add(&a->line, "lagrangian ");
         QDOT_TRY(qdot_print(a->session->pool, scene->lagrangian, QDOT_PLAIN, &a->line));
         qdot_text_format(&a->line, " - (%s)", qdot_text_str(&a->right));
@@ -309,14 +269,14 @@ tell_word(assignment *a, const qdot_statement *row)
 {
     const qdot_scene *s = a->session->scene;
 
-    if ((strcmp(row->word, "lagrangian") == 0 || strcmp(row->word, "hamiltonian") == 0) && a->name + 1 == a->equals &&
+    if ((strcmp(row->word, "lagrangian") == 0 || strcmp(row->word, "hamiltonian") == 0) && qdot_definition_is_of_name(&a->as) &&
         s->particles.n + s->bodies.n > 0) {
-        a->c->error_at = a->name->start;
+        a->c->error_at = a->as.name->start;
         (void)qdot_fail(QDOT_ENAME, "`%s` is not stated beside particles: it follows from their masses and `potential`",
                         row->word);
         return qdot_hint("`%s` shows it", row->word[0] == 'l' ? "lagrange_function" : row->word);
     }
-    if (s->lagrangian != QDOT_NIL && a->name + 1 == a->equals &&
+    if (s->lagrangian != QDOT_NIL && qdot_definition_is_of_name(&a->as) &&
         (strcmp(row->word, "potential") == 0 || strcmp(row->word, "gravity") == 0))
         return tell_beside_lagrangian(a, row->word);
     if (!qdot_definition_statement(a, row))
@@ -330,13 +290,13 @@ tell_word(assignment *a, const qdot_statement *row)
 static qdot_status
 tell_reserved(assignment *a, const char *why)
 {
-    const char *name = a->name->text;
+    const char *name = a->as.name->text;
     bool family = strcmp(name, "lambda") == 0 || strcmp(name, "delta") == 0;
     qdot_derivative_name meant;
 
-    if (!a->moves && a->name + 1 == a->equals && qdot_hints_derivative(a->session, name, false, &meant))
+    if (!a->moves && qdot_definition_is_of_name(&a->as) && qdot_hints_derivative(a->session, name, false, &meant))
         qdot_text_format(&a->line, "start %s' = %s", meant.base, qdot_text_str(&a->right));
-    else if (family && !a->moves && a->loop.n == 0 && qdot_definition_components(a) == 1)
+    else if (family && !a->moves && a->loop.n == 0 && a->as.components == 1)
         write_equation(a, "param");
     else
         write_renamed(a);
@@ -352,7 +312,7 @@ write_placed(assignment *a, qdot_expr at, bool velocity)
     const bool one = qdot_expr_is_scalar(pool, at);
     const uint32_t n = one ? 1 : qdot_expr_count(pool, at);
 
-    if (a->moves || qdot_definition_components(a) != n)
+    if (a->moves || a->as.components != n)
         return false;
     for (uint32_t i = 0; i < n; i++)
         if (!qdot_expr_is_class(pool, one ? at : qdot_expr_arg(pool, at, i), QDOT_COORD))
@@ -360,7 +320,7 @@ write_placed(assignment *a, qdot_expr at, bool velocity)
     for (uint32_t i = 0; i < n; i++) {
         qdot_text_format(&a->line, "%s%s%s = ", i > 0 ? ", " : "start ",
                          qdot_expr_symbol(pool, one ? at : qdot_expr_arg(pool, at, i))->name, velocity ? "'" : "");
-        qdot_definition_component(a, i, &a->line);
+        qdot_definition_component(a->session, &a->as, i, &a->line);
     }
     return true;
 }
@@ -397,11 +357,11 @@ tell_label(assignment *a, const char *label)
 static qdot_status
 tell_velocity(assignment *a)
 {
-    const qdot_expr at = position_of(a->session->scene, a->name->text);
+    const qdot_expr at = position_of(a->session->scene, a->as.name->text);
 
     read_right(a);
     return at != QDOT_NIL && write_placed(a, at, true)
-               ? tell(a, "`%.200s'` follows from the coordinates of its position", a->name->text)
+               ? tell(a, "`%.200s'` follows from the coordinates of its position", a->as.name->text)
                : QDOT_OK;
 }
 
@@ -410,12 +370,12 @@ static const char *
 label_of(const assignment *a)
 {
     const qdot_session *s = a->session;
-    const char *name = a->name->text;
+    const char *name = a->as.name->text;
     const size_t length = strlen(name);
 
-    if (a->name + 1 == a->equals || qdot_token_is(a->name + 1, "("))
+    if (qdot_definition_is_of_name(&a->as) || a->as.call)
         return qdot_scene_has_label(s->scene, name) || is_run(s, name) ? name : NULL;
-    if (!qdot_token_is(a->name + 1, "["))
+    if (!a->as.member)
         return NULL;
     for (size_t i = 0; i < s->scene->particles.n; i++)
         if (strncmp(s->scene->particles.at[i].name, name, length) == 0 &&
@@ -435,9 +395,9 @@ static bool
 is_member_of_value(const assignment *a)
 {
     static const char *const lists[] = {"conserved", "ds2", "speed2"};
-    const qdot_quantity *row = qdot_quantity_find(a->name->text);
+    const qdot_quantity *row = qdot_quantity_find(a->as.name->text);
 
-    if (row == NULL || !qdot_token_is(a->name + 1, "["))
+    if (row == NULL || !a->as.member)
         return false;
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         if (strcmp(row->name, lists[i]) == 0)
@@ -450,7 +410,7 @@ tell_member(assignment *a)
 {
     const qdot_name *q = qdot_definition_coordinate(a->session);
 
-    if (strcmp(a->name->text, "p") == 0 && !a->moves) {
+    if (strcmp(a->as.name->text, "p") == 0 && !a->moves) {
         write_equation(a, "set"); /* a value for the momentum in H or R */
     } else {
         /* first a Lagrangian, as there are no equations of motion yet */
@@ -458,7 +418,7 @@ tell_member(assignment *a)
             qdot_text_format(&a->line, "lagrangian %s'^2/2; ", q->name);
         write_check(a);
     }
-    return tell(a, "`%s[ ]` is a value of the language: it follows from the scene", a->name->text);
+    return tell(a, "`%s[ ]` is a value of the language: it follows from the scene", a->as.name->text);
 }
 
 /* --- checking a definition ---------------------------------------------------------------- */
@@ -493,26 +453,23 @@ why_reserved(const qdot_session *s, const char *name)
 static bool
 is_foreign(const assignment *a)
 {
-    const qdot_token *right = a->equals + 1;
+    const char *applied = qdot_definition_applied(&a->as);
 
-    for (const qdot_token *k = right; k < a->behind; k++)
-        if (qdot_token_is(k, ":") || qdot_token_is(k, "..")) /* a range of another system: x = 0:0.1:1 */
-            return true;
-    return right->kind == QDOT_TOKEN_NAME && !qdot_cursor_knows(a->session, right->text) &&
-           (qdot_token_is(right + 1, "(") || qdot_token_is(right + 1, "."));
+    /* a range of another system: x = 0:0.1:1 */
+    return a->as.colon || a->as.range || (applied != NULL && !qdot_cursor_knows(a->session, applied));
 }
 
 /* m = 3 for a parameter is a value: suggest `set`; m = x or m(t) = t is not: suggest another name. */
 static qdot_status
 tell_parameter(assignment *a, const qdot_name *known)
 {
-    if (a->moves || a->chained)
+    if (a->moves || a->as.chained)
         write_renamed(a);
-    else if (qdot_token_is(a->name + 1, "("))
+    else if (a->as.call)
         qdot_text_format(&a->line, "set %s = %s", known->name, qdot_text_str(&a->right));
     else
         write_equation(a, "set");
-    a->c->error_at = a->name->start;
+    a->c->error_at = a->as.name->start;
     QDOT_TRY(qdot_text_status(&a->line));
     (void)(known->file != NULL
                ? qdot_fail(QDOT_ENAME, "`%.200s` was declared as a parameter at %s:%u",
@@ -525,8 +482,8 @@ static qdot_status
 check_definition(assignment *a)
 {
     const qdot_session *s = a->session;
-    const char *name = a->name->text, *label, *why;
-    const qdot_name *known = declared(s, a->name);
+    const char *name = a->as.name->text, *label, *why;
+    const qdot_name *known = declared(a);
     const qdot_statement *row = qdot_statement_find(name);
 
     if (known != NULL && known->kind == QDOT_NAME_PARAM && !is_member_of_value(a))
@@ -553,16 +510,20 @@ check_applied(const assignment *a, const qdot_name *known)
 {
     const qdot_pool *pool = a->session->pool;
     const uint32_t n = qdot_expr_count(pool, known->formals);
-    const qdot_token *k = a->name + 2;
+    uint32_t i = 0;
 
-    for (uint32_t i = 0; i < n; i++, k += 2)
-        if (k >= a->equals || !qdot_token_is_word(k, qdot_expr_symbol(pool, qdot_expr_arg(pool, known->formals, i))->name))
+    for (; i < n; i++) {
+        const qdot_token *argument = qdot_definition_argument(&a->as, i);
+
+        if (argument == NULL || strcmp(argument->text, qdot_expr_symbol(pool, qdot_expr_arg(pool, known->formals, i))->name) != 0)
             return QDOT_OK;
-    return k == a->equals ? qdot_answer_notice(a->session,
-                                               "`%.100s` is a function already, so this is an equation; with an argument that "
-                                               "is not declared it would define `%.100s` anew",
-                                               known->name, known->name)
-                          : QDOT_OK;
+    }
+    return qdot_definition_argument(&a->as, i) == NULL
+               ? qdot_answer_notice(a->session,
+                                    "`%.100s` is a function already, so this is an equation; with an argument that "
+                                    "is not declared it would define `%.100s` anew",
+                                    known->name, known->name)
+               : QDOT_OK;
 }
 
 /* NAME(names) = EXPR that is no definition: of a function of the language it is an equation of what is declared, and with a
@@ -570,58 +531,48 @@ check_applied(const assignment *a, const qdot_name *known)
 static qdot_status
 check_function(assignment *a)
 {
-    const qdot_builtin *builtin = qdot_builtin_find(a->name->text);
-    const qdot_name *known = qdot_names_find(a->session->names, a->name->text);
-    const qdot_token *taken = NULL;
+    const qdot_builtin *builtin = qdot_builtin_find(a->as.name->text);
+    const qdot_name *known = qdot_names_find(a->session->names, a->as.name->text);
+    const qdot_token *taken = NULL, *argument;
     bool unknown = false;
 
-    if (!qdot_token_is(a->name + 1, "("))
+    if (a->as.equals == NULL || !a->as.call || a->as.primes > 0)
         return QDOT_OK;
-    a->equals = qdot_statement_behind_bracket(a->name + 1);
-    if (!qdot_token_is(a->equals, "="))
-        return QDOT_OK;
-    for (const qdot_token *k = a->name + 2; k < a->equals - 1; k += 2) {
-        if (k->kind != QDOT_TOKEN_NAME || !(qdot_token_is(k + 1, ",") || qdot_token_is(k + 1, ")")))
-            return QDOT_OK;
-        unknown |= !qdot_cursor_knows(a->session, k->text);
-        taken = taken == NULL && !qdot_statement_is_free_argument(a->session, k->text) ? k : taken;
+    for (size_t i = 0; (argument = qdot_definition_argument(&a->as, i)) != NULL; i++) {
+        unknown |= !qdot_cursor_knows(a->session, argument->text);
+        taken = taken == NULL && !qdot_statement_is_free_argument(a->session, argument->text) ? argument : taken;
     }
     if (known != NULL)
         return known->kind == QDOT_NAME_FUNCTION ? check_applied(a, known) : QDOT_OK;
-    if (builtin == NULL && taken != NULL && !qdot_cursor_knows(a->session, a->name->text)) {
+    if (builtin == NULL && taken != NULL && !qdot_cursor_knows(a->session, a->as.name->text)) {
         a->c->error_at = taken->start;
         (void)qdot_fail(QDOT_ENAME, "`%.100s` is a word of the language: an argument has a name of its own", taken->text);
-        return qdot_hint("as in %.100s(s) = s^2", a->name->text);
+        return qdot_hint("as in %.100s(s) = s^2", a->as.name->text);
     }
     if (builtin == NULL || !unknown)
         return QDOT_OK;
     read_right(a);
     write_renamed(a);
-    return tell(a, "`%s` is a function of the language: it is not defined anew", a->name->text);
+    return tell(a, "`%s` is a function of the language: it is not defined anew", a->as.name->text);
 }
 
 static qdot_status
 check_statement(assignment *a)
 {
-    const qdot_form form = qdot_statement_form(a->session, a->name);
-    const qdot_name *known = declared(a->session, a->name);
-    size_t primes = 0;
+    const qdot_definition *as = &a->as;
+    const qdot_form form = qdot_statement_form(a->session, as->name);
+    const qdot_name *known = declared(a);
+    const bool defines = form == QDOT_FORM_DEFINITION;
 
-    a->equals = find_primed(a->name, &primes);
-    if (form == QDOT_FORM_DEFINITION && qdot_token_is(a->name + 1, "("))
-        a->equals = qdot_statement_behind_bracket(a->name + 1);
-    if (known != NULL && known->kind == QDOT_NAME_COORD && a->equals != NULL &&
-        (form == QDOT_FORM_DEFINITION || form == QDOT_FORM_VALUE)) {
+    if (known != NULL && known->kind == QDOT_NAME_COORD && as->primes < 3 && !(as->member && as->apart) &&
+        (defines || (form == QDOT_FORM_VALUE && !as->call))) {
         read_right(a);
-        return is_foreign(a) ? QDOT_OK : tell_coordinate(a, primes);
+        return is_foreign(a) ? QDOT_OK : tell_coordinate(a);
     }
     if (form == QDOT_FORM_VALUE)
-        return known == NULL && a->equals == a->name + 2 && primes == 1 ? tell_velocity(a) : check_function(a);
-    if (form != QDOT_FORM_DEFINITION)
+        return known == NULL && as->equals == as->name + 2 && as->primes == 1 ? tell_velocity(a) : check_function(a);
+    if (!defines)
         return QDOT_OK;
-    a->equals = a->name + 1;
-    if (!qdot_token_is(a->equals, "="))
-        a->equals = qdot_statement_behind_bracket(a->equals);
     read_right(a);
     return check_definition(a);
 }
@@ -629,10 +580,10 @@ check_statement(assignment *a)
 qdot_status
 qdot_definition_check(qdot_cursor *c, const qdot_token *end)
 {
-    assignment a = {.c = c, .session = c->session, .name = c->at, .end = end};
+    assignment a = {.c = c, .session = c->session};
     qdot_status status = QDOT_OK;
 
-    if (c->at->kind == QDOT_TOKEN_NAME)
+    if (qdot_definition_find(c->at, end, &a.as))
         status = check_statement(&a);
     qdot_text_clear(&a.right);
     qdot_text_clear(&a.loop);

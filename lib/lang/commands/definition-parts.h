@@ -5,28 +5,19 @@
 #ifndef QDOT_LANG_DEFINITION_PARTS_H
 #define QDOT_LANG_DEFINITION_PARTS_H
 
-#include "base/text.h"
-#include "lang/commands/statement.h"
+#include "lang/language/cursor.h"
 #include "lang/session/names.h"
-#include "lang/source/token.h"
+#include "lang/syntax/definition.h"
 
-/* The statement as it was typed: LEFT = RIGHT [for ...]. */
 typedef struct {
     qdot_cursor *c;
     qdot_session *session;
-    const qdot_token *name, *equals, *behind, *end; /* tokens: NAME, `=`, end of the right side (the word `for` or `end`), end */
+    qdot_definition as; /* LEFT = RIGHT [for ...], taken apart */
     qdot_text right, loop; /* the right side as text; the loop " for k = 1..3", or "" */
     qdot_text line;        /* the line that the user probably meant */
     bool moves;            /* the right side contains coordinates, positions or the time */
-    bool accelerations;
-    bool chained; /* the right side is itself an equation: a = b = c */
-    bool primed;  /* the name on the left has primes */
 } qdot_assignment;
 
-/* The number of components if the right side is a vector (a, b); 1 if it is none. */
-size_t qdot_definition_components(const qdot_assignment *a);
-/* Append component i of the right side as typed; the whole right side if it is no vector. */
-void qdot_definition_component(const qdot_assignment *a, size_t i, qdot_text *out);
 /* The coordinate declared first, or NULL. */
 const qdot_name *qdot_definition_coordinate(const qdot_session *s);
 

@@ -1,18 +1,19 @@
 /* loop-index.c -- finds where the index of a `for` loop occurs in the repeated statement. */
 #include "lang/commands/loop-index.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "expr/symbol.h"
 #include "expr/walk.h"
-#include "lang/commands/statement-form.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/token-text.h"
 #include "lang/session/names.h"
 #include "lang/session/runs.h"
 #include "lang/session/values.h"
 #include "lang/source/source.h"
+#include "lang/syntax/match.h"
+#include "lang/syntax/mention.h"
+#include "lang/syntax/outline.h"
 #include "mech/scene/things.h"
 
 /* --- where a declared symbol occurs ------------------------------------------------------- */
@@ -68,10 +69,8 @@ qdot_loop_index_is_read(const qdot_session *s, qdot_expr symbol)
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++) {
         if (known->kind == QDOT_NAME_VALUE && known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol))
             return true;
-        for (const qdot_token *k = known->kind == QDOT_NAME_FUNCTION ? known->body->from : NULL;
-             k != NULL && k < known->body->to; k++)
-            if (qdot_token_is_word(k, name))
-                return true;
+        if (known->kind == QDOT_NAME_FUNCTION && qdot_mention_is_in(known->body->from, known->body->to, name))
+            return true;
     }
     return false;
 }
@@ -95,15 +94,12 @@ stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
            is_in_scene(s, symbol);
 }
 
-/* Whether the statement at `first`, in [first, to), depends on the declared symbol by more than its
- * text: it asks of the scene or makes runs. */
+/* Whether the statement depends on the declared symbol by more than its text: it asks of the scene or makes runs. */
 static bool
-depends_on_scene(const qdot_session *s, const qdot_token *first, qdot_expr symbol)
+depends_on_scene(const qdot_session *s, const qdot_statement *row, qdot_expr symbol)
 {
     static const char *const runs[] = {"run", "plan", "race", "workprecision", "longtime", "lyapunov",
                                        "sweep", "find", "fit", "continue", "report", "plot"};
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
 
     if (row == NULL)
         return false;
@@ -111,15 +107,6 @@ depends_on_scene(const qdot_session *s, const qdot_token *first, qdot_expr symbo
         if (strcmp(row->word, runs[i]) == 0)
             return qdot_expr_is_class(s->pool, symbol, QDOT_COORD) || is_in_scene(s, symbol);
     return row->alone && qdot_statement_asks(row) && is_in_scene(s, symbol);
-}
-
-static bool
-is_declaration(const qdot_token *first)
-{
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
-
-    return row != NULL && qdot_statement_declares(row);
 }
 
 /* --- the `for` clause --------------------------------------------------------------------- */
@@ -135,173 +122,140 @@ declared(const qdot_session *s, const char *name)
                : NULL;
 }
 
+/* Whether the name occurs in the tokens [from, to), or what is declared by it in what these stand for. */
 static bool
 is_used(const qdot_session *s, const char *name, const qdot_token *from, const qdot_token *to)
 {
     const qdot_name *known = declared(s, name);
-    const qdot_token *first = from;
 
-    for (const qdot_token *k = from; k < to; k++)
-        if (qdot_token_is_word(k, name))
+    if (qdot_mention_is_in(from, to, name))
+        return true;
+    for (qdot_mention m = qdot_mention_in(from, to); known != NULL && qdot_mention_next(&m);) {
+        if (m.begins && depends_on_scene(s, m.row, known->value))
             return true;
-    for (const qdot_token *k = from; k < to && known != NULL; k++) {
-        if (k == from || k[-1].kind == QDOT_TOKEN_END || qdot_token_is(k - 1, "{")) {
-            first = k;
-            if (depends_on_scene(s, k, known->value))
-                return true;
-        }
-        if (qdot_token_is(k, "%") && !is_declaration(first))
-            return true;
-        if (k->kind == QDOT_TOKEN_NAME && !is_declaration(first) &&
-            stands_for(s, k->text, known->value))
+        if (m.row != NULL && qdot_statement_declares(m.row))
+            continue;
+        if (strcmp(m.name, "%") == 0 || stands_for(s, m.name, known->value))
             return true;
     }
     return false;
 }
 
-/* The token after the pair NAME = VALUE of `with`: a comma, the next option or the end. */
-static const qdot_token *
-behind_pair(const qdot_token *k)
+/* Whether NAME = VALUE of `with` begins at the part. */
+static bool
+begins_value(const qdot_filled *part)
 {
-    static const char *const options[] = {"tol", "digits", "method", "constraints", "as", "with"};
-
-    for (long depth = 0; k->kind != QDOT_TOKEN_END; k++) {
-        depth += qdot_token_bracket(k);
-        if (depth == 0 && qdot_token_is(k, ","))
-            return k;
-        for (size_t i = 0; i < sizeof options / sizeof *options && depth == 0; i++)
-            if (qdot_token_is_word(k, options[i]))
-                return k;
-    }
-    return k;
+    return part->name != NULL && strcmp(part->node->before, "with") == 0;
 }
 
-/* The latest time at which the tokens read the run, as in value(x, 5) and max(x, 0..5), if that is behind its end; else
- * NULL. */
-static const qdot_token *
-later_time(const qdot_named_run *run, const qdot_token *from, const qdot_token *to)
-{
-    double last = qdot_run_get_report(run->run)->t1;
-    const qdot_token *found = NULL;
-
-    for (const qdot_token *k = from + 1; k + 1 < to && qdot_run_get_report(run->run)->t0 < last; k++) {
-        const bool is = k->kind == QDOT_TOKEN_NUMBER && qdot_token_is(k + 1, ")")
-                        && (qdot_token_is(k - 1, ",") || qdot_token_is(k - 1, ".."));
-
-        if (!is || strtod(k->text, NULL) <= last)
-            continue;
-        last = strtod(k->text, NULL);
-        found = k;
-    }
-    return found;
-}
-
-/* The limits and options of a run, those of `with` without a value of this name; `end`: the token that is its end, NULL:
+/* Append the limits and options of a run, `with` without a value of this name; `end`: the token that is its end, NULL:
  * as it was. */
 static void
-add_run_without(qdot_session *s, const qdot_token *k, const char *name, const qdot_token *end, qdot_text *out)
+add_run_without(const qdot_record *run, const char *name, const qdot_token *end, qdot_text *out)
 {
-    const qdot_token *from = k;
+    qdot_session *s = run->cursor.session;
+    const qdot_filled *part = &run->parts.at[1], *last = run->parts.at + run->parts.n;
+    const char *before = " with ";
 
-    while (end != NULL && !qdot_token_is(k, "..") && k->kind != QDOT_TOKEN_END)
-        k++;
-    if (end != NULL && qdot_token_is(k, "..")) {
-        qdot_text_char(out, ' ');
-        qdot_token_text(s, from, k + 1, out);
-        qdot_token_text(s, end, end + 1, out);
-        from = k = behind_pair(k);
-    } else {
-        k = from;
-    }
-    while (k->kind != QDOT_TOKEN_END) {
-        const char *before = " with ";
-        const qdot_token *next = k + 1;
-
-        if (!qdot_token_is_word(k, "with")) {
-            k++;
-            continue;
-        }
-        qdot_text_add(out, from < k ? " " : "");
-        qdot_token_text(s, from, k, out);
-        for (bool more = true; more;) {
-            const qdot_token *pair = next;
-
-            next = behind_pair(pair);
-            if (!qdot_token_is_word(pair, name) || !qdot_token_is(pair + 1, "=")) {
+    for (; part < last; part++) {
+        if (qdot_filled_is(part, "with")) {
+            before = " with ";
+        } else if (begins_value(part)) {
+            if (strcmp(part->name->text, name) != 0 || part->to != part->name + 1) {
                 qdot_text_add(out, before);
-                qdot_token_text(s, pair, next, out);
+                qdot_token_text(s, part->from, part[2].to, out);
                 before = ", ";
             }
-            more = qdot_token_is(next, ",");
-            next += more;
+            part += 2;
+            part += part + 1 < last && qdot_filled_is(part + 1, ",");
+        } else {
+            const qdot_filled *first = part;
+
+            qdot_text_char(out, ' ');
+            if (end != NULL && part->n == 2 && qdot_filled_is(part, "T0..T1")) {
+                qdot_token_text(s, part->from, run->compiled.at[part->first + 1].from, out);
+                qdot_token_text(s, end, end + 1, out);
+                continue;
+            }
+            while (part + 1 < last && !qdot_filled_is(part + 1, "with"))
+                part++;
+            qdot_token_text(s, first->from, part->to, out);
         }
-        from = k = next;
     }
-    qdot_text_add(out, from < k ? " " : "");
-    qdot_token_text(s, from, k, out);
 }
 
-/* Fail: the index at k occurs in none of the tokens [from, to). */
+/* Append the limits and options of the run, without a value of this name, with an end not before what the tokens
+ * [from, to) read. */
 static qdot_status
-fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const qdot_token *to,
-            const qdot_token *end)
+add_run_of_pass(qdot_session *s, const qdot_named_run *latest, const char *name, const qdot_token *from, const qdot_token *to,
+        qdot_text *out)
 {
-    qdot_session *s = c->session;
-    const qdot_name *known = declared(s, k->text);
-    const qdot_named_run *latest = s->runs->n > 0 ? &s->runs->at[s->runs->n - 1] : NULL;
-    qdot_source *run = NULL;
-    qdot_text text = {0};
-    qdot_status status;
+    const qdot_run_report *report = qdot_run_get_report(latest->run);
+    const qdot_token *end = report->t0 < report->t1 ? qdot_mention_time(from, to, report->t1) : NULL;
+    qdot_source *source = NULL;
+    qdot_record run = {0};
+    qdot_cursor c = {.session = s};
     size_t at;
+    qdot_status status = qdot_source_new("a run", latest->text, strlen(latest->text), &source, &at);
 
-    c->error_at = k->start;
+    if (status == QDOT_OK) {
+        c.source = source;
+        c.at = source->tokens.at;
+        status = qdot_match_operands(&c, qdot_statement_find("run"), &run);
+    }
+    if (status == QDOT_OK)
+        add_run_without(&run, name, end, out);
+    qdot_record_free(&run);
+    qdot_source_free(source);
+    return status;
+}
+
+/* Fail: the index that the part names occurs in none of the tokens [from, to). */
+static qdot_status
+fail_unused(qdot_record *r, const qdot_filled *clause, const qdot_filled *behind, const qdot_filled *index,
+            const qdot_token *from, const qdot_token *to)
+{
+    qdot_session *s = r->cursor.session;
+    const char *name = index->from->text;
+    const qdot_name *known = declared(s, name);
+    const qdot_named_run *latest = s->runs->n > 0 ? &s->runs->at[s->runs->n - 1] : NULL;
+    qdot_text text = {0};
+
+    qdot_record_blame(r, index);
     if (latest == NULL || known == NULL ||
         (!qdot_expr_is_class(s->pool, known->value, QDOT_COORD) && !is_in_scene(s, known->value))) {
-        (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", k->text);
-        return qdot_hint("as in print %s^2 for %s = 1..3", k->text, k->text);
-    }
-    status = qdot_source_new("a run", latest->text, strlen(latest->text), &run, &at);
-    if (status != QDOT_OK) {
-        qdot_source_free(run);
-        return status;
+        (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", name);
+        return qdot_hint("as in print %s^2 for %s = 1..3", name, name);
     }
     qdot_text_add(&text, "{ run");
-    /* then append the tokens of the run that belong to this iteration */
-    add_run_without(s, run->tokens.at, k->text, later_time(latest, from, to), &text);
-    qdot_source_free(run);
+    QDOT_TRY(add_run_of_pass(s, latest, name, from, to, &text));
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {
-        for (last = first; last < to && last->kind != QDOT_TOKEN_END;)
-            last++;
+        last = qdot_outline_end(first);
+        last = last < to ? last : to;
         qdot_text_add(&text, first < last ? "; " : "");
         qdot_token_text(s, first, last, &text);
     }
     qdot_text_add(&text, " } for ");
-    qdot_token_text(s, c->at, end, &text);
+    qdot_token_text(s, clause->from, behind[-1].to, &text);
     (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated: `%.200s` has one "
-                                 "value of it", k->text, latest->name);
+                                 "value of it", name, latest->name);
     (void)qdot_hint("%s", qdot_text_status(&text) == QDOT_OK ? qdot_text_str(&text) : "");
     qdot_text_clear(&text);
     return QDOT_EINVAL;
 }
 
 qdot_status
-qdot_loop_index_check(qdot_cursor *c, const qdot_token *from, const qdot_token *to, const qdot_token *end,
-                      bool block)
+qdot_loop_index_check(qdot_record *r, const qdot_filled *clause, const qdot_filled *end, const qdot_token *from,
+                      const qdot_token *to, bool block)
 {
-    const qdot_token *clause = c->at;
-    long depth = 0;
+    const qdot_session *s = r->cursor.session;
 
-    if (end == NULL)
-        for (end = clause; end->kind != QDOT_TOKEN_END;)
-            end++;
-    for (const qdot_token *k = clause; k < end; k++) {
-        depth += qdot_token_bracket(k);
-        if (depth != 0 || k->kind != QDOT_TOKEN_NAME || !qdot_token_is(k + 1, "=") ||
-            (k > clause && !qdot_token_is(k - 1, ",")) || is_used(c->session, k->text, from, to) ||
-            is_used(c->session, k->text, k + 2, end) ||
-            (block && declared(c->session, k->text) == NULL))
-            continue;
-        return fail_unused(c, k, from, to, end);
+    for (const qdot_filled *index = clause; index < end; index += 4) { /* NAME, `=`, A..B and a comma */
+        const char *name = index->from->text;
+
+        if (!is_used(s, name, from, to) && !is_used(s, name, index[2].from, end[-1].to) &&
+            !(block && declared(s, name) == NULL))
+            return fail_unused(r, clause, end, index, from, to);
     }
     return QDOT_OK;
 }

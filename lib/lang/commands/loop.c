@@ -5,11 +5,11 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/symbol.h"
-#include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/held.h"
 #include "lang/session/names.h"
+#include "lang/syntax/loop-clause.h"
 
 /* Properties that a loop value must not have if it is to be assigned to a parameter or coordinate. */
 static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
@@ -55,54 +55,59 @@ drop_index(qdot_loop_index *index)
     qdot_free(index->values.at);
 }
 
-/* Read `NAME = a..b` or `NAME = [...]` at the cursor; *empty: the range has no values. */
+/* The values of a list [1, 2, 5] for the index. */
 static qdot_status
-read_index(qdot_loop *loop, qdot_cursor *c, qdot_loop_index *index, bool *empty)
+read_list(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
 {
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "an index and its range: `k = 1..3`");
-    index->name = qdot_strdup(c->at->text);
+    qdot_pool *pool = loop->session->pool;
+    qdot_expr list;
+
+    if (values->n > 1)
+        return qdot_record_expected(loop->record, loop->record->compiled.at[values->first].to, "the end of the statement");
+    QDOT_TRY(qdot_record_side(loop->record, values, 0, &list));
+    if (qdot_expr_kind(pool, list) != QDOT_LIST) {
+        qdot_record_blame(loop->record, values);
+        return qdot_fail(QDOT_ETYPE, "an index runs over a list `[1, 2, 5]` or a range");
+    }
+    index->listed = true;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++)
+        QDOT_TRY(qdot_vec_push(&index->values, qdot_expr_arg(pool, list, i)));
+    return QDOT_OK;
+}
+
+/* The ends of a range a..b for the index. */
+static qdot_status
+read_range(qdot_loop *loop, const qdot_filled *values, qdot_loop_index *index)
+{
+    qdot_expr from, to;
+
+    QDOT_TRY(qdot_record_item(loop->record, values, 0, &from));
+    if (values->n == 1)
+        return qdot_loop_clause_need_range(loop->record, values);
+    QDOT_TRY(qdot_record_item(loop->record, values, 1, &to));
+    qdot_record_blame(loop->record, values);
+    QDOT_TRY(qdot_session_integer(loop->session, from, &index->at));
+    QDOT_TRY(qdot_session_integer(loop->session, to, &index->last));
+    if (index->at <= index->last && (unsigned long)index->last - (unsigned long)index->at >= QDOT_LOOP_PASSES) {
+        (void)qdot_fail(QDOT_ELIMIT, "a loop of %lu passes: more than %d",
+                        (unsigned long)index->last - (unsigned long)index->at + 1, QDOT_LOOP_PASSES);
+        return qdot_hint("a function of k needs no member for each: a(k) = ...");
+    }
+    return QDOT_OK;
+}
+
+/* Evaluate the values of the index whose name the part is; *empty: it has none. */
+static qdot_status
+read_index(qdot_loop *loop, const qdot_filled *name, qdot_loop_index *index, bool *empty)
+{
+    const qdot_filled *values = name + 2; /* behind `=` */
+
+    index->name = qdot_strdup(name->from->text);
     if (index->name == NULL)
         return QDOT_ENOMEM;
-    c->at++;
-    QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    if (qdot_cursor_is_op(c, "[")) {
-        const qdot_token *start = c->at;
-        qdot_expr list;
-
-        QDOT_TRY(qdot_read_side(c, &list));
-        if (qdot_expr_kind(loop->session->pool, list) != QDOT_LIST) {
-            c->error_at = start->start;
-            return qdot_fail(QDOT_ETYPE,
-                             "an index runs over a list `[1, 2, 5]` or a range");
-        }
-        index->listed = true;
-        for (uint32_t i = 0; i < qdot_expr_count(loop->session->pool, list); i++)
-            QDOT_TRY(qdot_vec_push(&index->values,
-                                   qdot_expr_arg(loop->session->pool, list, i)));
-        *empty = index->values.n == 0;
-    } else {
-        const qdot_token *start = c->at;
-        qdot_expr from, to;
-
-        if (qdot_read_range(c, &from, &to) != QDOT_OK)
-            return qdot_last_error()->hint[0] == '\0' &&
-                           qdot_last_error()->status == QDOT_ESYNTAX
-                       ? qdot_hint("as in for k = 1..3, or for k = [1, 2, 5]")
-                       : qdot_last_error()->status;
-        c->error_at = start->start;
-        QDOT_TRY(qdot_session_integer(loop->session, from, &index->at));
-        QDOT_TRY(qdot_session_integer(loop->session, to, &index->last));
-        *empty = index->at > index->last;
-        if (!*empty &&
-            (unsigned long)index->last - (unsigned long)index->at >= QDOT_LOOP_PASSES) {
-            (void)qdot_fail(QDOT_ELIMIT, "a loop of %lu passes: more than %d",
-                            (unsigned long)index->last - (unsigned long)index->at + 1,
-                            QDOT_LOOP_PASSES);
-            return qdot_hint("a function of k needs no member for each: a(k) = ...");
-        }
-    }
-    index->behind = c->at;
+    index->behind = values + 1;
+    QDOT_TRY(qdot_loop_clause_is_list(values) ? read_list(loop, values, index) : read_range(loop, values, index));
+    *empty = index->listed ? index->values.n == 0 : index->at > index->last;
     return QDOT_OK;
 }
 
@@ -137,20 +142,20 @@ advance(qdot_loop *loop, bool *more)
 
 /* Bind the remaining indices to their first values. */
 static qdot_status
-descend(qdot_loop *loop, qdot_cursor *c, bool *more)
+descend(qdot_loop *loop, bool *more)
 {
     for (*more = true;;) {
+        const qdot_filled *name = loop->clause;
         qdot_loop_index index = {0};
         bool empty = false;
         qdot_status status = qdot_interrupt_check();
 
-        if (status == QDOT_OK && loop->indices.n > 0) {
-            c->at = loop->indices.at[loop->indices.n - 1].behind;
-            if (!qdot_cursor_accept_op(c, ","))
-                return c->at == loop->end ? QDOT_OK : qdot_cursor_expect_end(c);
-        }
+        if (loop->indices.n > 0)
+            name = loop->indices.at[loop->indices.n - 1].behind;
+        if (status == QDOT_OK && name == loop->end)
+            return QDOT_OK;
         if (status == QDOT_OK)
-            status = read_index(loop, c, &index, &empty);
+            status = read_index(loop, name + (loop->indices.n > 0), &index, &empty); /* behind a comma */
         if (status == QDOT_OK && !empty)
             status = loop_bind(loop, &index);
         if (status == QDOT_OK && !empty) {
@@ -167,43 +172,42 @@ descend(qdot_loop *loop, qdot_cursor *c, bool *more)
     }
 }
 
+/* After a failure end the loop; otherwise the record has its place for errors again. */
 static qdot_status
-pass(qdot_loop *loop, qdot_status status, qdot_cursor *c)
+pass(qdot_loop *loop, qdot_status status, size_t place)
 {
-    if (status != QDOT_OK) {
-        loop->error_at = c->error_at;
+    if (status != QDOT_OK)
         qdot_loop_end(loop);
-    }
+    else
+        loop->record->cursor.error_at = place;
     return status;
 }
 
 qdot_status
-qdot_loop_begin(qdot_loop *loop, const qdot_cursor *c, const qdot_token *end, bool *more)
+qdot_loop_begin(qdot_loop *loop, qdot_record *record, const qdot_filled *clause, const qdot_filled *end, bool *more)
 {
-    qdot_cursor own = *c;
+    qdot_session *session = record->cursor.session;
+    const size_t place = record->cursor.error_at;
 
-    if (c->session->evaluation->loops++ == 0)
-        c->session->evaluation->partial_sums.n = 0;
-    *loop = (qdot_loop){
-        .session = c->session, .source = c->source, .clause = c->at, .end = end, .open = true};
-    own.error_at = c->at->start;
-    return pass(loop, descend(loop, &own, more), &own);
+    record->cursor.error_at = clause->from->start;
+    if (session->evaluation->loops++ == 0)
+        session->evaluation->partial_sums.n = 0;
+    *loop = (qdot_loop){.session = session, .record = record, .clause = clause, .end = end, .open = true};
+    return pass(loop, descend(loop, more), place);
 }
 
 qdot_status
 qdot_loop_next(qdot_loop *loop, bool *more)
 {
-    qdot_cursor own = {.session = loop->session,
-                       .source = loop->source,
-                       .at = loop->clause,
-                       .error_at = loop->clause->start};
+    const size_t place = loop->record->cursor.error_at;
     qdot_status status = qdot_interrupt_check();
 
+    loop->record->cursor.error_at = loop->clause->from->start;
     if (status == QDOT_OK)
         status = advance(loop, more);
     if (status == QDOT_OK && *more)
-        status = descend(loop, &own, more);
-    return pass(loop, status, &own);
+        status = descend(loop, more);
+    return pass(loop, status, place);
 }
 
 void

@@ -38,10 +38,9 @@ qdot_set_unknown(const qdot_session *session, const char *what, const char *name
 /* --- the statement `set` ------------------------------------------------------------ */
 
 bool
-qdot_set_is_momentum(const qdot_session *session, const qdot_token *p)
+qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part)
 {
-    return qdot_token_is_word(p, "p") && p[1].glued && qdot_token_is(p + 1, "[") &&
-           !qdot_names_is_family(session->names, "p");
+    return qdot_filled_is_member(part, "p") && !qdot_names_is_family(session->names, "p");
 }
 
 /* Find the parameter of that name; `start` is where an error is shown. */
@@ -87,7 +86,7 @@ qdot_set_find_parameter(qdot_record *r, const qdot_filled *part, qdot_expr *symb
 {
     const char *name;
 
-    if (qdot_set_is_momentum(r->cursor.session, part->from)) {
+    if (qdot_set_is_momentum(r->cursor.session, part)) {
         QDOT_TRY(find_momentum(r, part, symbol));
     } else {
         QDOT_TRY(qdot_record_name(r, part, &name));
@@ -285,10 +284,7 @@ qdot_set_is_read(const qdot_record *r, const qdot_filled *part, qdot_expr symbol
     const qdot_session *session = r->cursor.session;
     const char *name = qdot_expr_symbol(session->pool, symbol)->name;
 
-    for (const qdot_token *k = r->start; k < r->cursor.at; k++)
-        if ((k < part->from || k >= part->to) && qdot_token_is_word(k, name))
-            return true;
-    return qdot_loop_index_is_read(session, symbol);
+    return qdot_record_mentions_besides(r, part, name) || qdot_loop_index_is_read(session, symbol);
 }
 
 qdot_status
@@ -309,7 +305,7 @@ qdot_set_find_symbol(qdot_record *r, const qdot_filled *part, qdot_expr *symbol)
     const qdot_name *known;
     const char *name;
 
-    if (qdot_set_is_momentum(r->cursor.session, part->from))
+    if (qdot_set_is_momentum(r->cursor.session, part))
         return refuse_momentum(r, part);
     QDOT_TRY(qdot_record_name(r, part, &name));
     known = qdot_names_find(r->cursor.session->names, name);

@@ -11,8 +11,8 @@ QDOT_MUST_CHECK qdot_status qdot_set_find_parameter(qdot_record *r, const qdot_f
 QDOT_MUST_CHECK qdot_status qdot_set_find_jet(qdot_record *r, const qdot_filled *name, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_find_constant(qdot_record *r, const qdot_filled *part,
                                                    qdot_expr *value);
-/* Whether p[NAME] at the token is a momentum: `p` is no name of the script. */
-bool qdot_set_is_momentum(const qdot_session *session, const qdot_token *p);
+/* Whether the part p[NAME] is a momentum: `p` is no name of the script. */
+bool qdot_set_is_momentum(const qdot_session *session, const qdot_filled *part);
 /* Find what a run can be given: a parameter, q or q'. QDOT_EINVAL for p[NAME], which runs do not use. */
 QDOT_MUST_CHECK qdot_status qdot_set_find_symbol(qdot_record *r, const qdot_filled *name, qdot_expr *symbol);
 /* Whether `symbol`, whose name the part is, stands elsewhere in the statement, or something in the scene depends on it;

@@ -43,12 +43,10 @@ is_furnished(const qdot_scene *s)
 
 /* Append the suggested statement: "; `potential k*x^2` does" */
 static void
-add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
-              qdot_text *text)
+add_statement(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, size_t row, qdot_text *text)
 {
     const qdot_scene *s = c->session->scene;
     const char *word = names[row].statement;
-    const qdot_token *equals = start;
     bool stated = s->lagrangian != QDOT_NIL;
 
     if (word == NULL) {
@@ -61,26 +59,23 @@ add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, s
         qdot_text_add(text, ": these follow from what is declared");
         return;
     }
-    while (!(equals->kind == QDOT_TOKEN_OPERATOR && strcmp(equals->text, "=") == 0))
-        equals++;
     qdot_text_format(text, "; `%s ", word);
     if (entry->kind == QDOT_NAME_FUNCTION)
-        qdot_token_text(c->session, start, equals, text);
+        qdot_token_text(c->session, d->name, d->equals, text);
     else
-        qdot_token_text(c->session, equals + 1, c->at, text);
+        qdot_token_text(c->session, d->equals + 1, c->at, text);
     qdot_text_add(text, "` does");
 }
 
 static qdot_status
-warning_tell(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
-             const char *hidden)
+warning_tell(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry, size_t row, const char *hidden)
 {
     qdot_text text = {0};
     qdot_status status;
 
     qdot_text_format(&text, "`%s` names %s and enters no equation of motion", entry->name,
                      entry->kind == QDOT_NAME_FUNCTION ? "a function" : "an expression");
-    add_statement(c, start, entry, row, &text);
+    add_statement(c, d, entry, row, &text);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
         status = qdot_answer_notice(c->session, "%.600s%s", qdot_text_str(&text), hidden);
@@ -106,10 +101,9 @@ takes_apart(const qdot_name *f)
 {
     static const char *const words[] = {"diff", "subs", "integral", "limit", "series", "solve"};
 
-    for (const qdot_token *k = f->body->from; k < f->body->to; k++)
-        for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-            if (qdot_token_is_word(k, words[i]))
-                return true;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_mention_is_in(f->body->from, f->body->to, words[i]))
+            return true;
     return false;
 }
 
@@ -126,13 +120,12 @@ tell_arguments(qdot_session *session, const qdot_name *f)
 
         if (declared == NULL || (declared->kind != QDOT_NAME_COORD && declared->kind != QDOT_NAME_PARAM))
             continue;
-        for (const qdot_token *k = f->body->from; k < f->body->to; k++)
-            if (k->kind == QDOT_TOKEN_NAME && qdot_function_mentions(pool, f, k->text) &&
-                stands_for(session, k->text, declared->value))
+        for (qdot_mention m = qdot_mention_in(f->body->from, f->body->to); qdot_mention_next(&m);)
+            if (qdot_function_mentions(pool, f, m.name) && stands_for(session, m.name, declared->value))
                 return qdot_answer_notice(session,
                                           "the %s in `%.100s` is the declared one, not the argument of %.100s; "
                                           "`subs(%.100s, %s = ...)` has another in its place",
-                                          formal, k->text, f->name, k->text, formal);
+                                          formal, m.name, f->name, m.name, formal);
     }
     return QDOT_OK;
 }
@@ -150,16 +143,14 @@ qdot_warnings_anew(qdot_session *session, const qdot_name *entry)
                               function ? "function" : "value", function ? "value" : "function", old->file, old->line);
 }
 
-/* Whether the name occurs anywhere else in the text. */
+/* Whether the name of the definition occurs anywhere else in the text. */
 static bool
-name_is_used(const qdot_cursor *c, const qdot_token *start)
+name_is_used(const qdot_cursor *c, const qdot_definition *d)
 {
-    const qdot_token *tokens = c->source->tokens.at;
+    const qdot_token *first = c->source->tokens.at;
 
-    for (size_t i = 0; i < c->source->tokens.n; i++)
-        if (&tokens[i] != start && qdot_token_is_word(&tokens[i], start->text))
-            return true;
-    return false;
+    return qdot_mention_is_in(first, d->name, d->name->text) ||
+           qdot_mention_is_in(d->name + 1, first + c->source->tokens.n, d->name->text);
 }
 
 /* The first declared member x[k] of a family x. */
@@ -177,26 +168,23 @@ first_member(const qdot_session *s, const char *family)
 
 /* thetadot = 2 where theta is a coordinate and thetadot is not used: suggest `start theta' = 2`. */
 static qdot_status
-tell_velocity(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
+tell_velocity(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry)
 {
     qdot_session *session = c->session;
     qdot_derivative_name meant;
-    const qdot_token *equals = start;
+    const char *name = d->name->text;
     qdot_text line = {0};
     qdot_status status;
 
     if (entry->kind != QDOT_NAME_VALUE || !qdot_expr_is_scalar(session->pool, entry->value) ||
         (qdot_expr_node(session->pool, entry->value)->holds & (motion | QDOT_HAS_TIME)) ||
-        !(qdot_hints_derivative(session, start->text, true, &meant) ||
-          qdot_hints_derivative(session, start->text, false, &meant)) ||
-        strcmp(meant.primes, "'") != 0 || name_is_used(c, start))
+        !(qdot_hints_derivative(session, name, true, &meant) || qdot_hints_derivative(session, name, false, &meant)) ||
+        strcmp(meant.primes, "'") != 0 || name_is_used(c, d))
         return QDOT_OK;
-    while (equals < c->at && !qdot_token_is(equals, "="))
-        equals++;
-    qdot_text_add(&line, meant.family && start + 1 == equals ? first_member(session, meant.base) : meant.base);
-    qdot_token_text(session, start + 1, equals, &line);
+    qdot_text_add(&line, meant.family && qdot_definition_is_of_name(d) ? first_member(session, meant.base) : meant.base);
+    qdot_token_text(session, d->name + 1, d->equals, &line);
     qdot_text_add(&line, "' = ");
-    qdot_token_text(session, equals + 1, c->at, &line);
+    qdot_token_text(session, d->equals + 1, c->at, &line);
     status = qdot_text_status(&line);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session, "`%.100s` is a name of its own and no velocity; `start %.300s` gives that of %.100s",
@@ -206,7 +194,7 @@ tell_velocity(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
 }
 
 qdot_status
-qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
+qdot_warnings_definition(qdot_cursor *c, const qdot_definition *d, const qdot_name *entry)
 {
     qdot_session *session = c->session;
     const qdot_quantity *hidden = qdot_quantity_find(entry->name);
@@ -214,7 +202,8 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
     const char *longer;
     char words[120] = "";
 
-    QDOT_TRY(function ? tell_arguments(session, entry) : tell_velocity(c, start, entry));
+    if (d != NULL)
+        QDOT_TRY(function ? tell_arguments(session, entry) : tell_velocity(c, d, entry));
     if (hidden != NULL && hidden->least > 0) /* only name[...] is predefined, not the plain name */
         hidden = NULL;
     longer = hidden != NULL ? qdot_short_names_long(hidden) : NULL;
@@ -227,7 +216,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
             (function || entry->kind == QDOT_NAME_VALUE) &&
             (function || (qdot_expr_node(session->pool, entry->value)->holds & motion)) &&
             (names[i].statement != NULL || !is_furnished(session->scene)))
-            return warning_tell(c, start, entry, i, words);
+            return warning_tell(c, d, entry, i, words);
     if (hidden == NULL && (qdot_builtin_find(entry->name) == NULL ||
                            (!function && entry->kind != QDOT_NAME_UFUN)))
         return QDOT_OK;

@@ -4,14 +4,12 @@
 
 #include "lang/language/cursor.h"
 #include "lang/session/names.h"
-#include "lang/source/token.h"
+#include "lang/syntax/definition.h"
 #include "mech/scene/things.h"
 
-/* NAME = EXPR where the language has a meaning for NAME: which statement would enter the
- * equations of motion, and how the language's value is reached now. start: the token of the
- * name; the statement ends at c->at. */
-QDOT_MUST_CHECK qdot_status qdot_warnings_definition(qdot_cursor *c,
-                                                     const qdot_token *start,
+/* The language has a meaning for the new name: which statement would enter the equations of motion, and how the language's
+ * value is reached now. definition: the statement, which ends at c->at; NULL: a statement with a word declares the name. */
+QDOT_MUST_CHECK qdot_status qdot_warnings_definition(qdot_cursor *c, const qdot_definition *definition,
                                                      const qdot_name *entry);
 /* Notice before a value is redefined as a function, or a function as a value. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_anew(qdot_session *session, const qdot_name *entry);

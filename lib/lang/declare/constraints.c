@@ -10,10 +10,10 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
-#include "lang/commands/statement.h"
 #include "lang/language/hints.h"
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
+#include "lang/syntax/statement.h"
 #include "mech/dynamics/integrable.h"
 
 /* Append the name of a constraint, such as "blade" or "roll[2]". */

@@ -5,7 +5,6 @@
 
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/language/function.h"
 #include "lang/language/read.h"
@@ -13,6 +12,7 @@
 #include "lang/session/evaluation.h"
 #include "lang/session/measured.h"
 #include "lang/source/source.h"
+#include "lang/syntax/outline.h"
 
 /* Give a declared name the file and line of the token `start`. */
 static void
@@ -25,7 +25,7 @@ set_declared_at(const qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 }
 
 qdot_status
-qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
+qdot_declare_name(qdot_cursor *c, const qdot_token *start, const qdot_definition *definition, qdot_name *entry)
 {
     bool again = qdot_names_find(c->session->names, entry->name) != NULL;
 
@@ -33,36 +33,29 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
     set_declared_at(c, start, entry);
     QDOT_TRY(qdot_warnings_anew(c->session, entry));
     QDOT_TRY(qdot_names_declare(c->session->names, entry));
-    return again ? QDOT_OK : qdot_warnings_definition(c, start, entry);
+    return again ? QDOT_OK : qdot_warnings_definition(c, definition, entry);
 }
 
 /* --- NAME = EXPR -------------------------------------------------------------------- */
 
 /* If the unknown name in a definition is the one being defined, say so in the error. */
 static qdot_status
-tell_circle(qdot_cursor *c, const qdot_token *start, qdot_status status)
+tell_circle(const qdot_cursor *c, const qdot_definition *d, qdot_status status)
 {
-    if (status == QDOT_ENAME && strlen(start->text) <= c->source->length - c->error_at &&
-        c->error_at > start->start &&
-        qdot_names_find(c->session->names, start->text) == NULL) {
-        for (const qdot_token *k = start + 1; k->kind != QDOT_TOKEN_END; k++)
-            if (k->start == c->error_at && k->kind == QDOT_TOKEN_NAME &&
-                strcmp(k->text, start->text) == 0)
-                return k[1].kind == QDOT_TOKEN_OPERATOR && strcmp(k[1].text, "[") == 0
-                           ? qdot_hint("what a family begins with is defined first: "
-                                       "%s[0] = ...",
-                                       start->text)
-                           : qdot_hint("`%s` is just being defined: it has no meaning "
-                                       "before that",
-                                       start->text);
-    }
-    return status;
+    const char *name = d->name->text;
+    bool family;
+
+    if (status != QDOT_ENAME || qdot_names_find(c->session->names, name) != NULL ||
+        !qdot_definition_recurs_at(d, c->error_at, &family))
+        return status;
+    return family ? qdot_hint("what a family begins with is defined first: %s[0] = ...", name)
+                  : qdot_hint("`%s` is just being defined: it has no meaning before that", name);
 }
 
 static qdot_status
-define_function(qdot_cursor *c)
+define_function(qdot_cursor *c, const qdot_definition *d)
 {
-    const qdot_token *start = c->at;
+    const qdot_token *start = d->name;
     qdot_name entry;
     qdot_status status = qdot_function_read(c, &entry);
     const qdot_name *old = qdot_names_find(c->session->names, start->text);
@@ -74,7 +67,7 @@ define_function(qdot_cursor *c)
         status = qdot_hint("set %s(...) = ... gives it a value for numbers", start->text);
     }
     if (status == QDOT_OK)
-        status = qdot_declare_name(c, start, &entry);
+        status = qdot_declare_name(c, start, d, &entry);
     qdot_function_body_release(entry.body);
     return status;
 }
@@ -110,19 +103,21 @@ keep_text(qdot_cursor *c, const qdot_token *right, qdot_expr value, qdot_functio
 qdot_status
 qdot_declare_definition(qdot_cursor *c)
 {
-    const qdot_token *start = c->at, *right;
+    const qdot_token *start = c->at;
+    qdot_definition d;
     qdot_name entry = {.kind = QDOT_NAME_VALUE};
     const char *name;
     const qdot_name *old;
     qdot_status status;
 
-    if (start[1].kind == QDOT_TOKEN_OPERATOR && strcmp(start[1].text, "(") == 0)
-        return define_function(c);
+    if (!qdot_definition_find(start, qdot_outline_end(start), &d))
+        return qdot_cursor_expected(c, "a definition");
+    if (d.call)
+        return define_function(c, &d);
     QDOT_TRY(qdot_read_name(c, &name));
     entry.name = (char *)name;
-    QDOT_TRY(qdot_cursor_expect_op(c, "="));
-    right = c->at;
-    QDOT_TRY(tell_circle(c, start, qdot_read_named(c, &entry.value, &entry.over)));
+    c->at = d.equals + 1;
+    QDOT_TRY(tell_circle(c, &d, qdot_read_named(c, &entry.value, &entry.over)));
     QDOT_TRY(qdot_cursor_expect_end(c));
     old = qdot_names_find(c->session->names, name);
     c->error_at = start->start;
@@ -135,8 +130,8 @@ qdot_declare_definition(qdot_cursor *c)
                                : "start %s = ... gives its initial value",
                          name);
     }
-    QDOT_TRY(keep_text(c, right, entry.value, &entry.body));
-    status = qdot_declare_name(c, start, &entry);
+    QDOT_TRY(keep_text(c, d.equals + 1, entry.value, &entry.body));
+    status = qdot_declare_name(c, start, &d, &entry);
     qdot_function_body_release(entry.body);
     return status;
 }

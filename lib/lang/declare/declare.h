@@ -4,12 +4,14 @@
 
 #include "lang/language/cursor.h"
 #include "lang/session/names.h"
-#include "lang/source/token.h"
+#include "lang/syntax/definition.h"
 
-/* Declare an entry whose name stands at `start`; file and line are filled in. A notice
- * is given where it hides a value of the language. */
-QDOT_MUST_CHECK qdot_status qdot_declare_name(qdot_cursor *c, const qdot_token *start,
+/* Declare an entry whose name stands at `start`; file and line are filled in. A notice is given where it hides a value of the
+ * language. definition: the statement, if it is NAME = EXPR; else NULL. */
+QDOT_MUST_CHECK qdot_status qdot_declare_name(qdot_cursor *c, const qdot_token *start, const qdot_definition *definition,
                                               qdot_name *entry);
+/* Carry out the definition at the cursor: NAME = EXPR, NAME[K] = EXPR, NAME(X) = EXPR. */
+QDOT_MUST_CHECK qdot_status qdot_declare_definition(qdot_cursor *c);
 
 /* After NAME is declared, an earlier `function x(NAME)` becomes a function of that symbol. */
 QDOT_MUST_CHECK qdot_status qdot_declare_meet_functions(qdot_session *session,

@@ -152,7 +152,7 @@ new_name_declare(qdot_cursor *c, qdot_name_kind kind, const qdot_new_name *x, bo
             return qdot_fail(QDOT_ENAME, "`%s` was declared with another domain at %s:%u",
                              x->name, old->file, old->line);
     } else {
-        QDOT_TRY(qdot_declare_name(c, x->start, &entry));
+        QDOT_TRY(qdot_declare_name(c, x->start, NULL, &entry));
         *fresh = true;
         if (x->own)
             qdot_symbol_domain(session->pool, entry.value, x->lo, x->lo_open, x->hi,

@@ -19,6 +19,7 @@
 #include "lang/session/typed.h"
 #include "lang/session/values.h"
 #include "lang/source/source.h"
+#include "lang/syntax/mention.h"
 
 bool
 qdot_scene_file_is(const char *path)
@@ -101,7 +102,7 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
 static bool
 is_lasting(const qdot_function_body *body)
 {
-    return !qdot_token_is_among(body->from, body->to, "%");
+    return !qdot_mention_is_in(body->from, body->to, "%");
 }
 
 enum { VALUE, SAID, FORMS };

@@ -18,6 +18,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/trial.h"
 #include "lang/session/values.h"
+#include "lang/syntax/mention.h"
 
 /* The start that the lines written so far would give when they are read. */
 typedef struct {
@@ -370,7 +371,7 @@ earliest_run_needed(const placements *list, const qdot_name *name)
     size_t first = 0;
 
     for (size_t i = 0; i < list->n && name->body != NULL; i++)
-        if (list->at[i].behind > first && qdot_token_is_among(name->body->from, name->body->to, list->at[i].name->name))
+        if (list->at[i].behind > first && qdot_mention_is_in(name->body->from, name->body->to, list->at[i].name->name))
             first = list->at[i].behind;
     return first;
 }

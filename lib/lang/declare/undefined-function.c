@@ -60,7 +60,7 @@ declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK)
-        status = qdot_declare_name(c, start, &entry);
+        status = qdot_declare_name(c, start, NULL, &entry);
     qdot_free(formals.at);
     return status;
 }

@@ -27,43 +27,32 @@ qdot_plot_indices(qdot_session *session, const qdot_loop *loop, qdot_text *label
     return QDOT_OK;
 }
 
-/* The token behind the clause that begins with the word `first`. */
-static const qdot_token *
+/* The part behind the clause that begins with the word `first`. */
+static const qdot_filled *
 clause_end(const qdot_plot_said *said, const qdot_filled *first)
 {
-    const qdot_filled *last = first;
+    const qdot_filled *behind = first + 1;
 
-    while (last + 1 < said->to && last[1].node->kind != QDOT_USAGE_WORD)
-        last++;
-    return last->to;
+    while (behind < said->to && behind->node->kind != QDOT_USAGE_WORD)
+        behind++;
+    return behind;
 }
 
 qdot_status
 qdot_plot_loop_carry_out(const qdot_plot_said *said, const qdot_token *from, qdot_plot_pass pass, void *user)
 {
     const qdot_filled *word = qdot_plot_find_word(said, "for");
-    const qdot_token *end = clause_end(said, word);
-    qdot_cursor *c = &said->record->cursor, clause = *c;
+    const qdot_filled *end = clause_end(said, word);
     qdot_status status;
     qdot_loop loop;
     bool more;
 
-    clause.at = word->to;
-    status = qdot_loop_index_check(&clause, from, word->from, end, false);
-    if (status != QDOT_OK) {
-        c->error_at = clause.error_at;
-        return status;
-    }
-    status = qdot_loop_begin(&loop, &clause, end, &more);
-    if (status != QDOT_OK)
-        c->error_at = loop.error_at;
+    QDOT_TRY(qdot_loop_index_check(said->record, word + 1, end, from, word->from, false));
+    status = qdot_loop_begin(&loop, said->record, word + 1, end, &more);
     while (status == QDOT_OK && more) {
         status = pass(said, &loop, user);
-        if (status == QDOT_OK) {
+        if (status == QDOT_OK)
             status = qdot_loop_next(&loop, &more);
-            if (status != QDOT_OK)
-                c->error_at = loop.error_at;
-        }
     }
     qdot_loop_end(&loop);
     return status;

@@ -43,11 +43,9 @@ qdot_redirect_answers(const qdot_statement *row)
 }
 
 const qdot_token *
-qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
+qdot_redirect_find(const qdot_statement *row, const qdot_token *first, const qdot_token *to)
 {
-    const qdot_token *to = qdot_redirect_answers(row) ? qdot_token_file_at_end(first) : NULL;
-
-    if (to == NULL || (row == NULL && to == first) ||
+    if (to == NULL || !qdot_redirect_answers(row) || (row == NULL && to == first) ||
         (row != NULL && strcmp(row->word, "scene") == 0 && qdot_scene_file_is(to[1].text)))
         return NULL;
     return to;

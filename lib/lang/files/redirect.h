@@ -10,8 +10,8 @@
 #define QDOT_LANG_REDIRECT_H
 
 #include "expr/print-name.h"
-#include "lang/commands/statement.h"
 #include "lang/source/token.h"
+#include "lang/syntax/statement.h"
 #include "show/formula-page.h"
 
 typedef struct {
@@ -30,9 +30,9 @@ typedef struct {
  * an expression. */
 bool qdot_redirect_answers(const qdot_statement *row);
 
-/* The `to` of the statement that begins at `first`, NULL if it has none; row NULL: an
- * expression. */
-const qdot_token *qdot_redirect_find(const qdot_statement *row, const qdot_token *first);
+/* The `to "FILE"` at the end of the statement that begins at `first`, if it is read here; NULL: it is not, or `to` is NULL.
+ * row NULL: an expression. */
+const qdot_token *qdot_redirect_find(const qdot_statement *row, const qdot_token *first, const qdot_token *to);
 
 /* Collect answers from now on. QDOT_EINVAL: a file with this ending cannot hold them. */
 QDOT_MUST_CHECK qdot_status qdot_redirect_begin(qdot_redirect *r, qdot_session *session,

@@ -3,7 +3,6 @@
 
 #include "expr/node.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/declare/scene-file.h"
 #include "lang/files/report-answer.h"
 #include "lang/files/report-run.h"
@@ -11,6 +10,7 @@
 #include "lang/session/runs.h"
 #include "lang/session/text-list.h"
 #include "lang/syntax/record.h"
+#include "lang/syntax/statement.h"
 #include "mech/study/noether.h"
 #include "show/page.h"
 #include "show/pdf.h"

@@ -1,13 +1,13 @@
 /* plot-again.c -- the statement `plot`: `for l = [1, 2]` makes the latest run once more for each value. */
 #include <string.h>
 
-#include "lang/commands/statement.h"
 #include "lang/figures/figure-option.h"
 #include "lang/figures/plot.h"
 #include "lang/runs/run-options.h"
 #include "lang/session/runs.h"
 #include "lang/source/source.h"
 #include "lang/syntax/match.h"
+#include "lang/syntax/statement.h"
 
 static qdot_status plot_draw(qdot_record *r);
 

@@ -56,25 +56,4 @@ qdot_token_is_word(const qdot_token *token, const char *word)
     return token->kind == QDOT_TOKEN_NAME && strcmp(token->text, word) == 0;
 }
 
-/* Whether one of the tokens [from, to) is that sign or word, not within quotes. */
-static inline bool
-qdot_token_is_among(const qdot_token *from, const qdot_token *to, const char *text)
-{
-    for (; from < to; from++)
-        if (from->kind != QDOT_TOKEN_STRING && strcmp(from->text, text) == 0)
-            return true;
-    return false;
-}
-
-/* The word `to` of `to "FILE"` at the end of the statement that begins with `first`; NULL: it does not end so. */
-static inline const qdot_token *
-qdot_token_file_at_end(const qdot_token *first)
-{
-    const qdot_token *end = first;
-
-    while (end->kind != QDOT_TOKEN_END)
-        end++;
-    return end - first >= 2 && end[-1].kind == QDOT_TOKEN_STRING && qdot_token_is_word(end - 2, "to") ? end - 2 : NULL;
-}
-
 #endif

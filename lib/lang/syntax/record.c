@@ -7,6 +7,7 @@
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/names.h"
+#include "lang/syntax/mention.h"
 
 void
 qdot_record_free(qdot_record *r)
@@ -42,6 +43,18 @@ bool
 qdot_filled_is_word(const qdot_filled *part, const char *word)
 {
     return part->to == part->from + 1 && qdot_token_is_word(part->from, word);
+}
+
+bool
+qdot_filled_is_member(const qdot_filled *part, const char *family)
+{
+    return part->name != NULL && part->n > 0 && strcmp(part->name->text, family) == 0;
+}
+
+bool
+qdot_record_mentions_besides(const qdot_record *r, const qdot_filled *part, const char *name)
+{
+    return qdot_mention_is_in(r->start, part->from, name) || qdot_mention_is_in(part->to, r->cursor.at, name);
 }
 
 bool

@@ -65,6 +65,10 @@ const qdot_filled *qdot_record_next(const qdot_record *r, const qdot_filled *par
 bool qdot_filled_is(const qdot_filled *part, const char *text);
 /* Whether the part consists of one token, this word. */
 bool qdot_filled_is_word(const qdot_filled *part, const char *word);
+/* Whether the part is a member NAME[...] of that family. */
+bool qdot_filled_is_member(const qdot_filled *part, const char *family);
+/* Whether the name is mentioned in the operands of the statement outside the part. */
+bool qdot_record_mentions_besides(const qdot_record *r, const qdot_filled *part, const char *name);
 /* Whether the part is a text in quotes. */
 bool qdot_filled_is_text(const qdot_filled *part);
 /* Whether an operator outside brackets begins with the sign. */

@@ -103,7 +103,7 @@ symbol_find(qdot_find *f, const qdot_filled *part, qdot_slope_name *x)
     const char *name;
 
     *x = (qdot_slope_name){.place = part->from};
-    if (qdot_set_is_momentum(f->c->session, part->from))
+    if (qdot_set_is_momentum(f->c->session, part))
         return qdot_slope_name_find(f->record, part, x);
     QDOT_TRY(qdot_record_name(f->record, part, &name));
     if (qdot_names_find(f->c->session->names, name) == NULL && part->primes == part->to && such_names(f->record, name))

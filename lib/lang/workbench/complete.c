@@ -6,7 +6,6 @@
 
 #include "base/utf8.h"
 #include "expr/function.h"
-#include "lang/commands/statement.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
@@ -16,6 +15,7 @@
 #include "lang/session/runs.h"
 #include "lang/source/letters.h"
 #include "lang/source/source.h"
+#include "lang/syntax/statement.h"
 #include "lang/syntax/usage.h"
 #include "ode/method.h"
 #include "show/figure.h"

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/utf8.h"
-#include "lang/commands/statement.h"
-#include "lang/syntax/usage.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
 #include "lang/source/source.h"
+#include "lang/syntax/statement.h"
+#include "lang/syntax/usage.h"
 
 /* --- kinds of names ------------------------------------------------------------------- */
 

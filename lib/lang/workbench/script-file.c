@@ -3,10 +3,10 @@
 #include <sys/stat.h>
 
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 #include "lang/session/outcome.h"
 #include "lang/session/text-list.h"
 #include "lang/source/source.h"
+#include "lang/syntax/mention.h"
 #include "lang/workbench/script.h"
 #include "parallel/ranks.h"
 
@@ -109,22 +109,17 @@ bool
 qdot_script_takes_long(const char *text, size_t length)
 {
     qdot_source *source = NULL;
-    bool found = false, start = true;
+    bool found = false;
     size_t at;
 
     if (qdot_source_new("", text, length, &source, &at) != QDOT_OK) {
         qdot_source_free(source);
         return false; /* the source is wrong, so an error follows */
     }
-    for (size_t i = 0; i < source->tokens.n && !found; i++) {
-        const qdot_token *token = &source->tokens.at[i];
-        const qdot_statement *row =
-            start && token->kind == QDOT_TOKEN_NAME ? qdot_statement_find(token->text) : NULL;
-
-        found = row != NULL &&
-                (strcmp(row->group, "numbers") == 0 || strcmp(row->word, "include") == 0);
-        start = token->kind == QDOT_TOKEN_END || qdot_token_is(token, "{");
-    }
+    for (qdot_mention m = qdot_mention_in(source->tokens.at, source->tokens.at + source->tokens.n);
+         !found && qdot_mention_next(&m);)
+        found = m.begins && m.row != NULL &&
+                (strcmp(m.row->group, "numbers") == 0 || strcmp(m.row->word, "include") == 0);
     qdot_source_free(source);
     return found;
 }

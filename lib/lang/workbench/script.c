@@ -19,7 +19,7 @@
 #include "lang/commands/definition-check.h"
 #include "lang/commands/loop-index.h"
 #include "lang/commands/loop.h"
-#include "lang/commands/statement-form.h"
+#include "lang/declare/declare.h"
 #include "lang/declare/session-remarks.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
@@ -32,14 +32,16 @@
 #include "lang/session/typed.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
+#include "lang/syntax/form.h"
+#include "lang/syntax/loop-clause.h"
 #include "lang/syntax/match.h"
+#include "lang/syntax/outline.h"
 #include "lang/workbench/statement-count.h"
-
-enum { FEW = 5 }; /* number of tokens quoted from the start of a statement */
 
 typedef struct {
     size_t body, close; /* indices of the first token in the block, and of its `}` */
     size_t resume;      /* the token after the block */
+    qdot_record *clause; /* of the loop; owned */
     qdot_loop loop;
 } frame;
 
@@ -73,28 +75,20 @@ nearest_statement(const qdot_session *session, const char *name)
 static qdot_status
 unknown_word(qdot_cursor *c)
 {
-    const qdot_statement *near = nearest_statement(c->session, c->at->text);
+    const char *word = c->at->text;
+    const qdot_statement *near = nearest_statement(c->session, word);
 
-    if (qdot_statement_find(c->at->text) != NULL) { /* a statement of one word */
+    if (qdot_statement_find(word) != NULL) { /* a statement of one word */
         c->error_at = c->at[1].start;
-        return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", c->at->text,
-                         c->at[1].text);
+        return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", word, c->at[1].text);
     }
     c->error_at = c->at->start;
-    (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
-    if (qdot_token_is_word(c->at, "for"))
+    (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", word);
+    if (strcmp(word, qdot_loop_clause.word) == 0)
         return qdot_hint("it ends one: print k^2 for k = 1..3");
     return near != NULL
                ? qdot_hint("did you mean `%s`?", near->word)
                : qdot_hint("`help` lists the statements; a product is written with *");
-}
-
-static bool
-is_unknown_word(const qdot_session *session, const qdot_token *name)
-{
-    return name->kind == QDOT_TOKEN_NAME && name[1].kind == QDOT_TOKEN_NAME &&
-           !qdot_token_is_word(name + 1, "and") && !qdot_token_is_word(name + 1, "or") &&
-           !qdot_token_is_word(name, "not") && !qdot_cursor_knows(session, name->text);
 }
 
 /* The compiled usage of the row; NULL if out of memory. */
@@ -163,7 +157,7 @@ dispatch(engine *x, qdot_cursor *c)
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
         }
         QDOT_TRY(carry_out_row(x, c, row));
-    } else if (is_unknown_word(c->session, c->at)) {
+    } else if (form == QDOT_FORM_UNKNOWN) {
         return unknown_word(c);
     } else if (form == QDOT_FORM_COMPARISON) {
         QDOT_TRY(qdot_check(c));
@@ -211,15 +205,12 @@ dispatch_held(engine *x, qdot_cursor *c)
 static const qdot_token *
 find_to(const qdot_session *session, const qdot_token *first)
 {
-    const qdot_form form = qdot_statement_form(session, first);
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+    const qdot_token *to = qdot_outline_file(first);
+    const qdot_form form = to != NULL ? qdot_statement_form(session, first) : QDOT_FORM_DEFINITION;
+    const bool word = form == QDOT_FORM_WORD || to == first + 1;
 
-    if (form == QDOT_FORM_DEFINITION)
-        return NULL;
-    if (form != QDOT_FORM_WORD && !qdot_token_is_word(first + 1, "to"))
-        row = NULL;
-    return qdot_redirect_find(row, first);
+    return form == QDOT_FORM_DEFINITION ? NULL
+                                        : qdot_redirect_find(word ? qdot_statement_row(first) : NULL, first, to);
 }
 
 /* Carry out a statement that ends before `to`, with its answers going to the file. */
@@ -231,9 +222,9 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
 
     c->error_at = x->tokens[to + 1].start;
     QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
-    x->tokens[to].kind = QDOT_TOKEN_END;
+    qdot_outline_cut(&x->tokens[to]);
     status = dispatch_held(x, c);
-    x->tokens[to].kind = QDOT_TOKEN_NAME;
+    qdot_outline_join(&x->tokens[to]);
     if (status == QDOT_OK)
         c->error_at = x->tokens[to + 1].start;
     return qdot_redirect_end(&redirect, status);
@@ -244,8 +235,7 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
 static qdot_status
 tell_unfinished(qdot_session *session, const qdot_token *first)
 {
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+    const qdot_statement *row = qdot_statement_row(first);
 
     if (!qdot_pool_unfinished_taken(session->pool) ||
         (row != NULL && !row->alone && strcmp(row->word, "print") != 0))
@@ -290,53 +280,6 @@ statement(engine *x, size_t i)
 
 /* --- repetition by a trailing `for` ------------------------------------------------- */
 
-/* Whether the statement `plot` draws a curve for each value of the index: it is a parameter or
- * coordinate, of which the run is made once more. */
-static bool
-is_of_plot(const engine *x, size_t i, const qdot_token *index)
-{
-    const qdot_name *known = qdot_names_find(x->session->names, index->text);
-
-    return qdot_token_is_word(&x->tokens[i], "plot") && known != NULL &&
-           (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD);
-}
-
-/* The top-level `for NAME =` of the statement at i, or its END. plot keeps the one
- * that goes with `vs NAME =`, or with a declared NAME. */
-static size_t
-statement_end(const engine *x, size_t i)
-{
-    bool own = false;
-    long depth = 0;
-
-    for (size_t k = i;; k++) {
-        const qdot_token *token = &x->tokens[k];
-
-        if (token->kind == QDOT_TOKEN_END)
-            return k;
-        depth += qdot_token_bracket(token);
-        if (depth != 0 || k == i)
-            continue;
-        if (qdot_token_is_word(token, "vs") && token[1].kind == QDOT_TOKEN_NAME &&
-            qdot_token_is(token + 2, "=") && qdot_token_is_word(&x->tokens[i], "plot"))
-            own = true;
-        if (!own && qdot_token_is_word(token, "for") && token[1].kind == QDOT_TOKEN_NAME &&
-            !is_of_plot(x, i, &token[1]) &&
-            (qdot_token_is(token + 2, "=") || token[2].kind == QDOT_TOKEN_NAME ||
-             token[2].kind == QDOT_TOKEN_END))
-            return k;
-    }
-}
-
-/* The index of the first END token at or after i. */
-static size_t
-find_end(const engine *x, size_t i)
-{
-    while (x->tokens[i].kind != QDOT_TOKEN_END)
-        i++;
-    return i;
-}
-
 /* Add to the error in which iteration it occurred, unless there is another hint. */
 static void
 tell_pass(const engine *x, const qdot_loop *loop)
@@ -360,35 +303,60 @@ tell_pass(const engine *x, const qdot_loop *loop)
     qdot_text_clear(&text);
 }
 
+/* Read the clause behind the word `for` at the cursor into the record, and check that its indices occur in the tokens
+ * [from, to) that it repeats. Free the record in any case. */
 static qdot_status
-repeat(engine *x, size_t i, size_t word)
+read_clause(engine *x, const qdot_cursor *c, const qdot_token *from, const qdot_token *to, bool block, qdot_record *clause)
 {
-    qdot_cursor c = {
-        .session = x->session, .source = x->source, .at = &x->tokens[word + 1]};
-    qdot_loop loop;
+    const qdot_usage *usage = find_usage(x, &qdot_loop_clause);
     qdot_status status;
-    bool more;
 
-    status = qdot_loop_index_check(&c, &x->tokens[i], &x->tokens[word], NULL, false);
-    if (status != QDOT_OK) {
-        x->error_at = c.error_at;
-        return status;
-    }
-    status = qdot_loop_begin(&loop, &c, NULL, &more);
+    *clause = (qdot_record){0};
+    if (usage == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_loop_clause_read(c, usage, clause);
+    if (status == QDOT_OK)
+        status = qdot_loop_index_check(clause, clause->parts.at + 1, clause->parts.at + clause->parts.n, from, to, block);
+    x->error_at = clause->cursor.error_at;
+    return status;
+}
+
+/* Begin the loop over the clause that has been read. */
+static qdot_status
+begin_loop(engine *x, qdot_loop *loop, qdot_record *clause, bool *more)
+{
+    const qdot_status status =
+        qdot_loop_begin(loop, clause, clause->parts.at + 1, clause->parts.at + clause->parts.n, more);
+
+    x->error_at = status != QDOT_OK ? clause->cursor.error_at : x->error_at;
+    return status;
+}
+
+/* Carry out the statement at i, which ends before the word of its loop, in each pass. */
+static qdot_status
+repeat(engine *x, size_t i, const qdot_token *word)
+{
+    const qdot_cursor c = {.session = x->session, .source = x->source, .at = word};
+    qdot_record clause;
+    qdot_loop loop = {0};
+    bool more = false;
+    qdot_status status = read_clause(x, &c, &x->tokens[i], word, false, &clause);
+
+    if (status == QDOT_OK)
+        status = begin_loop(x, &loop, &clause, &more);
     while (status == QDOT_OK && more) {
-        x->tokens[word].kind = QDOT_TOKEN_END;
+        qdot_outline_cut(word);
         status = statement(x, i);
-        x->tokens[word].kind = QDOT_TOKEN_NAME;
+        qdot_outline_join(word);
         if (status != QDOT_OK) {
             tell_pass(x, &loop);
-            qdot_loop_end(&loop);
-            return status;
+            break;
         }
         status = qdot_loop_next(&loop, &more);
+        x->error_at = status != QDOT_OK ? clause.cursor.error_at : x->error_at;
     }
-    if (status != QDOT_OK)
-        x->error_at = loop.error_at;
     qdot_loop_end(&loop);
+    qdot_record_free(&clause);
     return status;
 }
 
@@ -421,16 +389,13 @@ row_with_example(const engine *x, size_t i, size_t end)
 {
     const qdot_token *first = &x->tokens[i];
     const qdot_error *error = qdot_last_error();
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
-    const size_t few = end - i > FEW ? FEW : end - i;
-    const qdot_token *last = &x->tokens[end - 1];
-    const bool broken_off = x->error_at >= last->start + last->length;
+    const qdot_statement *row = qdot_statement_row(first);
+    bool broken_off;
 
     if (row == NULL || row->alone || error->status != QDOT_ESYNTAX || error->hint[0] != '\0' ||
         strncmp(error->message, "expected ", 9) != 0 || strchr(error->message, '"') != NULL ||
         strstr(error->message, "or the end of the statement") != NULL ||
-        (broken_off ? end - i > FEW : x->error_at > first[few - 1].start) ||
+        !qdot_outline_fails_early(first, &x->tokens[end], x->error_at, &broken_off) ||
         qdot_statement_is_name(x->session, first, row))
         return NULL;
     return broken_off || strncmp(error->message, "expected an expression", 22) != 0 ? row : NULL;
@@ -480,21 +445,21 @@ tell_seldom_meant(engine *x, size_t i, size_t end)
 static qdot_status
 carry_out_simple(engine *x, size_t i, size_t *next)
 {
-    size_t end = statement_end(x, i);
+    const qdot_outline whole = qdot_outline_statement(x->session, &x->tokens[i]);
     clock_t since = clock();
     bool timed = x->session->output->timing && x->frames.n == 0;
     qdot_cursor c = {.session = x->session, .source = x->source, .at = &x->tokens[i]};
     qdot_status status;
 
-    *next = find_end(x, end);
+    *next = (size_t)(whole.end - x->tokens);
     x->session->evaluation->placed = false;
     qdot_text_list_clear(&x->session->evaluation->told);
-    status = qdot_definition_check(&c, &x->tokens[*next]);
+    status = qdot_definition_check(&c, whole.end);
     if (status != QDOT_OK) {
         x->error_at = c.error_at;
         return status;
     }
-    status = x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end);
+    status = whole.loop == NULL ? statement(x, i) : repeat(x, i, whole.loop);
     if (status != QDOT_OK)
         return hint_known_mistake(x, i, *next, status);
     QDOT_TRY(tell_seldom_meant(x, i, *next));
@@ -505,24 +470,12 @@ carry_out_simple(engine *x, size_t i, size_t *next)
 
 /* --- blocks in braces --------------------------------------------------------------- */
 
-/* Find the `}` that belongs to every `{`. */
-static qdot_status
-match_blocks(engine *x)
+static void
+leave_block(frame *f)
 {
-    qdot_vec(uint32_t) open = {0};
-    qdot_status status = QDOT_OK;
-
-    for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
-        if (qdot_token_is(&x->tokens[i], "{")) {
-            if (x->match == NULL)
-                x->match = qdot_calloc(x->n, sizeof *x->match);
-            status = x->match != NULL ? qdot_vec_push(&open, (uint32_t)i) : QDOT_ENOMEM;
-        } else if (qdot_token_is(&x->tokens[i], "}") && open.n > 0) {
-            x->match[open.at[--open.n]] = (uint32_t)i;
-        }
-    }
-    qdot_free(open.at);
-    return status;
+    qdot_loop_end(&f->loop);
+    qdot_record_free(f->clause);
+    qdot_free(f->clause);
 }
 
 /* Enter the block that opens at i, or step over it if its loop has no values. */
@@ -530,38 +483,29 @@ static qdot_status
 enter_block(engine *x, size_t i, size_t *next)
 {
     frame f = {.body = i + 1, .close = x->match[i]};
-    qdot_cursor c = {
-        .session = x->session, .source = x->source, .at = &x->tokens[f.close + 1]};
+    const qdot_token *close = &x->tokens[f.close], *first = &x->tokens[f.body], *word = qdot_outline_block_loop(close);
+    qdot_cursor c = {.session = x->session, .source = x->source, .at = word != NULL ? word : close + 1};
     qdot_status status;
-    bool more;
+    bool more = false;
 
     x->error_at = c.at->start;
     QDOT_TRY(qdot_interrupt_check());
-    if (!qdot_cursor_accept_word(&c, "for")) {
-        const qdot_token *first = &x->tokens[f.body];
-
+    if (word == NULL) {
         (void)qdot_cursor_expected(&c, "`for` after the block");
-        if (first->kind != QDOT_TOKEN_NAME || qdot_statement_find(first->text) == NULL)
-            return qdot_hint("a list is written [a, b], a vector (a, b)");
-        return QDOT_ESYNTAX;
+        return qdot_statement_row(first) == NULL ? qdot_hint("a list is written [a, b], a vector (a, b)") : QDOT_ESYNTAX;
     }
-    f.resume = find_end(x, f.close + 1);
-    status = qdot_loop_index_check(&c, &x->tokens[f.body], &x->tokens[f.close], NULL, true);
-    if (status != QDOT_OK) {
-        x->error_at = c.error_at;
-        return status;
-    }
-    status = qdot_loop_begin(&f.loop, &c, NULL, &more);
-    if (status != QDOT_OK) {
-        x->error_at = f.loop.error_at;
-        return status;
-    }
+    f.resume = (size_t)(qdot_outline_end(close) - x->tokens);
+    f.clause = qdot_malloc(sizeof *f.clause);
+    if (f.clause == NULL)
+        return QDOT_ENOMEM;
+    status = read_clause(x, &c, first, close, true, f.clause);
+    if (status == QDOT_OK)
+        status = begin_loop(x, &f.loop, f.clause, &more);
     *next = more ? f.body : f.resume;
-    if (!more)
-        return QDOT_OK;
-    status = qdot_vec_push(&x->frames, f);
-    if (status != QDOT_OK)
-        qdot_loop_end(&f.loop);
+    if (status == QDOT_OK && more)
+        status = qdot_vec_push(&x->frames, f);
+    if (status != QDOT_OK || !more)
+        leave_block(&f);
     return status;
 }
 
@@ -574,10 +518,10 @@ round_again(engine *x, size_t *next)
     qdot_status status = qdot_loop_next(&top->loop, &more);
 
     if (status != QDOT_OK)
-        x->error_at = top->loop.error_at;
+        x->error_at = top->clause->cursor.error_at;
     *next = more ? top->body : top->resume;
     if (!more) {
-        qdot_loop_end(&top->loop);
+        leave_block(top);
         x->frames.n--;
     }
     return status;
@@ -589,12 +533,11 @@ advance(engine *x, size_t *i)
 {
     if (x->frames.n > 0 && *i == x->frames.at[x->frames.n - 1].close)
         return round_again(x, i);
-    if (qdot_token_is(&x->tokens[*i], "{"))
-        return enter_block(x, *i, i);
-    if (x->tokens[*i].kind != QDOT_TOKEN_END)
-        return carry_out_simple(x, *i, i);
-    ++*i;
-    return QDOT_OK;
+    switch (qdot_outline_at(&x->tokens[*i])) {
+    case QDOT_OUTLINE_BLOCK: return enter_block(x, *i, i);
+    case QDOT_OUTLINE_STATEMENT: return carry_out_simple(x, *i, i);
+    default: ++*i; return QDOT_OK;
+    }
 }
 
 /* Carry out the statement or block at *i to its end. */
@@ -609,9 +552,9 @@ carry_out_whole(engine *x, size_t *i)
     do
         status = advance(x, i);
     while (status == QDOT_OK && x->frames.n > 0 && !x->session->outcome->quit);
-    last = &x->tokens[x->frames.n > 0         ? x->frames.at[0].resume
-                      : status == QDOT_OK     ? *i
-                                              : find_end(x, (size_t)(first - x->tokens))];
+    last = x->frames.n > 0     ? &x->tokens[x->frames.at[0].resume]
+           : status == QDOT_OK ? &x->tokens[*i]
+                               : qdot_outline_end(first);
     last -= last > first;
     qdot_undo_end(x->session, begun, x->source->text + first->start,
                   last->start + last->length - first->start);
@@ -626,7 +569,7 @@ carry_out(engine *x)
     size_t i = 0;
 
     while (i < x->n && !x->session->outcome->quit) {
-        if (x->tokens[i].kind == QDOT_TOKEN_END)
+        if (qdot_outline_at(&x->tokens[i]) == QDOT_OUTLINE_END)
             i++;
         else
             QDOT_TRY(carry_out_whole(x, &i));
@@ -660,7 +603,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, 
     if (status == QDOT_OK) {
         x.tokens = x.source->tokens.at;
         x.n = x.source->tokens.n;
-        status = match_blocks(&x);
+        status = qdot_outline_blocks(x.source, &x.match);
     }
     if (status == QDOT_OK)
         status = carry_out(&x);
@@ -668,7 +611,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, uint32_t before, 
     while (x.frames.n > 0) {
         if (status != QDOT_OK)
             tell_pass(&x, &x.frames.at[x.frames.n - 1].loop);
-        qdot_loop_end(&x.frames.at[--x.frames.n].loop);
+        leave_block(&x.frames.at[--x.frames.n]);
     }
     if (status != QDOT_OK && x.error_at != QDOT_SCRIPT_REPORTED)
         report_error(&x);

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
+#include "lang/syntax/statement.h"
 #include "lang/workbench/topics.h"
 #include "ode/method.h"
 

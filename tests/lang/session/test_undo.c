@@ -10,8 +10,8 @@
 #include "base/memory.h"
 #include "expr/print.h"
 #include "lang/declare/scene-file.h"
-#include "lang/commands/statement.h"
 #include "lang/source/source.h"
+#include "lang/syntax/statement.h"
 
 /* All that a session file says, and every name. */
 static char *

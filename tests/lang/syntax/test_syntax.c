@@ -3,9 +3,9 @@
 #include "lang/reading.h"
 
 #include "base/memory.h"
-#include "lang/commands/statement.h"
 #include "lang/source/source.h"
 #include "lang/syntax/match.h"
+#include "lang/syntax/statement.h"
 
 typedef struct {
     char word[32];

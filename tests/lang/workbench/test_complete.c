@@ -2,11 +2,11 @@
 #include "lang/talk.h"
 
 #include "base/memory.h"
-#include "lang/workbench/complete.h"
 #include "lang/files/redirect.h"
-#include "lang/commands/statement.h"
-#include "lang/syntax/usage.h"
 #include "lang/source/source.h"
+#include "lang/syntax/statement.h"
+#include "lang/syntax/usage.h"
+#include "lang/workbench/complete.h"
 
 static const char scene[] =
     "param mu, m[k] for k = 1..2; param part, party; function wire(s)\n"

@@ -1,5 +1,5 @@
 /* statement.c -- the table of statements. */
-#include "lang/commands/statement.h"
+#include "lang/syntax/statement.h"
 
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 #define UNBUILT(word, group, usage, summary, example)
 #define STATEMENT(word) extern const qdot_statement qdot_statement_row_##word;
-#include "lang/commands/statement.def"
+#include "lang/syntax/statement.def"
 #undef UNBUILT
 #undef STATEMENT
 
@@ -18,7 +18,7 @@ static const qdot_statement *const table[] = {
 #define UNBUILT(word, group, usage, summary, example)                                    \
     &(const qdot_statement){word, group, usage, summary, example, NULL, false, NULL},
 #define STATEMENT(word) &qdot_statement_row_##word,
-#include "lang/commands/statement.def"
+#include "lang/syntax/statement.def"
 };
 
 bool

@@ -19,8 +19,4 @@ bool qdot_statement_declares(const qdot_statement *row);
 /* Whether the statement asks about the scene or an expression, not about a run. */
 bool qdot_statement_asks(const qdot_statement *row);
 
-/* Handlers of statements without a word of their own: NAME = EXPR, and an expression. */
-qdot_status qdot_declare_definition(qdot_cursor *c);
-qdot_status qdot_ask_expression(qdot_cursor *c);
-
 #endif

@@ -1,5 +1,5 @@
-/* statement-form.c -- tells the kind of a statement from its first tokens. */
-#include "lang/commands/statement-form.h"
+/* form.c -- tells the kind of a statement from its first tokens. */
+#include "lang/syntax/form.h"
 
 #include <string.h>
 
@@ -9,6 +9,12 @@
 #include "lang/functions/quantity.h"
 #include "lang/session/names.h"
 #include "mech/scene/scene.h"
+
+const qdot_statement *
+qdot_statement_row(const qdot_token *word)
+{
+    return word->kind == QDOT_TOKEN_NAME ? qdot_statement_find(word->text) : NULL;
+}
 
 const qdot_token *
 qdot_statement_behind_bracket(const qdot_token *open)
@@ -200,15 +206,25 @@ is_comparison(const qdot_token *first)
     return equal;
 }
 
+/* Whether the statement begins with a name that means nothing and that another name follows. */
+static bool
+is_unknown(const qdot_session *session, const qdot_token *name)
+{
+    return name->kind == QDOT_TOKEN_NAME && name[1].kind == QDOT_TOKEN_NAME &&
+           !qdot_token_is_word(name + 1, "and") && !qdot_token_is_word(name + 1, "or") &&
+           !qdot_token_is_word(name, "not") && !qdot_cursor_knows(session, name->text);
+}
+
 qdot_form
 qdot_statement_form(const qdot_session *session, const qdot_token *first)
 {
-    const qdot_statement *row =
-        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+    const qdot_statement *row = qdot_statement_row(first);
 
     if (first->kind == QDOT_TOKEN_NAME && is_definition(session, first, row != NULL))
         return QDOT_FORM_DEFINITION;
     if (row != NULL && !qdot_statement_is_name(session, first, row))
         return QDOT_FORM_WORD;
+    if (is_unknown(session, first))
+        return QDOT_FORM_UNKNOWN;
     return is_comparison(first) ? QDOT_FORM_COMPARISON : QDOT_FORM_VALUE;
 }
