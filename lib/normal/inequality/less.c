@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/memo.h"
@@ -74,6 +75,8 @@ side(void *user, qdot_expr atom, arb_t value, slong prec)
             arf_set_d(lo, b->box->lo[i]);
             arf_set_d(hi, b->box->hi[i]);
             arb_set_interval_arf(value, lo, hi, prec);
+            if (arf_sgn(lo) >= 0) /* rounding may not move the end 0 out of the domain of roots */
+                arb_nonnegative_part(value, value);
             arf_clear(lo);
             arf_clear(hi);
             return true;
@@ -175,6 +178,23 @@ enough(uint8_t sign, bool strict)
     return strict ? (sign & QDOT_POS) == QDOT_POS : (sign & QDOT_GE0) != 0;
 }
 
+/* The sum with a rational number just below in place of its constant terms, so that its sign follows from bounds of the
+ * other terms: e - atan(a) by 2.718 - atan(a). Nil: it has no such terms, or they have no value. */
+static qdot_expr
+with_less_constants(qdot_pool *pool, qdot_expr d)
+{
+    const uint32_t n = qdot_expr_kind(pool, d) == QDOT_SUM ? qdot_expr_count(pool, d) : 0;
+    qdot_expr constant = QDOT_ZERO;
+    double below;
+
+    for (uint32_t i = 1; i + 1 < n; i += 2)
+        if (qdot_constant_is(pool, qdot_expr_arg(pool, d, i)))
+            constant = qdot_add(pool, constant, qdot_mul(pool, qdot_expr_arg(pool, d, i), qdot_expr_arg(pool, d, i + 1)));
+    if (constant == QDOT_ZERO || !bound_as_double(pool, constant, false, &below) || !isfinite(below))
+        return QDOT_NIL;
+    return qdot_add(pool, qdot_sub(pool, d, constant), qdot_expr_of_double(pool, below));
+}
+
 /* Whether d is seen to be negative at one of a few points of the declared domains: then no proof is tried, which would
  * simplify and factor d in vain. */
 static bool
@@ -203,6 +223,9 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     qdot_expr s;
 
     if (enough(qdot_expr_sign(pool, d), strict))
+        return true;
+    s = with_less_constants(pool, d);
+    if (s != QDOT_NIL && enough(qdot_expr_sign(pool, s), strict))
         return true;
     d = qdot_known_signs(pool, d, facts);
     if ((facts == NULL || facts->n_relations == 0) && is_negative_somewhere(pool, d))

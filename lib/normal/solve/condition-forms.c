@@ -3,14 +3,15 @@
 
 #include "expr/build.h"
 #include "expr/calculus.h"
+#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/walk.h"
 
 /* MOST_CHOICES: nodes such as |u| that are replaced by their possible values; LARGEST: operations
- * of an examined expression. */
-enum { MOST_CHOICES = 4, LARGEST = 80 };
+ * of an examined expression; MOST_ROOT: m of an m-th root. */
+enum { MOST_CHOICES = 4, LARGEST = 80, MOST_ROOT = 24 };
 
 /* A node |u|, sign u, max(u, v) or min(u, v) of e, and what its value may be, other [2]: u or -u, 1 or -1, u or v. Nil:
  * there is none. */
@@ -165,6 +166,108 @@ holds_square_root(qdot_pool *pool, qdot_expr e)
         }
     qdot_walk_end(&w);
     return found;
+}
+
+qdot_expr
+qdot_constant_terms(qdot_pool *pool, qdot_expr e)
+{
+    const uint32_t n = qdot_expr_kind(pool, e) == QDOT_SUM ? qdot_expr_count(pool, e) : 0;
+    qdot_expr all = n == 0 ? QDOT_ZERO : qdot_expr_arg(pool, e, 0);
+
+    for (uint32_t i = 1; i + 1 < n; i += 2)
+        if (qdot_constant_is(pool, qdot_expr_arg(pool, e, i)))
+            all = qdot_add(pool, all, qdot_mul(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1)));
+    return all;
+}
+
+/* A product of powers as c B^(g/m), m > 1 the common denominator of their exponents, g the common divisor of numerators.
+ * *base: the one base that is not known to be never negative. False: it has no such form, or there are two such bases. */
+static bool
+read_power(qdot_pool *pool, qdot_expr e, qdot_expr *c, qdot_expr *B, qdot_expr *inverse, qdot_expr *base)
+{
+    const uint32_t n = qdot_expr_kind(pool, e) == QDOT_PROD ? qdot_expr_count(pool, e) : 0;
+    unsigned unknown = 0;
+    bool good = n > 0;
+    fmpz_t m, g;
+
+    fmpz_init_set_si(m, 1);
+    fmpz_init(g);
+    *base = QDOT_NIL;
+    for (uint32_t i = 1; i + 1 < n && good; i += 2) {
+        const fmpq *k = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i + 1));
+
+        if ((qdot_expr_node(pool, qdot_expr_arg(pool, e, i))->sign & QDOT_GE0) == 0) {
+            unknown++;
+            *base = qdot_expr_arg(pool, e, i);
+        }
+        good = k != NULL && unknown <= 1;
+        if (good) {
+            fmpz_lcm(m, m, fmpq_denref(k));
+            fmpz_gcd(g, g, fmpq_numref(k));
+        }
+    }
+    good = good && fmpz_cmp_si(m, 1) > 0 && fmpz_cmp_si(m, MOST_ROOT) <= 0 && fmpz_cmp_si(g, MOST_ROOT) <= 0;
+    if (good) {
+        *inverse = qdot_expr_ratio(pool, fmpz_get_si(m), fmpz_get_si(g));
+        *c = qdot_expr_arg(pool, e, 0);
+        *B = QDOT_ONE;
+        for (uint32_t i = 1; i + 1 < n; i += 2)
+            *B = qdot_mul(pool, *B, qdot_pow(pool, qdot_expr_arg(pool, e, i),
+                                             qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), *inverse)));
+    }
+    fmpz_clear(g);
+    fmpz_clear(m);
+    return good && *B != QDOT_NIL;
+}
+
+qdot_expr
+qdot_condition_of_power(qdot_pool *pool, qdot_expr gap, qdot_expr *base)
+{
+    qdot_expr constant, c, B, inverse, end;
+    bool above;
+    double d;
+
+    if (gap == QDOT_NIL)
+        return QDOT_NIL;
+    constant = qdot_constant_terms(pool, gap);
+    if (!read_power(pool, qdot_sub(pool, gap, constant), &c, &B, &inverse, base) ||
+        qdot_constant_double(pool, constant, &d) != QDOT_OK)
+        return QDOT_NIL;
+    above = !qdot_expr_is_negative(pool, c);
+    if (above ? d > 0 : d <= 0)
+        return QDOT_NIL;
+    if (above)
+        *base = QDOT_NIL; /* B is above a number that is not negative */
+    end = qdot_pow(pool, qdot_neg(pool, qdot_div(pool, constant, c)), inverse);
+    return above ? qdot_sub(pool, B, end) : qdot_sub(pool, end, B);
+}
+
+qdot_expr
+qdot_condition_beside_root(qdot_pool *pool, qdot_expr gap, bool *above)
+{
+    const uint32_t n = gap != QDOT_NIL && qdot_expr_kind(pool, gap) == QDOT_SUM ? qdot_expr_count(pool, gap) : 0;
+    qdot_expr root = QDOT_NIL, rest = QDOT_ZERO, constant;
+    double c;
+
+    if (n == 0 || qdot_expr_size(pool, gap) > LARGEST)
+        return QDOT_NIL;
+    constant = qdot_constant_terms(pool, gap);
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr t = qdot_expr_arg(pool, gap, i), term = qdot_mul(pool, t, qdot_expr_arg(pool, gap, i + 1));
+
+        if (qdot_constant_is(pool, t))
+            continue;
+        if (!holds_square_root(pool, t))
+            rest = qdot_add(pool, rest, term);
+        else if (root != QDOT_NIL || qdot_expr_kind(pool, t) != QDOT_PROD || (qdot_expr_node(pool, t)->sign & QDOT_GE0) == 0)
+            return QDOT_NIL;
+        else
+            root = term;
+    }
+    if (root == QDOT_NIL || qdot_constant_double(pool, constant, &c) != QDOT_OK || c == 0)
+        return QDOT_NIL;
+    *above = !qdot_expr_is_negative(pool, root);
+    return *above == (c > 0) ? qdot_sub(pool, qdot_pow_int(pool, root, 2), qdot_pow_int(pool, rest, 2)) : QDOT_NIL;
 }
 
 qdot_expr

@@ -2,6 +2,7 @@
  *
  *     v - |v|      is 0 where v >= 0 and negative elsewhere
  *     s - t        has the sign of s^2 - t^2, s and t not negative
+ *     s + e + c    is positive where s^2 >= e^2, s and c not negative
  *
  * Tests  tests/normal/solve/test_condition-forms.c
  */
@@ -27,6 +28,18 @@ qdot_expr qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool 
  * before which c stands may be of any sign, for A > B > 0 says that it is positive. Nil: others are not known to be
  * positive, or the gap has another form. */
 qdot_expr qdot_condition_of_logarithms(qdot_pool *pool, qdot_expr gap);
+
+/* The terms of a sum that are constants; 0 for other expressions. */
+qdot_expr qdot_constant_terms(qdot_pool *pool, qdot_expr e);
+
+/* Of a gap with a power beside a constant, as 3 - 2 sqrt(u): 9/4 - u, which is positive where the gap is, and alike of
+ * several powers of what is never negative. *base: what must not be negative for that, nil if it cannot be. Nil: the gap
+ * has another form. */
+qdot_expr qdot_condition_of_power(qdot_pool *pool, qdot_expr gap, qdot_expr *base);
+
+/* For a gap s + e + c or e - s - c, where s is the one term with a square root and not negative, c > 0 the constant terms:
+ * s^2 - e^2. Where that is not negative s >= |e|, and the gap is positive (*above) or negative. Nil: another form. */
+qdot_expr qdot_condition_beside_root(qdot_pool *pool, qdot_expr gap, bool *above);
 
 /* For a condition s - t with a square root: s^2 - t^2 if s and t are never negative; else nil. */
 qdot_expr qdot_condition_squared(qdot_pool *pool, qdot_expr gap);

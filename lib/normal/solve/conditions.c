@@ -90,8 +90,8 @@ is_value(qdot_pool *pool, qdot_fun_id h, qdot_expr at, qdot_expr number)
            fabs(a - b) <= 1e-9 * fmax(1, fabs(b));
 }
 
-/* A relation between c h(u) and a number, u not a number and h monotone, as one of u: atan(u) < 1 is u < tan(1). Where the
- * number is no value of h it stays as it is. */
+/* A relation between c h(u) + d and a number, u not a number and h monotone, as one of u: atan(u) < 1 is u < tan(1). Where
+ * the number is no value of h it stays as it is. */
 static qdot_expr
 unfold(qdot_pool *pool, qdot_expr relation)
 {
@@ -101,7 +101,12 @@ unfold(qdot_pool *pool, qdot_expr relation)
         qdot_rel_op op = qdot_expr_node(pool, relation)->op;
         qdot_fun_id h, inverse;
         bool swap = i == 1;
+        const qdot_expr d = qdot_constant_terms(pool, side);
 
+        number = qdot_sub(pool, number, d);
+        side = qdot_sub(pool, side, d);
+        if (number == QDOT_NIL || side == QDOT_NIL)
+            return QDOT_NIL;
         if (qdot_expr_kind(pool, side) == QDOT_PROD && qdot_expr_count(pool, side) == 3 &&
             qdot_expr_arg(pool, side, 2) == QDOT_ONE) {
             qdot_expr c = qdot_expr_arg(pool, side, 0);
@@ -185,7 +190,8 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
 static qdot_expr
 condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
-    bool generic;
+    bool generic, above;
+    qdot_expr squares;
     uint8_t sign;
 
     if (gap == QDOT_NIL)
@@ -214,6 +220,9 @@ condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *
     if (is_proved(pool, gap, QDOT_ZERO, !strict && !(generic && !qdot_holds_root(pool, gap)), facts) ||
         qdot_pool_failed(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
+    squares = qdot_condition_beside_root(pool, gap, &above);
+    if (squares != QDOT_NIL && is_proved(pool, QDOT_ZERO, squares, false, facts))
+        return above ? QDOT_TRUE : QDOT_FALSE;
     return condition_shorten(pool, gap, strict, facts);
 }
 
@@ -240,17 +249,35 @@ condition_by_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_fac
     return relation;
 }
 
+/* A gap with a power beside a constant by one without the power; nil if it has no such form, or what is raised to the power
+ * is not known to be defined. */
+static qdot_expr
+gap_without_power(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts)
+{
+    qdot_expr base, plain = qdot_condition_of_power(pool, gap, &base);
+
+    return plain == QDOT_NIL || base == QDOT_NIL || is_proved(pool, QDOT_ZERO, base, false, facts) ? plain : QDOT_NIL;
+}
+
 qdot_expr
 qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
-    qdot_expr apart = qdot_condition_of_logarithms(pool, gap),
-              plain = apart != QDOT_NIL ? apart : qdot_condition_without_magnitude(pool, gap, strict),
-              relation = condition_decide(pool, plain == QDOT_NIL ? gap : plain, strict, facts), by_squares;
+    qdot_expr plain = gap_without_power(pool, gap, facts), relation, by_squares;
 
+    if (plain == QDOT_NIL)
+        plain = qdot_condition_of_logarithms(pool, gap);
+    if (plain == QDOT_NIL)
+        plain = qdot_condition_without_magnitude(pool, gap, strict);
+    relation = condition_decide(pool, plain == QDOT_NIL ? gap : plain, strict, facts);
     if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)
         return relation;
-    by_squares = condition_by_squares(pool, qdot_positive_of(pool, relation),
-                                      qdot_expr_node(pool, relation)->op == QDOT_LT, facts);
+    strict = qdot_expr_node(pool, relation)->op == QDOT_LT;
+    plain = gap_without_power(pool, qdot_positive_of(pool, relation), facts); /* of log(sqrt(a)) > 1 is left sqrt(a) > e */
+    if (plain != QDOT_NIL)
+        relation = condition_decide(pool, plain, strict, facts);
+    if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)
+        return relation;
+    by_squares = condition_by_squares(pool, qdot_positive_of(pool, relation), strict, facts);
     return qdot_pool_failed(pool) ? QDOT_NIL : by_squares == QDOT_NIL ? relation : by_squares;
 }
 
@@ -556,11 +583,20 @@ holds_all(qdot_pool *pool, qdot_expr set, qdot_expr some)
     return all;
 }
 
+/* a < b for a <= b; QDOT_FALSE if b - a is seen never to be positive. */
+static qdot_expr
+strict_relation(qdot_pool *pool, qdot_expr relation)
+{
+    return (qdot_expr_sign(pool, qdot_positive_of(pool, relation)) & QDOT_LE0) != 0
+               ? QDOT_FALSE
+               : qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, relation, 0), qdot_expr_arg(pool, relation, 1));
+}
+
 /* Join 0 <= g and u != 0 for all factors u of g to 0 < g. */
 static qdot_expr
 conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
 {
-    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++) {
+    for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++) {
         qdot_expr one = qdot_expr_arg(pool, set, i), factors, rest = QDOT_NIL;
 
         if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_node(pool, one)->op != QDOT_LE)
@@ -573,7 +609,7 @@ conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
             qdot_expr other = qdot_expr_arg(pool, set, k);
 
             if (k == i)
-                other = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
+                other = strict_relation(pool, one);
             else if (qdot_conditions_and(pool, factors, other) == factors)
                 continue;
             rest = qdot_conditions_and(pool, rest, other);
@@ -627,8 +663,8 @@ qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
         if (qdot_expr_kind(pool, one) != QDOT_REL ||
             qdot_expr_node(pool, one)->op != QDOT_LE)
             continue;
-        strict = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
-        if (follows_from_others(pool, set, i, strict, true, facts))
+        strict = strict_relation(pool, one);
+        if (strict != QDOT_FALSE && follows_from_others(pool, set, i, strict, true, facts))
             set = conditions_replace(pool, set, i, strict);
     }
     /* first those with roots: they imply that the roots are defined, and simpler relations might be

@@ -180,7 +180,7 @@ roots_are_real_or_say_when(void **state)
 {
     static const char *const row[][2] = {
         {"x^3 - k", "abs(k)^(1/3)*sign(k)"},
-        {"x^(2/3) - k", "k^(3/2) |[k > 0]"},
+        {"x^(2/3) - k", "k^(3/2) |[k >= 0]"},
         {"exp(x) - k*exp(-x)", "1/2*log(k) |[k > 0]"},
         {"abs(x) - k", "k |[k >= 0]; -k |[k >= 0]"},
         {"abs(x) - x", "x |[x >= 0]"},
