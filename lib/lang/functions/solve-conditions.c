@@ -6,6 +6,8 @@
 #include "expr/node.h"
 #include "expr/print-name.h"
 #include "expr/print.h"
+#include "expr/symbol.h"
+#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "normal/solve/conditions.h"
 
@@ -120,6 +122,27 @@ qdot_solve_notice_open(qdot_session *session, qdot_expr where)
 
     qdot_text_add(&text, " the solutions may be others");
     return qdot_answer_notice_text(session, status, &text);
+}
+
+qdot_status
+qdot_solve_notice_powers(qdot_session *session, size_t n, const qdot_expr *F, size_t m, const qdot_expr *x, bool single,
+                         const qdot_facts *facts)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_expr atoms = qdot_expr_atoms(pool, qdot_list(pool, (uint32_t)n, F), true);
+    qdot_expr of = single ? x[0] : QDOT_NIL;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms) && !single; i++) {
+        of = qdot_expr_arg(pool, atoms, i);
+        if (qdot_expr_symbol(pool, of) != NULL && qdot_expr_place(m, x, of) == m)
+            QDOT_TRY(qdot_has_single_places(pool, n, F, 1, &of, facts, &single));
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    return single ? qdot_answer_notice(session, "there may be others where the base of a power with %.100s in its exponent is "
+                                                "0 or negative",
+                                       qdot_expr_symbol(pool, of)->name)
+                  : QDOT_OK;
 }
 
 qdot_status

@@ -20,6 +20,11 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qd
 /* Notice `where a = 0 the solutions may be others`, for a LIST of equations that hold there. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_expr where);
 
+/* Notice that F [n] may have other zeros x [m] where the base of a power is not positive: if `single`, of a power with x[0]
+ * in its exponent, or else if there is a power with a parameter in its exponent whose base may be negative. */
+QDOT_MUST_CHECK qdot_status qdot_solve_notice_powers(qdot_session *session, size_t n, const qdot_expr *F, size_t m,
+                                                     const qdot_expr *x, bool single, const qdot_facts *facts);
+
 /* Notice `WORDS C and D` for conditions that concern all solutions; nothing if nil. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
 

@@ -356,6 +356,8 @@ qdot_solve_system(qdot_session *session, qdot_expr equations, qdot_expr unknowns
         status = answer_exactly(&q, &set, value);
     else if (status == QDOT_OK)
         status = answer_in_numbers(&q, &set, value, &known);
+    if (status == QDOT_OK && known)
+        status = qdot_solve_notice_powers(session, q.n, q.f, q.n, q.u, false, &q.facts);
     if (status == QDOT_OK && !known) {
         (void)qdot_fail(QDOT_EFAILED, "these equations cannot be solved exactly%s",
                         set.found.n > 0 ? " for all their solutions" : "");

@@ -262,7 +262,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
         status = qdot_written_take_apart(pool, &f, x, &written);
     if (status == QDOT_OK)
         status = qdot_solve_written(pool, f, x, &written, &assumed.facts, &found);
-    complete = found.complete;
+    found.single = found.single && holds_others(session, f, x); /* without parameters numbers are searched */
+    complete = found.complete || found.single;
     if (status == QDOT_OK)
         status = qdot_solve_parameters(pool, f, x, &written, &assumed.facts, &found);
     if (status == QDOT_OK && complete)
@@ -277,6 +278,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
         status = notice_exact(session, x, &found);
     if (status == QDOT_OK && !complete && known)
         status = notice_parameters(session, f, x, &written, &assumed.facts, &found);
+    if (status == QDOT_OK && known)
+        status = qdot_solve_notice_powers(session, 1, &f, 1, &x, found.single, &assumed.facts);
     if (status == QDOT_OK && !known) {
         (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
                         found.root.n > 0 ? " for every x" : "");

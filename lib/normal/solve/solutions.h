@@ -18,6 +18,7 @@ typedef struct {
 typedef struct {
     qdot_vec(qdot_root) root;
     bool complete; /* these are all roots, where no divisor is 0 */
+    bool single;   /* they are all but for single places where a power with x in its exponent has a negative base */
     bool recurs; /* x is an angle with one declared bound: roots of one turn, others differ by full turns */
     qdot_vec(qdot_expr) divisor; /* divisors without x, assumed non-zero; a LIST: not all of its entries are 0 */
     qdot_vec(qdot_expr) special; /* the same in parameters only: where one is 0 the roots may differ */

@@ -9,6 +9,8 @@
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
 #include "normal/solve/sides.h"
 #include "normal/solve/solver.h"
 
@@ -67,6 +69,25 @@ solve_guarded(void *user)
         s->status = qdot_solve_sort(s->pool, s->out->root.n, s->out->root.at);
 }
 
+/* Powers with x in their exponents alone as exponentials: a^x = exp(x log(a)), a > 0. Nil: the node is no such power. */
+static qdot_expr
+as_exponential(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const qdot_expr x = *(const qdot_expr *)user;
+    const uint32_t n = qdot_expr_kind(pool, node) == QDOT_PROD ? qdot_expr_count(pool, node) : 0;
+    qdot_expr rest = node, exponent = QDOT_ZERO;
+
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, node, i), u = qdot_expr_arg(pool, node, i + 1);
+
+        if (!qdot_expr_contains(pool, u, x) || qdot_expr_contains(pool, base, x) || qdot_is_constant(pool, base))
+            continue;
+        rest = qdot_div(pool, rest, qdot_pow(pool, base, u));
+        exponent = qdot_add(pool, exponent, qdot_mul(pool, u, qdot_fun1(pool, QDOT_LOG, base)));
+    }
+    return exponent == QDOT_ZERO ? QDOT_NIL : qdot_mul(pool, rest, qdot_fun1(pool, QDOT_EXP, exponent));
+}
+
 static qdot_status
 solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
             qdot_solutions *out)
@@ -77,7 +98,9 @@ solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *writt
 
     *out = (qdot_solutions){0};
     QDOT_TRY(qdot_has_single_places(pool, 1, &f, 1, &x, facts, &single));
-    out->complete = !single;
+    s.f = f = qdot_walk_map(pool, f, as_exponential, &x);
+    QDOT_TRY(qdot_pool_check(pool));
+    out->complete = true;
     if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);
@@ -85,6 +108,8 @@ solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *writt
         *out = (qdot_solutions){0};
         return status == QDOT_ELIMIT ? QDOT_OK : status;
     }
+    out->single = single && out->complete;
+    out->complete = out->complete && !single;
     return s.status;
 }
 
@@ -250,6 +275,7 @@ qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     out->complete = all.complete;
+    out->single = all.single;
     for (size_t i = 0; i < all.root.n && status == QDOT_OK; i++)
         status = qdot_solve_members(pool, x, &all.root.at[i], &window, facts, out);
     out->recurs = out->recurs && out->root.n > 0;
