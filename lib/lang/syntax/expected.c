@@ -6,11 +6,6 @@
 
 #include "lang/syntax/holes.h"
 
-/* The options of a figure, for messages. */
-#define FIGURE_OPTIONS                                                                                                 \
-    "`from`, `range`, `log`, `ticks`, `equal`, `points`, `lines`, `colour`, `title`, `labels`, `xlabel`, `ylabel`, "     \
-    "`legend`, `size`, `keep`, `to` or the end of the statement"
-
 /* The options of a run, for messages. */
 #define RUN_OPTIONS "`tol`, `digits`, `method`, `with`, `constraints`"
 
@@ -145,6 +140,33 @@ list_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
                                    i == 0 ? "" : i + 1 < n ? ", " : " or ", word[i]);
 }
 
+/* Write the text of a row. "`WORD` ..." at its end stands for the option WORD, those behind it in the usage after the same
+ * word, and the end of the statement. */
+static void
+write_row(const qdot_expected *list, const char *text, const char *before, char what[QDOT_EXPECTED_TEXT])
+{
+    const char *gap = strstr(text, "` ..."), *word = gap;
+    const size_t n = strlen(text) - (gap != NULL ? strlen(" ...") : 0);
+    size_t length = (size_t)snprintf(what, QDOT_EXPECTED_TEXT, "%.*s", (int)n, text);
+    bool behind = false;
+
+    if (gap == NULL)
+        return;
+    while (word > text && word[-1] != '`')
+        word--;
+    for (int i = 0; i < list->usage->n && length < QDOT_EXPECTED_TEXT; i++) {
+        const qdot_usage_node *node = &list->usage->node[i];
+
+        if (node->kind != QDOT_USAGE_WORD || strcmp(node->before, before) != 0 || strcmp(node->text, list->usage->word) == 0)
+            continue;
+        if (behind)
+            length += (size_t)snprintf(what + length, QDOT_EXPECTED_TEXT - length, ", `%s`", node->text);
+        behind = behind || strncmp(node->text, word, (size_t)(gap - word)) == 0;
+    }
+    if (length < QDOT_EXPECTED_TEXT)
+        snprintf(what + length, QDOT_EXPECTED_TEXT - length, " or the end of the statement");
+}
+
 /* The row of expected.def for expected words or signs that begin with `first`; NULL if none. */
 static const expected_row *
 expected_find_row(const qdot_expected *list, const qdot_usage_node *first, const qdot_usage_node *sign)
@@ -173,7 +195,7 @@ qdot_expected_words(const qdot_expected *list, char what[QDOT_EXPECTED_TEXT])
         return NULL;
     }
     if (row != NULL) {
-        snprintf(what, QDOT_EXPECTED_TEXT, "%s", row->what);
+        write_row(list, row->what, first->before, what);
         return row->hint;
     }
     if (word != NULL)
