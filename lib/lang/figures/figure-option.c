@@ -167,7 +167,7 @@ one_find(qdot_record *r, const qdot_filled *word, qdot_figure_choice *f, qdot_pa
         p->log[0] = !qdot_filled_is(hole, "y");
         p->log[1] = !qdot_filled_is(hole, "x");
     } else if (qdot_filled_is(word, "ticks")) {
-        p->angles = true;
+        p->ticks = word;
         hole = word + 2; /* behind `pi` */
         if (hole < r->parts.at + r->parts.n) {
             p->pi[0] = qdot_filled_is(hole, "x") || qdot_filled_is(hole, "xy");
@@ -206,14 +206,37 @@ is_over_time(const qdot_panel *panel)
     return panel->axis[0].formula && panel->axis[0].text != NULL && strcmp(panel->axis[0].text, "t") == 0;
 }
 
-void
+qdot_status
+qdot_figure_option_no_angles(qdot_record *r, const qdot_panel_choice *choice)
+{
+    if (choice->ticks == NULL)
+        return QDOT_OK;
+    qdot_record_blame(r, choice->ticks);
+    (void)qdot_fail(QDOT_EINVAL, "neither axis of this figure is an angle");
+    return qdot_hint("leave out `ticks pi`");
+}
+
+/* Fail: axis k of the panel, which is logarithmic, is to have tics at multiples of pi. */
+static qdot_status
+refuse_angles(const qdot_panel *panel, int k)
+{
+    (void)qdot_fail(QDOT_EINVAL, "the %s axis is logarithmic: it has no tics at multiples of pi",
+                    k == 0 ? "horizontal" : "vertical");
+    return panel->log[1 - k] ? qdot_hint("leave out `ticks pi`")
+                             : qdot_hint("leave out `ticks pi`; `ticks pi %s` is for the other axis", k == 0 ? "y" : "x");
+}
+
+qdot_status
 qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
 {
     for (int k = 0; k < 2; k++) {
         panel->range[k] = choice->range[k];
         panel->log[k] = choice->logs ? choice->log[k] : panel->log[k];
-        panel->pi[k] = choice->angles && (choice->pi[k] || (!choice->pi[1 - k] && k == is_over_time(panel)));
+        panel->pi[k] = choice->ticks != NULL && (choice->pi[k] || (!choice->pi[1 - k] && k == is_over_time(panel)));
     }
+    for (int k = 0; k < 2; k++)
+        if (panel->pi[k] && panel->log[k])
+            return refuse_angles(panel, k);
     panel->equal = panel->equal || choice->equal;
     panel->points = choice->points || (panel->points && !choice->lines);
     panel->marks = panel->marks && !choice->lines;
@@ -227,4 +250,5 @@ qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel)
     for (size_t k = 0; k < 3; k++)
         if (choice->labels[k] != NULL)
             panel->axis[k] = (qdot_figure_label){choice->labels[k], false};
+    return QDOT_OK;
 }

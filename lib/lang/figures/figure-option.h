@@ -16,7 +16,8 @@ typedef struct {
 typedef struct {
     qdot_figure_range range[2];
     bool logs, log[2]; /* axes with logarithmic scale; logs: the option was given */
-    bool angles, pi[2]; /* angles: said; pi: of which axes, neither where that was not said */
+    const qdot_filled *ticks; /* the word of `ticks pi`; NULL: not given */
+    bool pi[2];               /* the axes that it names; neither where it names none */
     bool equal, points, lines;
     const char *title, *labels[3] /* of each axis; NULL: not given */, *legend[QDOT_FIGURE_LEGEND];
     size_t n_labels, n_legend, colours[QDOT_FIGURE_LEGEND], n_colours;
@@ -31,7 +32,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_figure_option_find(qdot_record *r, const qdot_filled *from,
                                                     const qdot_filled *to, qdot_figure_choice *figure,
                                                     qdot_panel_choice *panel);
-/* Set the fields of the panel for which an option was given. */
-void qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel);
+/* Refuse `ticks pi` in a figure of which no axis is an angle. */
+QDOT_MUST_CHECK qdot_status qdot_figure_option_no_angles(qdot_record *r, const qdot_panel_choice *choice);
+/* Set the fields of the panel for which an option was given. QDOT_EINVAL for `ticks pi` of a logarithmic axis; the
+ * place is choice->ticks. */
+QDOT_MUST_CHECK qdot_status qdot_figure_option_apply(const qdot_panel_choice *choice, qdot_panel *panel);
 
 #endif

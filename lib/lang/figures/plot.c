@@ -171,7 +171,7 @@ find_poles(qdot_plot_panel *p)
 
 /* Build the figure from the points computed so far. */
 static qdot_status
-build_figure(const panels *all, frame *f)
+build_figure(qdot_record *r, const panels *all, frame *f)
 {
     size_t n = 0, next = 0;
 
@@ -194,7 +194,10 @@ build_figure(const panels *all, frame *f)
         panel->equal = p->operands.n > 0 && p->operands.at[0].vector;
         panel->log[1] = all_drift(p);
         label_panel(p, f->labels + 2 * i, panel);
-        qdot_figure_option_apply(&p->choice, panel);
+        if (qdot_figure_option_apply(&p->choice, panel) != QDOT_OK) {
+            qdot_record_blame(r, p->choice.ticks);
+            return qdot_last_error()->status;
+        }
         for (int k = 0; k < 2; k++)
             QDOT_TRY(qdot_text_status(&f->labels[2 * i + (size_t)k]));
     }
@@ -288,7 +291,7 @@ qdot_plot_figure(qdot_record *r, const qdot_plot_runs *runs)
     for (size_t i = 0; i < all.n && status == QDOT_OK; i++)
         status = find_poles(&all.at[i]);
     if (status == QDOT_OK)
-        status = build_figure(&all, &f);
+        status = build_figure(r, &all, &f);
     if (status == QDOT_OK) {
         const qdot_figure figure = {.panels = f.panels,
                                     .n = f.n,

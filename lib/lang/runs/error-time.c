@@ -58,10 +58,10 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
         if (panel.n == 0)
             status = qdot_fail(QDOT_EFAILED, "%s", of->none);
     }
-    if (status == QDOT_OK) {
-        qdot_figure_option_apply(of->panel, &panel);
+    if (status == QDOT_OK)
+        status = qdot_figure_option_apply(of->panel, &panel);
+    if (status == QDOT_OK)
         status = qdot_figure_file_show(session, &figure, of->figure->path);
-    }
     qdot_free(curves);
     qdot_free(values);
     return status;
@@ -71,6 +71,7 @@ qdot_status
 qdot_error_time_options(qdot_record *r, qdot_figure_choice *figure, qdot_panel_choice *panel)
 {
     QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, figure, panel));
+    QDOT_TRY(qdot_figure_option_no_angles(r, panel));
     if (figure->path == NULL || qdot_data_file_is(figure->path) || qdot_figure_is_file(figure->path))
         return QDOT_OK;
     qdot_record_blame(r, qdot_record_hole(r, NULL, "T0..T1") + 1);

@@ -145,6 +145,7 @@ race_hold(qdot_record *r)
 
     QDOT_TRY(qdot_record_range(r, r->parts.at + 1, &from, &to));
     QDOT_TRY(qdot_figure_option_find(r, r->parts.at, r->parts.at + r->parts.n, &figure, &panel));
+    QDOT_TRY(qdot_figure_option_no_angles(r, &panel));
     r->cursor.error_at = r->start->start;
     status = qdot_request_between(session, from, to, &order);
     order.request.method = "auto";
