@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
-#include "expr/constant.h"
 #include "expr/elementary.h"
 #include "expr/exact.h"
 #include "expr/memo.h"
@@ -18,6 +17,7 @@
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/form/shortest.h"
+#include "normal/inequality/constant-bounds.h"
 #include "normal/inequality/factor-signs.h"
 #include "normal/inequality/inequality.h"
 #include "normal/refute/sample.h"
@@ -84,32 +84,6 @@ side(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* A constant bound as a double, rounded to the safe side. */
-static bool
-bound_as_double(qdot_pool *pool, qdot_expr e, bool up, double *x)
-{
-    qdot_ball ball;
-    arb_srcptr value;
-
-    if (e == QDOT_NIL || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
-        return false;
-    qdot_ball_eval(&ball, 64, NULL, NULL);
-    value = qdot_ball_get(&ball, e);
-    if (value != NULL) {
-        arf_t bound;
-
-        arf_init(bound);
-        if (up)
-            arb_get_ubound_arf(bound, value, 64);
-        else
-            arb_get_lbound_arf(bound, value, 64);
-        *x = arf_get_d(bound, up ? ARF_RND_CEIL : ARF_RND_FLOOR);
-        arf_clear(bound);
-    }
-    qdot_ball_end(&ball);
-    return value != NULL;
-}
-
 /* Whether e > 0 on the whole (closed) box of its symbols' domains: halved until every
  * part says so. */
 static bool
@@ -132,8 +106,8 @@ positive_on_box(qdot_pool *pool, qdot_expr e)
 
         b.atom[i] = qdot_expr_arg(pool, atoms, i);
         s = qdot_expr_symbol(pool, b.atom[i]);
-        positive = s != NULL && bound_as_double(pool, s->lo, false, &stack[0].lo[i]) &&
-                   bound_as_double(pool, s->hi, true, &stack[0].hi[i]);
+        positive = s != NULL && qdot_bound_as_double(pool, s->lo, false, &stack[0].lo[i]) &&
+                   qdot_bound_as_double(pool, s->hi, true, &stack[0].hi[i]);
     }
     if (!positive || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK) {
         qdot_free(stack);
@@ -178,23 +152,6 @@ enough(uint8_t sign, bool strict)
     return strict ? (sign & QDOT_POS) == QDOT_POS : (sign & QDOT_GE0) != 0;
 }
 
-/* The sum with a rational number just below in place of its constant terms, so that its sign follows from bounds of the
- * other terms: e - atan(a) by 2.718 - atan(a). Nil: it has no such terms, or they have no value. */
-static qdot_expr
-with_less_constants(qdot_pool *pool, qdot_expr d)
-{
-    const uint32_t n = qdot_expr_kind(pool, d) == QDOT_SUM ? qdot_expr_count(pool, d) : 0;
-    qdot_expr constant = QDOT_ZERO;
-    double below;
-
-    for (uint32_t i = 1; i + 1 < n; i += 2)
-        if (qdot_constant_is(pool, qdot_expr_arg(pool, d, i)))
-            constant = qdot_add(pool, constant, qdot_mul(pool, qdot_expr_arg(pool, d, i), qdot_expr_arg(pool, d, i + 1)));
-    if (constant == QDOT_ZERO || !bound_as_double(pool, constant, false, &below) || !isfinite(below))
-        return QDOT_NIL;
-    return qdot_add(pool, qdot_sub(pool, d, constant), qdot_expr_of_double(pool, below));
-}
-
 /* Whether d is seen to be negative at one of a few points of the declared domains: then no proof is tried, which would
  * simplify and factor d in vain. */
 static bool
@@ -224,7 +181,7 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
 
     if (enough(qdot_expr_sign(pool, d), strict))
         return true;
-    s = with_less_constants(pool, d);
+    s = qdot_with_less_constants(pool, d, false);
     if (s != QDOT_NIL && enough(qdot_expr_sign(pool, s), strict))
         return true;
     d = qdot_known_signs(pool, d, facts);
@@ -411,6 +368,38 @@ has_both_signs(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts, bool *ye
     return QDOT_OK;
 }
 
+/* *holds: 0 < gap (strict) or 0 <= gap is proved with rational bounds in place of the constants in sums, of the gap and of
+ * the conditions: what is transcendental in these stands in the way of a proof by cells. */
+static qdot_status
+by_rational_constants(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts, bool *holds)
+{
+    const qdot_expr less = qdot_with_less_constants(pool, gap, true);
+    qdot_facts weaker = facts == NULL ? (qdot_facts){0} : *facts;
+    bool changed = less != QDOT_NIL;
+    qdot_expr *conditions = qdot_malloc((weaker.n_conditions + 1) * sizeof *conditions), at;
+    qdot_status status = conditions == NULL ? QDOT_ENOMEM : QDOT_OK;
+    size_t n = 0;
+
+    *holds = false;
+    for (size_t i = 0; status == QDOT_OK && i < weaker.n_conditions; i++) {
+        conditions[n] = qdot_weaker_condition(pool, weaker.conditions[i]);
+        changed = changed || conditions[n] != weaker.conditions[i];
+        n += conditions[n] != QDOT_NIL;
+    }
+    weaker.conditions = conditions;
+    weaker.n_conditions = n;
+    gap = less == QDOT_NIL ? gap : less;
+    if (status == QDOT_OK)
+        status = qdot_grave(qdot_pool_check(pool));
+    if (status == QDOT_OK && changed && !qdot_holds_constant_function(pool, gap)) {
+        *holds = proved(pool, gap, strict, &weaker) || proved_by_condition(pool, gap, strict, &weaker);
+        if (!*holds)
+            status = qdot_inequality(pool, qdot_without_signed_factors(pool, gap), strict, &weaker, holds, &at);
+    }
+    qdot_free(conditions);
+    return status;
+}
+
 static qdot_status
 less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
             const qdot_facts *facts, qdot_decision *d)
@@ -443,6 +432,18 @@ less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         d->verdict = QDOT_PROVED;
     else if (at != QDOT_NIL)
         QDOT_TRY(refute_there(pool, left, right, strict, facts, at, d));
+    if (d->verdict == QDOT_UNDECIDED)
+        QDOT_TRY(by_rational_constants(pool, gap, strict, facts, &holds));
+    if (d->verdict == QDOT_UNDECIDED && !holds && facts != NULL && facts->n_conditions > 0) {
+        qdot_facts fewer = *facts; /* some conditions are in the way of a proof that needs none of them */
+        qdot_decision without;
+
+        fewer.n_conditions = 0;
+        QDOT_TRY(qdot_decide_less(pool, left, right, strict, &fewer, &without));
+        holds = without.verdict == QDOT_PROVED;
+    }
+    if (d->verdict == QDOT_UNDECIDED && holds)
+        d->verdict = QDOT_PROVED;
     return QDOT_OK;
 }
 

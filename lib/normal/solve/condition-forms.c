@@ -1,6 +1,8 @@
 /* condition-forms.c -- simpler forms of conditions 0 < g and 0 <= g if g contains |v| or square roots. */
 #include "normal/solve/condition-forms.h"
 
+#include <math.h>
+
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/constant.h"
@@ -8,6 +10,9 @@
 #include "expr/exact.h"
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "normal/inequality/constant-bounds.h"
+#include "normal/refute/ball.h"
+#include "normal/refute/constant.h"
 
 /* MOST_CHOICES: nodes such as |u| that are replaced by their possible values; LARGEST: operations
  * of an examined expression; MOST_ROOT: m of an m-th root. */
@@ -168,18 +173,6 @@ holds_square_root(qdot_pool *pool, qdot_expr e)
     return found;
 }
 
-qdot_expr
-qdot_constant_terms(qdot_pool *pool, qdot_expr e)
-{
-    const uint32_t n = qdot_expr_kind(pool, e) == QDOT_SUM ? qdot_expr_count(pool, e) : 0;
-    qdot_expr all = n == 0 ? QDOT_ZERO : qdot_expr_arg(pool, e, 0);
-
-    for (uint32_t i = 1; i + 1 < n; i += 2)
-        if (qdot_constant_is(pool, qdot_expr_arg(pool, e, i)))
-            all = qdot_add(pool, all, qdot_mul(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1)));
-    return all;
-}
-
 /* A product of powers as c B^(g/m), m > 1 the common denominator of their exponents, g the common divisor of numerators.
  * *base: the one base that is not known to be never negative. False: it has no such form, or there are two such bases. */
 static bool
@@ -299,4 +292,86 @@ qdot_condition_squared(qdot_pool *pool, qdot_expr gap)
         terms++;
     }
     return terms == 2 ? qdot_sub(pool, qdot_pow_int(pool, part[0], 2), qdot_pow_int(pool, part[1], 2)) : QDOT_NIL;
+}
+
+/* --- functions around the parameter -------------------------------------------------------- */
+
+/* The monotonic function whose inverse is h; QDOT_FUNCTION_KINDS if there is none. */
+static qdot_fun_id
+inverse_of(qdot_fun_id h)
+{
+    return qdot_fun_is(h, QDOT_FUN_RISING) || qdot_fun_is(h, QDOT_FUN_FALLING) ? qdot_fun_facts_of(h)->inverse
+                                                                                : QDOT_FUNCTION_KINDS;
+}
+
+/* Whether h(at) equals the number rather than the value on another branch; compared in doubles. */
+static bool
+is_value(qdot_pool *pool, qdot_fun_id h, qdot_expr at, qdot_expr number)
+{
+    double a, b;
+
+    return qdot_ball_double(pool, qdot_fun1(pool, h, at), NULL, NULL, &a) &&
+           qdot_ball_double(pool, number, NULL, NULL, &b) &&
+           fabs(a - b) <= 1e-9 * fmax(1, fabs(b));
+}
+
+qdot_expr
+qdot_condition_unfolded(qdot_pool *pool, qdot_expr relation)
+{
+    for (int i = 0; i < 2 && qdot_expr_kind(pool, relation) == QDOT_REL; i++) {
+        qdot_expr side = qdot_expr_arg(pool, relation, (uint32_t)i),
+                  number = qdot_expr_arg(pool, relation, (uint32_t)(1 - i)), u, at;
+        qdot_rel_op op = qdot_expr_node(pool, relation)->op;
+        qdot_fun_id h, inverse;
+        bool swap = i == 1;
+        const qdot_expr d = qdot_constant_terms(pool, side);
+
+        number = qdot_sub(pool, number, d);
+        side = qdot_sub(pool, side, d);
+        if (number == QDOT_NIL || side == QDOT_NIL)
+            return QDOT_NIL;
+        if (qdot_expr_kind(pool, side) == QDOT_PROD && qdot_expr_count(pool, side) == 3 &&
+            qdot_expr_arg(pool, side, 2) == QDOT_ONE) {
+            qdot_expr c = qdot_expr_arg(pool, side, 0);
+
+            swap ^= qdot_expr_is_negative(pool, c);
+            number = qdot_div(pool, number, c);
+            side = qdot_expr_arg(pool, side, 1);
+        }
+        if (qdot_expr_kind(pool, side) != QDOT_FUN || qdot_expr_count(pool, side) != 1 ||
+            number == QDOT_NIL || !qdot_is_constant(pool, number) || qdot_is_constant(pool, side))
+            continue;
+        h = qdot_expr_node(pool, side)->op;
+        inverse = inverse_of(h);
+        if (inverse == QDOT_FUNCTION_KINDS)
+            continue;
+        at = qdot_fun1(pool, inverse, number);
+        if (at == QDOT_NIL && qdot_pool_check(pool) != QDOT_EDOMAIN)
+            return qdot_pool_fail(pool);
+        if (at == QDOT_NIL || !is_value(pool, h, at, number))
+            continue;
+        u = qdot_expr_arg(pool, side, 0);
+        swap ^= qdot_fun_is(h, QDOT_FUN_FALLING);
+        relation = swap ? qdot_rel(pool, op, at, u) : qdot_rel(pool, op, u, at);
+        i = -1; /* start again, because functions may be nested: log(atan(u)) */
+    }
+    return relation;
+}
+
+qdot_expr
+qdot_argument_at_zero(qdot_pool *pool, qdot_expr u)
+{
+    qdot_fun_id inverse = qdot_expr_kind(pool, u) == QDOT_FUN && qdot_expr_count(pool, u) == 1
+                              ? inverse_of(qdot_expr_node(pool, u)->op)
+                              : QDOT_FUNCTION_KINDS;
+    qdot_expr at = inverse == QDOT_FUNCTION_KINDS ? QDOT_NIL : qdot_fun1(pool, inverse, QDOT_ZERO);
+
+    if (at == QDOT_NIL) { /* the inverse has no value: exp is never 0 */
+        if (qdot_pool_check(pool) != QDOT_OK && qdot_pool_check(pool) != QDOT_EDOMAIN)
+            return qdot_pool_fail(pool);
+        return u;
+    }
+    return is_value(pool, qdot_expr_node(pool, u)->op, at, QDOT_ZERO)
+               ? qdot_sub(pool, qdot_expr_arg(pool, u, 0), at)
+               : u;
 }

@@ -29,9 +29,6 @@ qdot_expr qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool 
  * positive, or the gap has another form. */
 qdot_expr qdot_condition_of_logarithms(qdot_pool *pool, qdot_expr gap);
 
-/* The terms of a sum that are constants; 0 for other expressions. */
-qdot_expr qdot_constant_terms(qdot_pool *pool, qdot_expr e);
-
 /* Of a gap with a power beside a constant, as 3 - 2 sqrt(u): 9/4 - u, which is positive where the gap is, and alike of
  * several powers of what is never negative. *base: what must not be negative for that, nil if it cannot be. Nil: the gap
  * has another form. */
@@ -43,5 +40,12 @@ qdot_expr qdot_condition_beside_root(qdot_pool *pool, qdot_expr gap, bool *above
 
 /* For a condition s - t with a square root: s^2 - t^2 if s and t are never negative; else nil. */
 qdot_expr qdot_condition_squared(qdot_pool *pool, qdot_expr gap);
+
+/* A relation between c h(u) + d and a number, u not a number and h monotone, as one of u: atan(u) < 1 is u < tan(1). Where
+ * the number is no value of h it stays as it is. */
+qdot_expr qdot_condition_unfolded(qdot_pool *pool, qdot_expr relation);
+
+/* v - h^{-1}(0) for u = h(v) with monotonic h, which has the same zeros as u; otherwise u. */
+qdot_expr qdot_argument_at_zero(qdot_pool *pool, qdot_expr u);
 
 #endif

@@ -1,8 +1,6 @@
 /* conditions.c -- sets of relations under which a solution exists. */
 #include "normal/solve/conditions.h"
 
-#include <math.h>
-
 #include "base/memory.h"
 #include "expr/build.h"
 #include "expr/calculus.h"
@@ -11,9 +9,9 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
+#include "normal/inequality/constant-bounds.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
-#include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/positive.h"
 #include "normal/solve/condition-forms.h"
@@ -71,70 +69,6 @@ number_apart(qdot_pool *pool, qdot_expr relation)
     return qdot_rel(pool, QDOT_LT, qdot_neg(pool, c), qdot_sub(pool, right, c));
 }
 
-/* The monotonic function whose inverse is h; QDOT_FUNCTION_KINDS if there is none. */
-static qdot_fun_id
-inverse_of(qdot_fun_id h)
-{
-    return qdot_fun_is(h, QDOT_FUN_RISING) || qdot_fun_is(h, QDOT_FUN_FALLING) ? qdot_fun_facts_of(h)->inverse
-                                                                                : QDOT_FUNCTION_KINDS;
-}
-
-/* Whether h(at) equals the number rather than the value on another branch; compared in doubles. */
-static bool
-is_value(qdot_pool *pool, qdot_fun_id h, qdot_expr at, qdot_expr number)
-{
-    double a, b;
-
-    return qdot_ball_double(pool, qdot_fun1(pool, h, at), NULL, NULL, &a) &&
-           qdot_ball_double(pool, number, NULL, NULL, &b) &&
-           fabs(a - b) <= 1e-9 * fmax(1, fabs(b));
-}
-
-/* A relation between c h(u) + d and a number, u not a number and h monotone, as one of u: atan(u) < 1 is u < tan(1). Where
- * the number is no value of h it stays as it is. */
-static qdot_expr
-unfold(qdot_pool *pool, qdot_expr relation)
-{
-    for (int i = 0; i < 2 && qdot_expr_kind(pool, relation) == QDOT_REL; i++) {
-        qdot_expr side = qdot_expr_arg(pool, relation, (uint32_t)i),
-                  number = qdot_expr_arg(pool, relation, (uint32_t)(1 - i)), u, at;
-        qdot_rel_op op = qdot_expr_node(pool, relation)->op;
-        qdot_fun_id h, inverse;
-        bool swap = i == 1;
-        const qdot_expr d = qdot_constant_terms(pool, side);
-
-        number = qdot_sub(pool, number, d);
-        side = qdot_sub(pool, side, d);
-        if (number == QDOT_NIL || side == QDOT_NIL)
-            return QDOT_NIL;
-        if (qdot_expr_kind(pool, side) == QDOT_PROD && qdot_expr_count(pool, side) == 3 &&
-            qdot_expr_arg(pool, side, 2) == QDOT_ONE) {
-            qdot_expr c = qdot_expr_arg(pool, side, 0);
-
-            swap ^= qdot_expr_is_negative(pool, c);
-            number = qdot_div(pool, number, c);
-            side = qdot_expr_arg(pool, side, 1);
-        }
-        if (qdot_expr_kind(pool, side) != QDOT_FUN || qdot_expr_count(pool, side) != 1 ||
-            number == QDOT_NIL || !qdot_is_constant(pool, number) || qdot_is_constant(pool, side))
-            continue;
-        h = qdot_expr_node(pool, side)->op;
-        inverse = inverse_of(h);
-        if (inverse == QDOT_FUNCTION_KINDS)
-            continue;
-        at = qdot_fun1(pool, inverse, number);
-        if (at == QDOT_NIL && qdot_pool_check(pool) != QDOT_EDOMAIN)
-            return qdot_pool_fail(pool);
-        if (at == QDOT_NIL || !is_value(pool, h, at, number))
-            continue;
-        u = qdot_expr_arg(pool, side, 0);
-        swap ^= qdot_fun_is(h, QDOT_FUN_FALLING);
-        relation = swap ? qdot_rel(pool, op, at, u) : qdot_rel(pool, op, u, at);
-        i = -1; /* start again, because functions may be nested: log(atan(u)) */
-    }
-    return relation;
-}
-
 bool
 qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
@@ -150,41 +84,41 @@ magnitude_of(const qdot_pool *pool, qdot_expr gap)
                : QDOT_NIL;
 }
 
-/* v - h^{-1}(0) for u = h(v) with monotonic h, which has the same zeros as u; otherwise u. */
+/* A gap with a power beside a constant by one without the power; nil if it has no such form, or what is raised to the power
+ * is not known to be defined. */
 static qdot_expr
-argument_at_zero(qdot_pool *pool, qdot_expr u)
+gap_without_power(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts)
 {
-    qdot_fun_id inverse = qdot_expr_kind(pool, u) == QDOT_FUN && qdot_expr_count(pool, u) == 1
-                              ? inverse_of(qdot_expr_node(pool, u)->op)
-                              : QDOT_FUNCTION_KINDS;
-    qdot_expr at = inverse == QDOT_FUNCTION_KINDS ? QDOT_NIL : qdot_fun1(pool, inverse, QDOT_ZERO);
+    qdot_expr base, plain = qdot_condition_of_power(pool, gap, &base);
 
-    if (at == QDOT_NIL) { /* the inverse has no value: exp is never 0 */
-        if (qdot_pool_check(pool) != QDOT_OK && qdot_pool_check(pool) != QDOT_EDOMAIN)
-            return qdot_pool_fail(pool);
-        return u;
-    }
-    return is_value(pool, qdot_expr_node(pool, u)->op, at, QDOT_ZERO)
-               ? qdot_sub(pool, qdot_expr_arg(pool, u, 0), at)
-               : u;
+    return plain == QDOT_NIL || base == QDOT_NIL || is_proved(pool, QDOT_ZERO, base, false, facts) ? plain : QDOT_NIL;
 }
 
 /* Write 0 < gap or 0 <= gap in its shortest form. Expressions with coordinates are not factored. */
 static qdot_expr
 condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
-    qdot_expr u = magnitude_of(pool, gap), shortest;
+    qdot_expr u = magnitude_of(pool, gap), shortest, unfolded, again;
     bool generic = qdot_is_taken_generic(pool, gap, facts);
 
     if (strict && u != QDOT_NIL && !generic)
-        return qdot_is_generic(pool, u) ? qdot_nonzero(pool, argument_at_zero(pool, u), facts)
+        return qdot_is_generic(pool, u) ? qdot_nonzero(pool, qdot_argument_at_zero(pool, u), facts)
                                         : qdot_rel(pool, QDOT_LT, QDOT_ZERO, gap);
     /* do not drop a factor that may vanish for some values */
     shortest = generic                      ? qdot_positive(pool, gap, facts, 0, NULL)
                : qdot_is_generic(pool, gap) ? qdot_positive_exact(pool, gap, facts)
                                             : number_apart(pool, qdot_positive_without_minus(pool, gap));
-    return shortest == QDOT_NIL ? QDOT_NIL
-                                : unfold(pool, strict ? shortest : weaken_relation(pool, shortest));
+    if (shortest == QDOT_NIL)
+        return QDOT_NIL;
+    shortest = strict ? shortest : weaken_relation(pool, shortest);
+    unfolded = qdot_condition_unfolded(pool, shortest);
+    if (unfolded == shortest || unfolded == QDOT_NIL || qdot_expr_kind(pool, unfolded) != QDOT_REL)
+        return unfolded;
+    gap = qdot_positive_of(pool, unfolded);
+    again = qdot_condition(pool, gap, qdot_expr_node(pool, unfolded)->op == QDOT_LT, facts);
+    return again == QDOT_NIL || qdot_expr_kind(pool, again) != QDOT_REL || gap_without_power(pool, gap, facts) != QDOT_NIL
+               ? again
+               : unfolded; /* b < tan(4) rather than b cos(4) > sin(4) */
 }
 
 static qdot_expr
@@ -249,16 +183,6 @@ condition_by_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_fac
     return relation;
 }
 
-/* A gap with a power beside a constant by one without the power; nil if it has no such form, or what is raised to the power
- * is not known to be defined. */
-static qdot_expr
-gap_without_power(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts)
-{
-    qdot_expr base, plain = qdot_condition_of_power(pool, gap, &base);
-
-    return plain == QDOT_NIL || base == QDOT_NIL || is_proved(pool, QDOT_ZERO, base, false, facts) ? plain : QDOT_NIL;
-}
-
 qdot_expr
 qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
@@ -271,13 +195,8 @@ qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *fa
     relation = condition_decide(pool, plain == QDOT_NIL ? gap : plain, strict, facts);
     if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)
         return relation;
-    strict = qdot_expr_node(pool, relation)->op == QDOT_LT;
-    plain = gap_without_power(pool, qdot_positive_of(pool, relation), facts); /* of log(sqrt(a)) > 1 is left sqrt(a) > e */
-    if (plain != QDOT_NIL)
-        relation = condition_decide(pool, plain, strict, facts);
-    if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)
-        return relation;
-    by_squares = condition_by_squares(pool, qdot_positive_of(pool, relation), strict, facts);
+    by_squares = condition_by_squares(pool, qdot_positive_of(pool, relation),
+                                      qdot_expr_node(pool, relation)->op == QDOT_LT, facts);
     return qdot_pool_failed(pool) ? QDOT_NIL : by_squares == QDOT_NIL ? relation : by_squares;
 }
 
