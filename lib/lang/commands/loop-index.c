@@ -220,6 +220,7 @@ fail_unused(qdot_record *r, const qdot_filled *clause, const qdot_filled *behind
     const qdot_name *known = declared(s, name);
     const qdot_named_run *latest = s->runs->n > 0 ? &s->runs->at[s->runs->n - 1] : NULL;
     qdot_text text = {0};
+    qdot_status status;
 
     qdot_record_blame(r, index);
     if (latest == NULL || known == NULL ||
@@ -228,7 +229,11 @@ fail_unused(qdot_record *r, const qdot_filled *clause, const qdot_filled *behind
         return qdot_hint("as in print %s^2 for %s = 1..3", name, name);
     }
     qdot_text_add(&text, "{ run");
-    QDOT_TRY(add_run_of_pass(s, latest, name, from, to, &text));
+    status = add_run_of_pass(s, latest, name, from, to, &text);
+    if (status != QDOT_OK) {
+        qdot_text_clear(&text);
+        return status;
+    }
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {
         last = qdot_outline_end(first);
         last = last < to ? last : to;

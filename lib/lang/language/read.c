@@ -245,24 +245,9 @@ qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
 }
 
 qdot_status
-qdot_read_side(qdot_cursor *c, qdot_expr *value)
-{
-    return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_value, value);
-}
-
-qdot_status
 qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 {
     return read_by(c, QDOT_PARSE_SIDE, qdot_compiled_scalar, value);
-}
-
-qdot_status
-qdot_read_range(qdot_cursor *c, qdot_expr *from, qdot_expr *to)
-{
-    QDOT_TRY(qdot_read_scalar(c, from));
-    if (!qdot_cursor_accept_op(c, ".."))
-        return qdot_cursor_expected(c, "a range `a..b`");
-    return qdot_read_scalar(c, to);
 }
 
 /* Read an index of a name and evaluate it with the values of parameters. */

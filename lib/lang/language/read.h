@@ -17,13 +17,9 @@ QDOT_MUST_CHECK qdot_status qdot_read_value(qdot_cursor *c, qdot_expr *value);
  * G[r, phi]; nil: by numbers only. */
 QDOT_MUST_CHECK qdot_status qdot_read_named(qdot_cursor *c, qdot_expr *value,
                                             qdot_expr *over);
-/* Read one side of `==`, a relation or a bound: stops before = == < <= > >= and or. */
-QDOT_MUST_CHECK qdot_status qdot_read_side(qdot_cursor *c, qdot_expr *value);
-/* Read a sum without relations, which must be a scalar: QDOT_ETYPE otherwise. */
+/* Read one side of `==`, a relation or a bound, which must be a scalar (QDOT_ETYPE otherwise); stops before = == < <= > >=
+ * and or. */
 QDOT_MUST_CHECK qdot_status qdot_read_scalar(qdot_cursor *c, qdot_expr *value);
-/* a..b, exact. */
-QDOT_MUST_CHECK qdot_status qdot_read_range(qdot_cursor *c, qdot_expr *from,
-                                            qdot_expr *to);
 /* A name to be declared or a label, with its indices evaluated: "theta[1]", "A[1,2]". The string is in
  * the source's arena. */
 QDOT_MUST_CHECK qdot_status qdot_read_name(qdot_cursor *c, const char **name);

@@ -253,7 +253,7 @@ operands_end_before_option_words(void **state)
     qdot_source *source;
     qdot_compiled program;
     qdot_cursor c;
-    qdot_expr e, to;
+    qdot_expr e;
     reading r;
     const char *name;
 
@@ -267,7 +267,9 @@ operands_end_before_option_words(void **state)
     qdot_compiled_free(&program);
     assert_int_equal(qdot_expr_kind(r.session->pool, e), QDOT_VEC);
     assert_true(qdot_cursor_accept_word(&c, "rest"));
-    assert_int_equal(qdot_read_range(&c, &e, &to), QDOT_OK);
+    assert_int_equal(qdot_read_scalar(&c, &e), QDOT_OK);
+    assert_true(qdot_cursor_accept_op(&c, ".."));
+    assert_int_equal(qdot_read_scalar(&c, &e), QDOT_OK);
     assert_int_equal(qdot_cursor_expect_end(&c), QDOT_OK);
     c.at++;
     assert_int_equal(qdot_read_name(&c, &name), QDOT_OK);
@@ -281,7 +283,8 @@ operands_end_before_option_words(void **state)
     assert_int_equal(qdot_read_scalar(&c, &e), QDOT_ETYPE);
     assert_int_equal(c.error_at, 0);
     c.at++;
-    assert_int_equal(qdot_read_side(&c, &e), QDOT_OK);
+    assert_int_equal(qdot_compiled_parse(&c, QDOT_PARSE_SIDE, &program), QDOT_OK);
+    qdot_compiled_free(&program);
     assert_true(qdot_cursor_is_op(&c, "="));
     qdot_source_free(source);
 
