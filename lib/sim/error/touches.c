@@ -119,6 +119,8 @@ qdot_touches_crossings(qdot_run *run, size_t event, double *errors)
 
         if (o->event != event || o->way == 0)
             continue;
+        if (i > 0 && o[-1].t == o->t) /* a blow that another one hands on: what meets did not approach before */
+            continue;
         status = touch_look_at(&l, o->t, &g, &error);
         if (status == QDOT_OK)
             status = look_at_slope(&l, &run->course.tr, o->t, g, &slope);

@@ -28,7 +28,8 @@ QDOT_MUST_CHECK qdot_status qdot_touches_look(qdot_run *run, size_t event, doubl
 QDOT_MUST_CHECK qdot_status qdot_touches_end(qdot_run *run, size_t event, bool *undecided);
 
 /* Where the event crosses 0: the error of its function at the time, as that of any value, divided by its slope, into errors [occurrences];
- * others stay. Companions may be off by little at one time by chance: that of the function is looked at around it. */
+ * others stay, and those of what meets because another event of the same instant has moved it. Companions may be off by little
+ * at one time by chance: that of the function is looked at around it. */
 QDOT_MUST_CHECK qdot_status qdot_touches_crossings(qdot_run *run, size_t event, double *errors);
 
 #endif

@@ -156,6 +156,9 @@ find_errors(qdot_run *run)
     /* companions by the method of the run, not by series, take steps that are like its own, and agree with it more often */
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK && run->plan->method->stiff; i++)
         status = qdot_touches_crossings(run, i, least);
+    for (size_t i = 1; i < n && status == QDOT_OK; i++) /* of one instant */
+        if (run->course.occurrences.at[i].t == run->course.occurrences.at[i - 1].t)
+            least[i] = fmax(least[i], least[i - 1]);
     if (status == QDOT_OK)
         status = compare_occurrences(run, sorted, sorted + 1, widths, least);
     if (status == QDOT_OK)
