@@ -305,6 +305,20 @@ come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *f
     return QDOT_OK;
 }
 
+/* Bodies that touched are pushed together from the start of the piece on: *lasts: their contact does. If it may not last
+ * they meet there. */
+static qdot_status
+rest_together(qdot_piece *x, const qdot_root *root, size_t event, bool *lasts)
+{
+    bool soon;
+
+    QDOT_TRY(qdot_piece_rest(x, event, qdot_root_way(root), 0, lasts, &soon));
+    if (*lasts)
+        return QDOT_OK;
+    return qdot_vec_push(&x->c->occurrences,
+                         ((qdot_occurrence){.event = event, .t = x->t_act, .way = (int)x->direction * root->way}));
+}
+
 bool
 qdot_piece_has_crossed_flatly(const qdot_piece *x, size_t i)
 {
@@ -500,7 +514,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
         double left = 0;
-        bool fast = false, low = false, led, rests, once;
+        bool fast = false, low = false, led, rests, once, lasts = false;
 
         if (w->kind != QDOT_WATCH_EVENT || qdot_staged_event_acts(&x->c->stage->events.at[w->index]))
             status = qdot_vec_push(
@@ -524,6 +538,10 @@ qdot_piece_act(qdot_piece *x, bool *over)
         } else {
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
+            if (root->rests)
+                status = rest_together(x, root, w->index, &lasts);
+            if (lasts)
+                continue;
             if (e->undoing)
                 status = qdot_piece_check_undone(x, root);
             if (x->c->reason[0] != '\0') {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "sim/course/piece.h"
+#include "sim/model/contact.h"
 
 void
 qdot_piece_let_fade(qdot_piece *x)
@@ -16,8 +17,16 @@ qdot_piece_let_fade(qdot_piece *x)
     for (size_t i = 0; i < m->m; i++) {
         const qdot_watched *w = &m->watched[i];
 
-        if (w->kind == QDOT_WATCH_EVENT && !s->events.at[w->index].then && !s->events.at[w->index].stop)
+        const qdot_staged_event *e = w->kind == QDOT_WATCH_EVENT ? &s->events.at[w->index] : NULL;
+
+        if (!e)
+            continue;
+        if (!e->then && !e->stop)
             qdot_watch_may_fade(qdot_piece_watch(x), i, !held && !x->options->leading);
+        qdot_watch_may_hide(qdot_piece_watch(x), i,
+                            e->way != 0 && e->turn == QDOT_NIL && !held && !x->options->leading
+                                && qdot_contacts_surface(&s->switches, w->index, e->way) != SIZE_MAX,
+                            e->way);
     }
 }
 

@@ -140,7 +140,7 @@ note(qdot_piece *x, const qdot_root *root)
     qdot_occurrence o = {w->index, root->t, way_of(x, root),
                          root->within, root->bend, (root->way == 0 || root->stays ? root->blur : 0) + root->moved + root->flat};
 
-    if (w->kind != QDOT_WATCH_EVENT)
+    if (w->kind != QDOT_WATCH_EVENT || root->rests)
         return QDOT_OK;
     if (x->options->leading && root->way != 0)
         QDOT_TRY(add_rounding(x, root, &o));

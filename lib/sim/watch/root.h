@@ -19,6 +19,7 @@ typedef struct {
     double late, blur;
     bool cubic;  /* g crosses 0 like an odd power above the first, however slowly */
     bool deep;   /* it is located in many digits */
+    bool rests; /* no crossing: what rounding alone has held at 0 is pushed to the side of `way` from t on */
     bool several; /* there are more crossings, too close to be separated in doubles */
     double flat; /* width in t around the root in which rounding hides the sign of g; 0: a few doubles */
     double rounding; /* for functions of t only: error of the root by rounding of g */

@@ -20,6 +20,9 @@
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
 
+/* How often a part of a step may be halved. */
+enum { QDOT_WATCH_DEEPEST = 100 };
+
 /* The largest |g|, also at a pole: it can be added up, multiplied by the square of a number of nodes, divided
  * by the distance of nodes. */
 #define QDOT_WATCH_MOST 0x1p900
@@ -116,6 +119,10 @@ struct qdot_watch {
     int *faded;      /* [m] number of consecutive steps before this one with the same property */
     double *faded_since; /* [m] start of the first of these steps */
     double *most;    /* [m] largest |g| at the ends of steps so far */
+    /* Fields for functions that rounding makes (watch-hidden.c). */
+    bool *may_hide;  /* [m] crossings of g that rounding makes are passed over */
+    int *meets;      /* [m] sign of g behind a crossing that counts */
+    int *hides;      /* [m] whether rounding is all of g in this step; QDOT_WATCH_UNKNOWN: not found out yet */
     int nodes;       /* number of nodes that sufficed last time */
     double *samples; /* [m x QDOT_WATCH_NODES] values of g at the nodes */
     double *fitted;  /* [m x QDOT_WATCH_NODES] Chebyshev coefficients of the polynomials fitted */
@@ -123,7 +130,7 @@ struct qdot_watch {
     double *extrema; /* [m x QDOT_WATCH_NODES] extrema of the polynomial, x in [-1, 1] */
     int *n_extrema; /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as from qdot_chebyshev_crossings */
     double *fine_end; /* [m] g at the end of the part, in two doubles */
-    double *ends;    /* [(DEEPEST + 2) x m] g at the ends of parts still to be searched */
+    double *ends;    /* [(QDOT_WATCH_DEEPEST + 2) x m] g at the ends of parts still to be searched */
     qdot_vec(qdot_root) roots;
 };
 
@@ -230,6 +237,15 @@ QDOT_MUST_CHECK qdot_status qdot_watch_sharpen_end(qdot_watch *w, qdot_watch_par
 QDOT_MUST_CHECK qdot_status qdot_watch_find_fading(qdot_watch *w, double t, const double *y);
 bool qdot_watch_has_faded(const qdot_watch *w, size_t i);
 void qdot_watch_take_fading(qdot_watch *w);
+
+/* --- crossings that rounding makes (watch-hidden.c) ------------------------------------ */
+
+/* Whether rounding of the state is all of g_i and of dg_i/dt in the step to w->end: its roots there are no crossings.
+ * _drop_hidden: such functions are not searched any further in this step; *any: others are. _claim_hidden: add a root at
+ * the start of the step from where on g is more than rounding, and has the sign behind a crossing. */
+QDOT_MUST_CHECK qdot_status qdot_watch_is_hidden(qdot_watch *w, size_t i, bool *hidden);
+QDOT_MUST_CHECK qdot_status qdot_watch_drop_hidden(qdot_watch *w, bool *any);
+QDOT_MUST_CHECK qdot_status qdot_watch_claim_hidden(qdot_watch *w);
 
 /* --- rounding of the functions (watch-noise.c) -------------------------------------- */
 

@@ -65,6 +65,7 @@ qdot_status
 qdot_watch_push(qdot_watch *w, qdot_root root)
 {
     const struct qdot_watch_turn *own = w->turns ? w->turns + root.function : NULL;
+    bool hidden;
 
     if (own && own->tape) {
         bool other;
@@ -74,5 +75,6 @@ qdot_watch_push(qdot_watch *w, qdot_root root)
         root.turned = other && !own->half;
         root.pole = root.pole || (other && own->half);
     }
-    return qdot_vec_push(&w->roots, root);
+    QDOT_TRY(qdot_watch_is_hidden(w, root.function, &hidden));
+    return hidden ? QDOT_OK : qdot_vec_push(&w->roots, root);
 }

@@ -71,6 +71,10 @@ bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
 double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 
+/* Let crossings of g_i be passed over that rounding of the state makes (watch-hidden.c): of bodies that touch, and that
+ * meet where g changes its sign to `way`, in the direction of the run. Until this is called none are. */
+void qdot_watch_may_hide(qdot_watch *w, size_t i, bool may, int way);
+
 /* Values and signs of the functions g at the start of a piece. */
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
