@@ -339,8 +339,6 @@ qdot_articulated_is_path(const qdot_articulated *a)
 
 /* --- factorisation along the tree --------------------------------------------------- */
 
-#define INLINE static inline __attribute__((always_inline))
-
 /* Intermediate results for the present node. */
 typedef struct {
     double S[most_unknowns * most]; /* [c x m] the block S of this node */

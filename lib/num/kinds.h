@@ -13,8 +13,9 @@
 
 /* Functions between QDOT_KIND_AVX2, or QDOT_KIND_AVX512, and QDOT_KIND_END are compiled for that
  * kind; no header may be included there. QDOT_UNROLL(n) before a loop unrolls it n times, or
- * completely if it has fewer turns; 1: not at all. Under AddressSanitizer no loop is unrolled: with the tests of each
- * access in every turn the compiler takes a minute for a file. */
+ * completely if it has fewer turns; 1: not at all. INLINE functions are inlined wherever they are called, unless nothing is
+ * optimized. Under AddressSanitizer no loop is unrolled and nothing inlined: with the tests of each access in every turn and
+ * every copy the compiler takes half a minute for a file. */
 #define QDOT_PRAGMA(x) _Pragma(#x)
 #ifdef __clang__
 #define QDOT_KIND_FOR(target_)                                                           \
@@ -22,6 +23,7 @@
 #define QDOT_KIND_END QDOT_PRAGMA(clang attribute pop)
 #if __has_feature(address_sanitizer)
 #define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll(disable))
+#define INLINE static __attribute__((unused))
 #else
 #define QDOT_UNROLL(n) QDOT_PRAGMA(clang loop unroll_count(n))
 #endif
@@ -29,6 +31,11 @@
 #define QDOT_KIND_FOR(target_) QDOT_PRAGMA(GCC push_options) QDOT_PRAGMA(GCC target(target_))
 #define QDOT_KIND_END QDOT_PRAGMA(GCC pop_options)
 #define QDOT_UNROLL(n) QDOT_PRAGMA(GCC unroll n)
+#endif
+#if !defined INLINE && defined __OPTIMIZE__
+#define INLINE static inline __attribute__((always_inline, unused))
+#elif !defined INLINE
+#define INLINE static __attribute__((unused))
 #endif
 #define QDOT_KIND_AVX2 QDOT_KIND_FOR("avx2,fma")
 #define QDOT_KIND_AVX512 QDOT_KIND_FOR("avx512f,avx2,fma")

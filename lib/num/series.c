@@ -73,7 +73,7 @@ reach_of_any(size_t n, const double *x, size_t stride, const qdot_series_weights
  * not the machine fuses (Dekker, Numer. Math. 18 (1971) 224). */
 typedef double four_doubles __attribute__((vector_size(32), aligned(8)));
 
-static inline __attribute__((always_inline)) four_doubles
+INLINE four_doubles
 upper_half(four_doubles a)
 {
     typedef int64_t bits __attribute__((vector_size(32), aligned(8)));
@@ -81,7 +81,7 @@ upper_half(four_doubles a)
     return (four_doubles)(((bits)a + (1 << 26)) & ~(int64_t)((1 << 27) - 1));
 }
 
-static inline __attribute__((always_inline)) four_doubles
+INLINE four_doubles
 rest_of_product(four_doubles a, four_doubles b, four_doubles p)
 {
     const four_doubles a1 = upper_half(a), a2 = a - a1, b1 = upper_half(b), b2 = b - b1;
@@ -141,7 +141,7 @@ QDOT_KIND_AVX2
 #define FOUR_SUMS(a, b, c, d)                                                            \
     ((NAME(four))fours_summed((__m256d)(a), (__m256d)(b), (__m256d)(c), (__m256d)(d)))
 
-static inline __attribute__((always_inline)) __m256d
+INLINE __m256d
 fours_summed(__m256d a, __m256d b, __m256d c, __m256d d)
 {
     const __m256d ab = _mm256_hadd_pd(a, b), cd = _mm256_hadd_pd(c, d);
@@ -173,7 +173,7 @@ QDOT_KIND_AVX512
     ((NAME(four))fours_summed(folded((__m512d)(a)), folded((__m512d)(b)),                \
                               folded((__m512d)(c)), folded((__m512d)(d))))
 
-static inline __attribute__((always_inline)) __m256d
+INLINE __m256d
 folded(__m512d a)
 {
     return _mm256_add_pd(_mm512_castpd512_pd256(a), _mm512_extractf64x4_pd(a, 1));
