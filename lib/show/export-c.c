@@ -44,14 +44,11 @@ static const char values_text[] =
 const qdot_export_language qdot_export_c = {
     .comment = " *",
     .reserved =
-        " auto break case char const continue default do double else enum extern float for goto if "
-        "inline int long register restrict return short signed sizeof static struct switch typedef "
-        "union unsigned void volatile while main memset memcpy memmove NULL NAN INFINITY HUGE_VAL "
-        "M_PI M_E t state p M f A gamma acc lambda R K solved occurs df J out unused solve step system_of "
-        "sin cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt pow erf erfc fabs "
-        "floor fmin fmax abs tan log2 log10 log1p expm1 cbrt hypot round trunc ceil fmod j0 j1 jn y0 y1 "
-        "yn tgamma lgamma ldexp frexp modf nan fma linux unix "
-        "side own u level motion ",
+        " auto break case char const continue default do else enum extern float for goto if inline int long "
+        "register restrict return short signed sizeof static struct switch typedef union unsigned void volatile "
+        "while main memset memcpy memmove NULL NAN INFINITY HUGE_VAL M_PI M_E t state p M f A gamma acc lambda R "
+        "K solved occurs df J out unused solve step system_of abs tan log2 log10 expm1 cbrt hypot round trunc "
+        "ceil fmod j0 j1 jn y0 y1 yn tgamma lgamma ldexp frexp modf nan fma linux unix side own u level motion ",
     .nan = "NAN",
     .number = "const double %s = %s;",
     .truth = "const int %s = %s;",

@@ -46,15 +46,14 @@ static const char values_text[] =
 const qdot_export_language qdot_export_julia = {
     .comment = "#",
     .reserved =
-        " baremodule begin break catch const continue do else elseif end export false finally for "
-        "function global if import in isa let local macro module outer quote return struct true try "
-        "type using where while mutable Base I T NaN pi im sin cos asin acos atan sinh cosh tanh asinh "
-        "acosh atanh exp log log1p sqrt erf erfc abs sign min max floor float zeros eltype oftype typeof "
-        "promote_type isinteger real_sqrt real_log real_pow real_asin real_acos real_acosh real_atanh "
-        "ORDERS SETS EFFECTS STEPS STAYS MOVES NODES STAGES FIFTH THIRD CURVE stage step within watch place lowest choose decide cross signs check Parameters START SPAN TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS equations "
-        "accelerations derivative jacobian energy residuals events effect bordered t state p M f A gamma acc "
-        "lambda R J occurs df out event "
-        "side u level switches sides project ",
+        " baremodule begin break catch const continue do else elseif end export false finally for function "
+        "global if import in isa let local macro module outer quote return struct true try type using where "
+        "while mutable Base I T NaN pi im asin acos acosh atanh log sqrt float zeros eltype oftype typeof "
+        "promote_type isinteger ORDERS SETS EFFECTS STEPS STAYS MOVES NODES STAGES FIFTH THIRD CURVE stage step "
+        "within watch place lowest choose decide cross signs check Parameters START SPAN TOLERANCE COORDINATES "
+        "MULTIPLIERS EVENTS WAYS STOPS equations accelerations derivative jacobian energy residuals events "
+        "effect bordered t state p M f A gamma acc lambda R J occurs df out event side u level switches sides "
+        "project ",
     .nan = "NaN",
     .number = "%s = %s",
     .truth = "%s = %s",

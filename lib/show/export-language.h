@@ -19,7 +19,7 @@
 struct qdot_export_language {
     const char *comment; /* characters that begin a comment line */
     bool exact_name;     /* the file name must be a valid name in the language */
-    const char *reserved; /* words that cannot be names, a blank before and after each */
+    const char *reserved; /* words that cannot be names beside those in `operation`, a blank before and after each */
     const char *nan;     /* expression for a missing value */
 
     /* printf: a named number, a named truth value (name, value). */

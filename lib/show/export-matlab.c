@@ -40,12 +40,11 @@ const qdot_export_language qdot_export_matlab = {
     .exact_name = true,
     .reserved =
         " break case catch classdef continue else elseif end endfunction endif endfor endwhile do until "
-        "unwind_protect for function global if otherwise parfor persistent return spmd switch try while "
-        "i j pi Inf NaN inf nan eps ans sin cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh "
-        "exp log log1p sqrt power erf erfc abs sign min max floor zeros eye isreal error pick choose struct s steps step method watch first place lowest value decide cross signs check integrate within interpolate  "
-        "equations accelerations derivative jacobian energy residuals events effect bordered t state p M f "
-        "A gamma acc lambda R J df h out event condition parameters "
-        "side u level switches sides project residuals ",
+        "unwind_protect for function global if otherwise parfor persistent return spmd switch try while i j pi "
+        "Inf NaN inf nan eps ans zeros eye isreal error choose struct s steps step method watch first place "
+        "lowest value decide cross signs check integrate within interpolate equations accelerations derivative "
+        "jacobian energy residuals events effect bordered t state p M f A gamma acc lambda R J df h out event "
+        "condition parameters side u level switches sides project ",
     .nan = "NaN",
     .number = "%s = %s;",
     .truth = "%s = %s;",

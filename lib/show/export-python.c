@@ -32,14 +32,12 @@ static const char values_text[] =
 const qdot_export_language qdot_export_python = {
     .comment = "#",
     .reserved =
-        " and as assert async await break class continue def del elif else except finally for from "
-        "global if import in is lambda nonlocal not or pass raise return try while with yield None "
-        "True False np erf erfc abs min max float range len print repr copy fields Parameters START "
-        "SPAN ORDERS SETS EFFECTS STEPS STAYS MOVES look march watch place lowest first choose decide "
-        "cross signs check TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS equations accelerations derivative "
-        "jacobian energy residuals events effect integrate bordered dataclass t state p M f A gamma acc "
-        "lambda_ R J occurs df out event "
-        "side u level residuals project switches sides ",
+        " as assert async await break class continue def del elif except finally for from global import in is "
+        "lambda nonlocal pass raise return try while with yield None True False abs min max float range len "
+        "print repr copy fields Parameters START SPAN ORDERS SETS EFFECTS STEPS STAYS MOVES look march watch "
+        "place lowest first choose decide cross signs check TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS "
+        "equations accelerations derivative jacobian energy residuals events effect integrate bordered dataclass "
+        "t state p M f A gamma acc lambda_ R J occurs df out event side u level project switches sides ",
     .nan = "np.nan",
     .number = "%s = %s",
     .truth = "%s = %s",

@@ -13,6 +13,12 @@ typedef qdot_export_writer writer;
 
 /* --- names in the exported file --------------------------------------------------------- */
 
+static bool
+is_part_of_name(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
 /* Append a name as a word of letters, digits and _: theta[1]'' becomes theta_1_ddot. */
 static void
 as_word(const char *name, qdot_text *out)
@@ -20,7 +26,7 @@ as_word(const char *name, qdot_text *out)
     size_t primes = 0;
 
     for (; *name != '\0'; name++) {
-        if (isalnum((unsigned char)*name) || *name == '_')
+        if (is_part_of_name(*name))
             qdot_text_char(out, *name);
         else if (*name == '[' || *name == ',')
             qdot_text_char(out, '_');
@@ -30,11 +36,30 @@ as_word(const char *name, qdot_text *out)
         qdot_text_format(out, "_%.*sdot", (int)primes - 1, "dddddddd");
 }
 
+/* Whether the text of an operation uses the name, as `exp(&a)` uses exp; np.exp uses np only. */
+static bool
+is_used_by_operation(const qdot_export_language *s, const char *name)
+{
+    const size_t n = strlen(name);
+
+    for (int op = 0; op < QDOT_OP_COUNT; op++) {
+        const char *const text = s->operation[op];
+
+        for (const char *at = text; at != NULL && (at = strstr(at, name)) != NULL; at++)
+            if ((at == text || (!is_part_of_name(at[-1]) && strchr(".&#", at[-1]) == NULL)) &&
+                !is_part_of_name(at[n]))
+                return true;
+    }
+    return false;
+}
+
 static bool
 is_reserved(const qdot_export_language *s, const char *word)
 {
     char between[80];
 
+    if (is_used_by_operation(s, word))
+        return true;
     if (strlen(word) > sizeof between - 3)
         return false;
     snprintf(between, sizeof between, " %s ", word);
@@ -168,7 +193,7 @@ choose_name(writer *w, const char *file)
 
     qdot_text_add(&name, changed ? "f_" : "");
     for (const char *c = file; *c != '\0'; c++) {
-        bool fits = isalnum((unsigned char)*c) || *c == '_';
+        bool fits = is_part_of_name(*c);
 
         qdot_text_char(&name, fits ? *c : '_');
         changed |= !fits;
