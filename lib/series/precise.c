@@ -113,7 +113,7 @@ precise_value(qdot_precise *p, const qdot_program_step *i)
     switch (i->zero) {
 #define NOT_IN_PROGRAMS mpfr_set_nan(d)
 #define other precise_place(p, i->second)[0]
-#define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, two, precise) \
+#define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, two, precise, ...) \
     case QDOT_OP_##ID: precise; break;
 #include "tape/operation.def"
 #undef X

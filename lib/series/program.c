@@ -1,4 +1,5 @@
-/* program.c -- translates a tape to the steps of a series program. */
+/* program.c -- translates a tape to the steps of a series program, each operation by the column `series` of
+ * tape/operation.def. */
 #include "series/program.h"
 
 #include <stdatomic.h>
@@ -182,34 +183,68 @@ emit_sum(builder *b, qdot_op op, row x, row y)
     return program_emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
 }
 
-/* Find the row u of f(x)' = x'/u, for an inverse function or a logarithm f. */
 static row
-denominator(builder *b, qdot_op f, row x)
+root(builder *b, row x)
 {
-    row square, one;
+    return program_emit(b, QDOT_T_SQRT, QDOT_OP_SQRT, x, x, x);
+}
 
-    if (f == QDOT_OP_LOG)
-        return x;
-    square = emit_product(b, QDOT_OP_MUL, x, x, x);
-    one = whole_number_row(b, 1);
-    switch (f) {
-    case QDOT_OP_ATAN: return emit_sum(b, QDOT_OP_ADD, one, square);
-    case QDOT_OP_ATANH: return emit_sum(b, QDOT_OP_SUB, one, square);
-    case QDOT_OP_ASINH: square = emit_sum(b, QDOT_OP_ADD, one, square); break;
-    case QDOT_OP_ACOSH: square = emit_sum(b, QDOT_OP_SUB, square, one); break;
-    default: square = emit_sum(b, QDOT_OP_SUB, one, square);
-    }
-    return program_emit(b, QDOT_T_SQRT, QDOT_OP_SQRT, square, square, square);
+/* The row of c + d x^2, c and d being 1 or -1, not both -1. */
+static row
+quadratic(builder *b, int c, int d, row x)
+{
+    const row square = emit_product(b, QDOT_OP_MUL, x, x, x), one = whole_number_row(b, 1);
+
+    if (c < 0)
+        return emit_sum(b, QDOT_OP_SUB, square, one);
+    return emit_sum(b, d > 0 ? QDOT_OP_ADD : QDOT_OP_SUB, one, square);
+}
+
+/* The row of an inverse function or a logarithm f with f(x)' = sign x'/u. */
+static row
+ratio(builder *b, qdot_op f, int sign, row x, row u)
+{
+    const row to = program_emit(b, QDOT_T_RATIO, f, x, u, u);
+
+    last_step(b)->sign = sign;
+    with_d(b);
+    return to;
+}
+
+/* The row of a function f with f(x)' = x' slope. */
+static row
+along(builder *b, qdot_op f, row x, row slope)
+{
+    const row to = program_emit(b, QDOT_T_ALONG, f, x, slope, slope);
+
+    with_d(b);
+    return to;
 }
 
 static row
-ratio(builder *b, qdot_op f, row x)
+exponential(builder *b, row x)
 {
-    row u = denominator(b, f, x), to = program_emit(b, QDOT_T_RATIO, f, x, u, u);
+    const row to = program_emit(b, QDOT_T_EXP, QDOT_OP_EXP, x, x, x);
 
-    last_step(b)->sign = f == QDOT_OP_ACOS ? -1 : 1;
     with_d(b);
     return to;
+}
+
+static row
+tangent(builder *b, row x)
+{
+    const row to = program_emit(b, QDOT_T_TANH, QDOT_OP_TANH, x, x, x);
+
+    with_second(b);
+    with_d(b);
+    return to;
+}
+
+/* The row of an operation of which only the value, of order 0, is found. */
+static row
+no_series(builder *b, qdot_op op, row x, row y, row z)
+{
+    return program_emit(b, QDOT_T_VALUE, op, x, y, z);
 }
 
 static row
@@ -222,7 +257,7 @@ emit_power(builder *b, row x, row exponent)
         with_d(b);
         return to;
     }
-    l = emit_product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, x), exponent, exponent);
+    l = emit_product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, 1, x, x), exponent, exponent);
     to = program_emit(b, QDOT_T_EXP, QDOT_ZERO_POWER, l, x, exponent);
     with_d(b);
     return to;
@@ -241,47 +276,20 @@ arctangent(builder *b, row y, row x)
 }
 
 static row
-build_one(builder *b, const qdot_instruction *i, row *second)
+build_one(builder *p, const qdot_instruction *i, row *second)
 {
-    qdot_op op = (qdot_op)i->op;
-    row x = b->at[i->x], to, other;
-    row y = qdot_operations[op].operands > 1 ? b->at[i->y] : x;
-    row z = qdot_operations[op].operands > 2 ? b->at[i->z] : y;
+    const qdot_op op = (qdot_op)i->op;
+    const row x = p->at[i->x];
+    const row y = qdot_operations[op].operands > 1 ? p->at[i->y] : x;
+    const row z = qdot_operations[op].operands > 2 ? p->at[i->z] : y;
+    row other;
 
     switch (op) {
-    case QDOT_OP_NEG:
-    case QDOT_OP_ADD:
-    case QDOT_OP_SUB:
-    case QDOT_OP_MUL:
-    case QDOT_OP_MADD:
-    case QDOT_OP_MSUB:
-    case QDOT_OP_NMADD: return qdot_program_operation(b, op, x, y, z);
-    case QDOT_OP_DIV: return program_emit(b, QDOT_T_DIV, op, x, y, y);
-    case QDOT_OP_SQRT: return program_emit(b, QDOT_T_SQRT, op, x, x, x);
-    case QDOT_OP_POW: return emit_power(b, x, y);
-    case QDOT_OP_SINCOS: return pair(b, QDOT_T_SINCOS, x, second);
-    case QDOT_OP_SIN: return pair(b, QDOT_T_SINCOS, x, &other);
-    case QDOT_OP_COS: return pair(b, QDOT_T_SINCOS, x, &other), other;
-    case QDOT_OP_SINH: return pair(b, QDOT_T_SINHCOSH, x, &other);
-    case QDOT_OP_COSH: return pair(b, QDOT_T_SINHCOSH, x, &other), other;
-    case QDOT_OP_ATAN2: return arctangent(b, x, y);
-    case QDOT_OP_EXP:
-        to = program_emit(b, QDOT_T_EXP, op, x, x, x);
-        with_d(b);
-        return to;
-    case QDOT_OP_ERF:
-    case QDOT_OP_ERFC:
-    case QDOT_OP_SOFTPLUS:
-        to = program_emit(b, QDOT_T_ALONG, op, x, y, y);
-        with_d(b);
-        return to;
-    case QDOT_OP_TANH:
-        to = program_emit(b, QDOT_T_TANH, op, x, x, x);
-        with_second(b);
-        with_d(b);
-        return to;
-    default:
-        return op >= QDOT_OP_ABS ? program_emit(b, QDOT_T_VALUE, op, x, y, z) : ratio(b, op, x);
+#define X(ID, name, operands, operations, calls, statement, slopes, interval, disc, two, precise, series) \
+    case QDOT_OP_##ID: return series;
+#include "tape/operation.def"
+#undef X
+    default: return 0;
     }
 }
 
