@@ -365,8 +365,8 @@ call_form(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 #word, n, n, call_##word, usage, summary, example, 0, over_place                 \
     }
 
-#define ELEMENTARY(ID, name, least, most, traits, lo, hi, inverse, operation, value, ball, usage, summary, \
-                   example)                                                              \
+#define ELEMENTARY(ID, name, least, most, traits, lo, hi, inverse, operation, value, ball, image, usage, \
+                   summary, example)                                                              \
     {name,    least,   most,                                                             \
      call_##ID, usage, summary, example, QDOT_##ID == QDOT_IF ? QDOT_BUILTIN_FORM : 0, NULL},
 

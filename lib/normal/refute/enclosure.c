@@ -116,70 +116,51 @@ fraction(qdot_interval above, qdot_interval below, qdot_interval slope)
     return f;
 }
 
+/* The image of a function that is defined and continuous everywhere. */
 static image
-circular(uint32_t op, qdot_interval a)
+everywhere(qdot_interval y, qdot_interval slope)
 {
-    qdot_interval s = wave_sin(a), c = wave_cos(a), one = qdot_interval_point(1);
+    return (image){y, slope, QDOT_ENCLOSURE_WHOLE};
+}
 
-    switch (op) {
-    case QDOT_SIN: return (image){s, c, QDOT_ENCLOSURE_WHOLE};
-    case QDOT_COS: return (image){c, qdot_interval_negative(s), QDOT_ENCLOSURE_WHOLE};
-    case QDOT_TAN:
-        if (!holds_zero(c) && a.hi - a.lo < 3) /* within one branch, in which tan increases */
-            return (image){qdot_interval_rising(tan, a), inverse(interval_square(c)),
-                           QDOT_ENCLOSURE_WHOLE};
-        return fraction(s, c, inverse(interval_square(c)));
-    case QDOT_COT: return fraction(c, s, qdot_interval_negative(inverse(interval_square(s))));
-    case QDOT_SEC: return fraction(one, c, qdot_interval_quotient(s, interval_square(c)));
-    default:
-        return fraction(one, s,
-                        qdot_interval_negative(qdot_interval_quotient(c, interval_square(s))));
-    }
+/* The image of a function on a that is defined from `least` to `most`; `ends`: also there. */
+static image
+where(qdot_interval a, double least, double most, bool ends, qdot_interval y, qdot_interval slope)
+{
+    return (image){y, slope, compare_with_domain(a, least, most, ends)};
+}
+
+/* The image of a function of which only the ends of its values are known. */
+static image
+by_range(uint32_t op)
+{
+    image f = {{0, 0}, qdot_interval_whole, QDOT_ENCLOSURE_PARTLY};
+
+    qdot_fun_ends((qdot_fun_id)op, &f.y.lo, &f.y.hi);
+    return f;
 }
 
 static image
-image_hyperbolic(uint32_t op, qdot_interval a)
+tangent(qdot_interval a)
 {
-    qdot_interval s = qdot_interval_rising(sinh, a),
-                  c = qdot_interval_rising(cosh, qdot_interval_size(a)), t;
+    qdot_interval c = wave_cos(a), slope = inverse(interval_square(c));
 
-    c = qdot_interval_within(c, 1, INFINITY);
-    if (op == QDOT_SINH)
-        return (image){s, c, QDOT_ENCLOSURE_WHOLE};
-    if (op == QDOT_COSH)
-        return (image){c, s, QDOT_ENCLOSURE_WHOLE};
-    t = qdot_interval_within(qdot_interval_rising(tanh, a), -1, 1);
-    return (image){t, inverse(interval_square(c)), QDOT_ENCLOSURE_WHOLE};
+    if (!holds_zero(c) && a.hi - a.lo < 3) /* within one branch, in which tan increases */
+        return everywhere(qdot_interval_rising(tan, a), slope);
+    return fraction(wave_sin(a), c, slope);
 }
 
-static image
-inverse_function(uint32_t op, qdot_interval a)
+static qdot_interval
+hyperbolic_cosine(qdot_interval a)
 {
-    qdot_interval in = qdot_interval_within(a, -1, 1), slope;
+    return qdot_interval_within(qdot_interval_rising(cosh, qdot_interval_size(a)), 1, INFINITY);
+}
 
-    switch (op) {
-    case QDOT_ASIN:
-    case QDOT_ACOS:
-        slope = inverse(interval_root(plus(1, qdot_interval_negative(interval_square(in)))));
-        if (op == QDOT_ASIN)
-            return (image){qdot_interval_rising(asin, in), slope, compare_with_domain(a, -1, 1, true)};
-        return (image){qdot_interval_falling(acos, in), qdot_interval_negative(slope),
-                       compare_with_domain(a, -1, 1, true)};
-    case QDOT_ATAN:
-        return (image){qdot_interval_rising(atan, a), inverse(plus(1, interval_square(a))),
-                       QDOT_ENCLOSURE_WHOLE};
-    case QDOT_ASINH:
-        return (image){qdot_interval_rising(asinh, a), inverse(interval_root(plus(1, interval_square(a)))),
-                       QDOT_ENCLOSURE_WHOLE};
-    case QDOT_ACOSH:
-        slope = inverse(interval_root(plus(-1, interval_square(qdot_interval_within(a, 1, INFINITY)))));
-        return (image){qdot_interval_rising(acosh, qdot_interval_within(a, 1, INFINITY)),
-                       slope, compare_with_domain(a, 1, INFINITY, true)};
-    default:
-        return (image){qdot_interval_rising(atanh, in),
-                       inverse(plus(1, qdot_interval_negative(interval_square(in)))),
-                       compare_with_domain(a, -1, 1, false)};
-    }
+/* The interval 1 - a^2. */
+static qdot_interval
+one_less_square(qdot_interval a)
+{
+    return plus(1, qdot_interval_negative(interval_square(a)));
 }
 
 /* The interval 2/sqrt(pi) exp(-a^2). */
@@ -190,27 +171,6 @@ gaussian_slope(qdot_interval a)
         M_2_SQRTPI,
         qdot_interval_within(qdot_interval_rising(exp, qdot_interval_negative(interval_square(a))),
                              0, INFINITY));
-}
-
-static image
-exponential(uint32_t op, qdot_interval a)
-{
-    qdot_interval in = qdot_interval_within(a, 0, INFINITY), y;
-
-    switch (op) {
-    case QDOT_EXP:
-        y = qdot_interval_within(qdot_interval_rising(exp, a), 0, INFINITY);
-        return (image){y, y, QDOT_ENCLOSURE_WHOLE};
-    case QDOT_LOG:
-        return (image){qdot_interval_rising(log, in), inverse(in),
-                       compare_with_domain(a, 0, INFINITY, false)};
-    case QDOT_ERF:
-        return (image){qdot_interval_within(qdot_interval_rising(erf, a), -1, 1), gaussian_slope(a),
-                       QDOT_ENCLOSURE_WHOLE};
-    default:
-        return (image){qdot_interval_within(qdot_interval_falling(erfc, a), 0, 2),
-                       qdot_interval_negative(gaussian_slope(a)), QDOT_ENCLOSURE_WHOLE};
-    }
 }
 
 static image
@@ -232,32 +192,28 @@ stepped(uint32_t op, qdot_interval a)
                    one_side ? QDOT_ENCLOSURE_WHOLE : QDOT_ENCLOSURE_PARTLY};
 }
 
+/* The image of a function of function.def, by its column. */
 static image
 of_one(uint32_t op, qdot_interval a)
 {
+    const qdot_interval one = qdot_interval_point(1);
+
     switch (op) {
-    case QDOT_SIN:
-    case QDOT_COS:
-    case QDOT_TAN:
-    case QDOT_COT:
-    case QDOT_SEC:
-    case QDOT_CSC: return circular(op, a);
-    case QDOT_SINH:
-    case QDOT_COSH:
-    case QDOT_TANH: return image_hyperbolic(op, a);
-    case QDOT_EXP:
-    case QDOT_LOG:
-    case QDOT_ERF:
-    case QDOT_ERFC: return exponential(op, a);
-    case QDOT_ABS:
-    case QDOT_SIGN:
-    case QDOT_FLOOR: return stepped(op, a);
-    case QDOT_HOLD: return (image){a, qdot_interval_point(1), QDOT_ENCLOSURE_WHOLE};
-    default:
-        if (qdot_fun_is((qdot_fun_id)op, QDOT_FUN_ARC) || qdot_fun_is((qdot_fun_id)op, QDOT_FUN_AREA))
-            return inverse_function(op, a);
-        qdot_fun_ends((qdot_fun_id)op, &a.lo, &a.hi); /* only the range of the function is known */
-        return (image){a, qdot_interval_whole, QDOT_ENCLOSURE_PARTLY};
+#define rising qdot_interval_rising
+#define falling qdot_interval_falling
+#define negative qdot_interval_negative
+#define quotient qdot_interval_quotient
+#define cut qdot_interval_within
+#define X(ID, name, least, most, traits, lo, hi, inverse, operation, value, ball, image, ...) \
+    case QDOT_##ID: return image;
+#include "expr/function.def"
+#undef X
+#undef rising
+#undef falling
+#undef negative
+#undef quotient
+#undef cut
+    default: return everywhere(a, one); /* hold */
     }
 }
 
