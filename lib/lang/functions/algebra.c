@@ -13,6 +13,7 @@
 #include "expr/value-kind.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/functions/builtin.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
 #include "lang/session/momenta.h"
@@ -75,7 +76,7 @@ tell_partial(qdot_session *session, qdot_expr e)
 }
 
 qdot_status
-qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     qdot_expr e = args[0];
     long times = 1;
@@ -108,7 +109,7 @@ qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
 }
 
 qdot_status
-qdot_algebra_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     return qdot_algebra_give_short(
@@ -159,7 +160,7 @@ find_equation_sides(qdot_session *s, const char *name, qdot_expr e, side which, 
 }
 
 #define SIDE(word, which)                                                                \
-    qdot_status qdot_algebra_##word(qdot_session *s, uint32_t n, const qdot_expr *args,  \
+    qdot_status qdot_call_##word(qdot_session *s, uint32_t n, const qdot_expr *args,  \
                                     qdot_expr *value)                                    \
     {                                                                                    \
         (void)n;                                                                         \
@@ -171,14 +172,14 @@ SIDE(residual, DIFFERENCE)
 #undef SIDE
 
 qdot_status
-qdot_algebra_expand(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_expand(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     return qdot_value_kind_give(s->pool, qdot_expand(s->pool, args[0]), value);
 }
 
 qdot_status
-qdot_algebra_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     if (!qdot_expr_is_scalar(s->pool, args[1]) ||
@@ -189,7 +190,7 @@ qdot_algebra_collect(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_ex
 }
 
 qdot_status
-qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args,
+qdot_call_simplify(qdot_session *s, uint32_t n, const qdot_expr *args,
                       qdot_expr *value)
 {
     qdot_facts facts = qdot_scene_facts(s->scene);
@@ -205,8 +206,7 @@ static const uint32_t of_motion =
 /* --- replacements: subs ------------------------------------------------------------- */
 
 qdot_status
-qdot_algebra_gather(qdot_session *s, const char *name, const char *usage, qdot_expr e,
-                    qdot_replacements *r)
+qdot_algebra_gather(qdot_session *s, const char *name, qdot_expr e, qdot_replacements *r)
 {
     qdot_kind kind = qdot_expr_kind(s->pool, e);
     bool many = kind == QDOT_LIST || kind == QDOT_VEC;
@@ -218,7 +218,7 @@ qdot_algebra_gather(qdot_session *s, const char *name, const char *usage, qdot_e
         if (!qdot_value_kind_is_equation(s->pool, one)) {
             qdot_fail(QDOT_ETYPE, "%s takes equations, not %s", name,
                       qdot_value_kind_words(s->pool, one));
-            return qdot_hint("as in %s", usage);
+            return qdot_hint("as in %s", qdot_builtin_find(name)->usage);
         }
         left = qdot_expr_arg(s->pool, one, 0);
         if (qdot_expr_kind(s->pool, left) == QDOT_NUM)
@@ -237,14 +237,14 @@ qdot_algebra_drop(qdot_replacements *r)
 }
 
 qdot_status
-qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     qdot_replacements r = {0};
     qdot_status status = QDOT_OK;
     qdot_expr e = args[0];
 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
-        status = qdot_algebra_gather(s, "subs", QDOT_ALGEBRA_SUBS, args[i], &r);
+        status = qdot_algebra_gather(s, "subs", args[i], &r);
     for (size_t i = 0; i < r.from.n; i++)
         if (qdot_expr_node(s->pool, r.from.at[i])->holds & of_motion)
             e = qdot_momenta_for(s, e, r.from.at[i]);
@@ -258,7 +258,7 @@ qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
 /* --- factorisation, eigenvalues ---------------------------------------------- */
 
 qdot_status
-qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
@@ -297,7 +297,7 @@ roots_of(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *val
 }
 
 qdot_status
-qdot_algebra_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args,
+qdot_call_eigenvalues(qdot_session *s, uint32_t n, const qdot_expr *args,
                          qdot_expr *value)
 {
     qdot_pool *pool = s->pool;

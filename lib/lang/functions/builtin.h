@@ -4,7 +4,7 @@
 
 #include "lang/session/parts.h"
 
-/* A function such as `diff`, `ds2`, `expand`; the rows are in lang/functions/builtin.c. */
+/* A function such as `diff`, `ds2`, `expand`; the rows are in builtin.def and expr/function.def. */
 typedef struct {
     const char *name;
     int least, most; /* least and largest number of arguments; most < 0: any number */
@@ -24,6 +24,14 @@ enum {
     QDOT_BUILTIN_RANGE = 32, /* the last argument may be a range a..b: it counts as two arguments */
     QDOT_BUILTIN_PASSED = 64 /* while arguments are read, session->passed records what must be defined */
 };
+
+/* The functions of builtin.def, with args [n]: qdot_call_diff, ... */
+#define FUNCTION(word, ...)                                                                        \
+    QDOT_MUST_CHECK qdot_status qdot_call_##word(qdot_session *session, uint32_t n, const qdot_expr *args, \
+                                                 qdot_expr *value);
+#define UNBUILT(...)
+#include "lang/functions/builtin.def"
+
 const qdot_builtin *qdot_builtin_find(const char *name);
 const qdot_builtin *qdot_builtin_at(size_t i); /* returns NULL past the end */
 

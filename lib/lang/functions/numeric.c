@@ -1,5 +1,12 @@
-/* numeric.c -- evaluates constant expressions as numbers, with their errors. */
-#include "lang/functions/numeric.h"
+/* numeric.c -- numeric(E), numeric(E, digits): the number of an expression E, with the values of `set`.
+ *
+ * The result is like a number from a run: it has an error, which propagates. If symbols remain,
+ * the constants beside them become decimals, of 16 digits unless given. QDOT_EDOMAIN: a part of E
+ * is undefined, not real, or not told from 0.
+ *
+ * Tests  tests/script/solve/numeric.lag, tests/bad/solve/numeric-*.lag
+ */
+#include "lang/functions/builtin.h"
 
 #include "expr/constant.h"
 #include "expr/node.h"
@@ -72,7 +79,7 @@ numbered(qdot_pool *pool, qdot_expr e, void *user)
 }
 
 qdot_status
-qdot_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
     qdot_expr e = qdot_session_bind(session, args[0]), exact;
@@ -98,4 +105,10 @@ qdot_numeric(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr
     *value = qdot_value_map(pool, e, numbered, &o);
     QDOT_TRY(o.status);
     return qdot_value_kind_check(pool, *value);
+}
+
+qdot_status
+qdot_call_N(qdot_session *session, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    return qdot_call_numeric(session, n, args, value);
 }

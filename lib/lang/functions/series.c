@@ -1,5 +1,5 @@
-/* series.c -- reads the arguments of series(...), and stores the result for printing by degree. */
-#include "lang/functions/series.h"
+/* series.c -- series(E, x = a, ..., n): reads its arguments, and stores the Taylor series for printing by degree. */
+#include "lang/functions/builtin.h"
 
 #include "base/memory.h"
 #include "expr/build.h"
@@ -17,7 +17,7 @@ static qdot_status
 series_read_point(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_replacements *r)
 {
     for (uint32_t i = 0; i < n; i++)
-        QDOT_TRY(qdot_algebra_gather(s, "series", QDOT_SERIES, args[i], r));
+        QDOT_TRY(qdot_algebra_gather(s, "series", args[i], r));
     for (size_t i = 0; i < r->from.n; i++)
         if (qdot_expr_kind(s->pool, r->from.at[i]) != QDOT_SYM)
             return qdot_fail(QDOT_ETYPE, "a series is in symbols: series(e, x = a, n)");
@@ -44,7 +44,7 @@ series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long 
 
 /* Evaluate series(e, x = a, y = b, n); a list member by member. */
 qdot_status
-qdot_algebra_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+qdot_call_series(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     bool list = qdot_expr_kind(s->pool, args[0]) == QDOT_LIST;
     uint32_t count = list ? qdot_expr_count(s->pool, args[0]) : 1;

@@ -1,6 +1,18 @@
-/* solve.c -- solve(...): chooses among its forms; exact solutions with conditions, numerical ones
- * where no formula exists. */
-#include "lang/functions/solve.h"
+/* solve.c -- the function solve(...): exactly, in numbers over a range, in numbers from a guess.
+ *
+ *     solve(A = B, x)                             every value in the domain of x: exact; where no formula gives them
+ *                                                 in numbers, if all are proved to be found
+ *     solve([A = B, C = D], [x, y])               the same in several unknowns (solve-system.h)
+ *     solve(A = B, x, a..b)                       every zero in a..b, in numbers
+ *     solve(A = B, x = guess)                     the one that Newton's steps reach
+ *     solve([A = B, C = D], [x = 1, y = 2])       the same in several unknowns
+ *
+ * Where A and B, as they were written, are not defined there is no solution, though what is left of them after
+ * simplification may be: solve(sin(asin(x)) = a, x) asks for -1 <= a <= 1.
+ *
+ * Tests   tests/script/solve/solve.lag, solution-sets.lag, solve-domains.lag, solve-line.lag, solve-special.lag
+ */
+#include "lang/functions/builtin.h"
 
 #include <math.h>
 
@@ -310,8 +322,10 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
 
 /* --- the call of solve ------------------------------------------------------------------------------- */
 
+/* If a range is given, n is 4 and its ends stand last. What stood in args before simplification is in
+ * session->passed. */
 qdot_status
-qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
+qdot_call_solve(qdot_session *session, uint32_t n, const qdot_expr *args,
                 qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
