@@ -76,7 +76,7 @@ const qdot_export_language qdot_export_c = {
     .operation =
         {
 #define X(op, c, ...) [QDOT_OP_##op] = c,
-#include "show/export-operation.def"
+#include "show/export-languages.def"
         },
     .system = system_text,
     .motion = motion_text,

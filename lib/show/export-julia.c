@@ -82,7 +82,7 @@ const qdot_export_language qdot_export_julia = {
     .operation =
         {
 #define X(op, c, python, julia, ...) [QDOT_OP_##op] = julia,
-#include "show/export-operation.def"
+#include "show/export-languages.def"
         },
     .system = system_text,
     .value = value_text,

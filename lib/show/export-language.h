@@ -45,7 +45,7 @@ struct qdot_export_language {
     /* texts before (printf: index) and after the statements of an event that changes something */
     const char *effect_begin, *effect_end;
 
-    /* Operations as text that stands for itself within others (export-operation.def).
+    /* Operations as text that stands for itself within others (export-languages.def).
      * NULL: + - * / and what is made of them. */
     const char *operation[QDOT_OP_COUNT];
 

@@ -73,7 +73,7 @@ const qdot_export_language qdot_export_matlab = {
     .operation =
         {
 #define X(op, c, python, julia, matlab, ...) [QDOT_OP_##op] = matlab,
-#include "show/export-operation.def"
+#include "show/export-languages.def"
         },
     .system = system_text,
     .value = value_text,

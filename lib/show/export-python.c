@@ -65,7 +65,7 @@ const qdot_export_language qdot_export_python = {
     .operation =
         {
 #define X(op, c, python, ...) [QDOT_OP_##op] = python,
-#include "show/export-operation.def"
+#include "show/export-languages.def"
         },
     .system = system_text,
     .value = value_text,
